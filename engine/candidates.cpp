@@ -1,0 +1,234 @@
+#include "engine/candidates.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace riesel {
+
+namespace {
+
+/// The skin as a part of the mean diameter: more means more pairs to test, less means more sortings.
+constexpr double skin_per_diameter = 0.2;
+/// Below this part of the full budget it is better to sort anew than to look at displacements again and again.
+constexpr double smallest_useful_budget = 0.2;
+
+double mean_diameter(const Grains& grains) {
+  double sum = 0.0;
+  for (const double radius : grains.radius) sum += 2.0 * radius;
+  return sum / static_cast<double>(grains.size());
+}
+
+double largest(const std::vector<Slice>& slices, double Slice::*member) {
+  double most = 0.0;
+  for (const Slice& slice : slices) most = std::max(most, slice.*member);
+  return most;
+}
+
+std::int32_t coarse_difference(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
+std::uint64_t wall_key(const Slice& slice, std::uint32_t slot, const ContactName& name) {
+  const auto& near = slice.near_walls;
+  const auto place = std::find_if(near.begin(), near.end(), [&](const NearWall& n) {
+    return n.slot == slot && n.wall == name.wall;
+  });
+  if (place == near.end())
+    throw std::invalid_argument("a contact with a wall that is not near");
+  return wall_contact_key(static_cast<std::size_t>(place - near.begin()), name.partner);
+}
+
+}  // namespace
+
+Candidates::Candidates(State& state, int threads)
+    : units_(state.box), slices_(static_cast<std::size_t>(threads)), fall_(fall_per_step(state)) {
+  const Grains& grains = state.grains;
+  skin_ = skin_per_diameter * mean_diameter(grains);
+  max_radius_ = *std::max_element(grains.radius.begin(), grains.radius.end());
+  if (state.box.length <= 2.0 * (2.0 * max_radius_ + skin_))
+    throw std::invalid_argument("the period is too short for the nearest image to be unique");
+
+#pragma omp parallel num_threads(threads)
+  renew(state, slices_[static_cast<std::size_t>(omp_get_thread_num())], state.step);
+  give_back(state, state.contacts);
+}
+
+void Candidates::maintain(State& state, Slice& mine, std::int64_t step) {
+  mine.budget -= largest(slices_, &Slice::fastest);
+  if (mine.budget >= 0.0) return;  // all threads agree: budgets and speeds are the same for all
+
+#pragma omp barrier
+  measure_motion(state, mine, step);
+#pragma omp barrier
+  const double left = 0.5 * skin_ - largest(slices_, &Slice::farthest);
+  if (left > smallest_useful_budget * 0.5 * skin_) {
+    mine.budget = left;
+  } else {
+#pragma omp single
+    lasting_ = contacts();
+    renew(state, mine, step);
+#pragma omp single
+    give_back(state, lasting_);
+  }
+}
+
+void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
+  cells_.sort(state, 2.0 * max_radius_ + skin_);
+#pragma omp single
+  start_over(state, step);
+  for (std::size_t i = mine.begin; i < mine.end; ++i) {
+    coarse_.x[i] = coarse_when_sorted_.x[i] = upper_half(state.grains.x[i]);
+    coarse_.y[i] = coarse_when_sorted_.y[i] = upper_half(state.grains.y[i]);
+  }
+#pragma omp barrier
+  list_pairs(state, mine);
+  list_near_walls(state, mine);
+  list_received(state.grains, mine);
+  measure_motion(state, mine, step);
+  mine.budget = 0.5 * skin_;
+#pragma omp barrier
+}
+
+/// What all slices share: who has which slots, and the common motion that does not count as displacement.
+void Candidates::start_over(const State& state, std::int64_t step) {
+  const Grains& grains = state.grains;
+  for (auto* positions : {&coarse_, &coarse_when_sorted_}) {
+    positions->x.resize(grains.size());
+    positions->y.resize(grains.size());
+  }
+  for (std::size_t s = 0; s < slices_.size(); ++s) {
+    slices_[s].begin = grains.size() * s / slices_.size();
+    slices_[s].end = grains.size() * (s + 1) / slices_.size();
+  }
+  sorted_at_ = step;
+  double sum = 0.0;  // relative to the first grain: velocities in the falling frame may wrap
+  for (const Fixed uy : grains.uy)
+    sum += static_cast<double>(wrapped_difference(uy, grains.uy.front()));
+  drift_y_ = wrapped_sum(grains.uy.front(),
+                         nearest_fixed(sum / static_cast<double>(grains.size())));
+}
+
+void Candidates::list_pairs(const State& state, Slice& mine) {
+  const Grains& grains = state.grains;
+  CandidatePairs& pairs = mine.pairs;
+  pairs.clear();
+  for (std::size_t i = mine.begin; i < mine.end; ++i)
+    cells_.for_each_later_range(i, [&](SlotRange range) {
+      for (std::size_t j = range.begin; j < range.end; ++j) {
+        const float dx = static_cast<float>(coarse_difference(coarse_.x[j], coarse_.x[i])) * units_.x;
+        const float dy = static_cast<float>(coarse_difference(coarse_.y[j], coarse_.y[i])) * units_.y;
+        const double reach = grains.radius[i] + grains.radius[j];
+        if (dx * dx + dy * dy < units_.generous_square(reach + skin_))
+          pairs.add(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
+                    units_.generous_square(reach));
+      }
+    });
+}
+
+void Candidates::list_near_walls(const State& state, Slice& mine) {
+  mine.near_walls.clear();
+  for (std::size_t i = mine.begin; i < mine.end; ++i) {
+    const double x = state.box.metres_x(state.grains.x[i]);
+    if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width)
+      mine.lost = state.grains.id[i];
+    for (std::size_t w = 0; w < state.walls.size(); ++w) {
+      const double reach = state.grains.radius[i] + state.walls[w].radius;
+      if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_)
+        mine.near_walls.push_back({static_cast<std::uint32_t>(i), static_cast<std::int32_t>(w)});
+    }
+  }
+}
+
+/// The kicks that slots have kept from the last step, summed over their contacts.
+void Candidates::list_received(const Grains& grains, Slice& mine) {
+  mine.received.clear();
+  for (std::size_t i = mine.begin; i < mine.end; ++i)
+    if (grains.kick_x[i] != 0 || grains.kick_y[i] != 0)
+      mine.received.push_back({static_cast<std::uint32_t>(i), grains.kick_x[i], grains.kick_y[i]});
+}
+
+/// Speeds are those of the next drift: with the kick that the next step will add.
+double Candidates::speed(const State& state, std::size_t slot) const {
+  const Grains& g = state.grains;
+  const Fixed uy = wrapped_sum(wrapped_difference(g.uy[slot], drift_y_), g.kick_y[slot]);
+  return std::hypot(state.box.metres_x(wrapped_sum(g.ux[slot], g.kick_x[slot])),
+                    state.box.metres_y(uy));
+}
+
+void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t step) const {
+  const std::int64_t steps = step - sorted_at_;
+  const Fixed sum_of_steps = steps * (sorted_at_ + 1 + step) / 2;
+  const std::int32_t drift = upper_half(wrapped_sum(wrapped_product(steps, drift_y_),
+                                                    wrapped_product(sum_of_steps, fall_)));
+  float farthest2 = 0.0F;
+  mine.fastest = 0.0;
+  for (std::size_t i = mine.begin; i < mine.end; ++i) {
+    const std::int32_t y = coarse_difference(coarse_.y[i], coarse_when_sorted_.y[i]);
+    const float dx =
+        static_cast<float>(coarse_difference(coarse_.x[i], coarse_when_sorted_.x[i])) * units_.x;
+    const float dy = static_cast<float>(coarse_difference(y, drift)) * units_.y;
+    farthest2 = std::max(farthest2, dx * dx + dy * dy);
+    note_speed(state, mine, i);
+  }
+  const double resolution = 2.0 * (static_cast<double>(units_.x) + static_cast<double>(units_.y));
+  mine.farthest = std::sqrt(static_cast<double>(farthest2)) * (1.0 + 1e-6) + resolution;
+}
+
+std::vector<Contact> Candidates::contacts() const {
+  std::vector<Contact> all;
+  for (const Slice& slice : slices_)
+    for (const ContactBook* book : {&slice.pair_contacts, &slice.wall_contacts})
+      for (const ContactBook::Entry& entry : book->entries()) all.push_back(entry.contact);
+  std::sort(all.begin(), all.end(),
+            [](const Contact& a, const Contact& b) { return a.name < b.name; });
+  return all;
+}
+
+void Candidates::give_back(const State& state, const std::vector<Contact>& contacts) {
+  std::vector<std::uint32_t> slot_of(contacts.empty() ? 0 : state.grains.size());
+  for (std::size_t slot = 0; slot < slot_of.size(); ++slot)
+    slot_of[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
+
+  std::vector<std::vector<ContactBook::Entry>> pairs(slices_.size()), walls(slices_.size());
+  for (const Contact& contact : contacts) {
+    const std::uint32_t grain = slot_of[static_cast<std::size_t>(contact.name.grain)];
+    if (contact.name.wall != no_wall) {
+      const std::size_t s = slice_of(grain);
+      walls[s].push_back({wall_key(slices_[s], grain, contact.name), contact});
+    } else {
+      const std::uint32_t partner = slot_of[static_cast<std::size_t>(contact.name.partner)];
+      const auto [s, key] = pair_key(grain, partner);
+      pairs[s].push_back({key, contact});
+    }
+  }
+  const auto by_key = [](const auto& a, const auto& b) { return a.key < b.key; };
+  for (std::size_t s = 0; s < slices_.size(); ++s) {
+    std::sort(pairs[s].begin(), pairs[s].end(), by_key);
+    std::sort(walls[s].begin(), walls[s].end(), by_key);
+    slices_[s].pair_contacts.replace(std::move(pairs[s]));
+    slices_[s].wall_contacts.replace(std::move(walls[s]));
+  }
+}
+
+std::size_t Candidates::slice_of(std::uint32_t slot) const {
+  const auto after = std::upper_bound(slices_.begin(), slices_.end(), slot,
+                                      [](std::uint32_t s, const Slice& x) { return s < x.end; });
+  return static_cast<std::size_t>(after - slices_.begin());
+}
+
+std::pair<std::size_t, std::uint64_t> Candidates::pair_key(std::uint32_t a, std::uint32_t b) const {
+  for (const auto& [first, second] : {std::pair{a, b}, std::pair{b, a}}) {
+    const std::size_t s = slice_of(first);
+    const CandidatePairs& pairs = slices_[s].pairs;
+    const auto [low, high] = std::equal_range(pairs.first.begin(), pairs.first.end(), first);
+    for (auto p = static_cast<std::size_t>(low - pairs.first.begin());
+         p < static_cast<std::size_t>(high - pairs.first.begin()); ++p)
+      if (pairs.second[p] == second) return {s, p};
+  }
+  throw std::invalid_argument("a contact between grains that do not touch");
+}
+
+}  // namespace riesel

@@ -1,0 +1,71 @@
+// Who may touch whom before the grains have moved by the skin: sorting, candidate pairs, and the guarantee.
+//
+// The pairs listed are those closer than the sum of radii plus a skin. They hold as long as no
+// grain has moved by half the skin, measured from the common motion of all grains, which brings no two of them
+// together: the common fall never triggers a renewal. Instead of looking at all grains in every step, a bound is
+// kept on the largest speed (only contacts raise it) and subtracted from a budget of displacement; when
+// the budget is used up, the true displacements are looked at.
+#pragma once
+
+#include "engine/cells.hpp"
+#include "engine/pair_search.hpp"
+#include "engine/slice.hpp"
+#include "engine/state.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace riesel {
+
+class Candidates {
+ public:
+  /// Sorts `state` and takes over its contacts.
+  Candidates(State& state, int threads);
+
+  std::vector<Slice>& slices() { return slices_; }
+  const std::vector<Slice>& slices() const { return slices_; }
+  CoarsePositions& coarse() { return coarse_; }
+  CoarseUnits units() const { return units_; }
+
+  /// After all grains have moved by one step to step `step`: makes sure that the candidates hold. To be called by all
+  /// threads of a team after a barrier; what it changes is complete when it returns.
+  void maintain(State& state, Slice& mine, std::int64_t step);
+
+  /// Grain `slot` of `mine` has a new velocity: keeps the bound on the speeds.
+  void note_speed(const State& state, Slice& mine, std::size_t slot) const {
+    mine.fastest = std::max(mine.fastest, speed(state, slot));
+  }
+
+  /// Contacts of all slices, ordered by name.
+  std::vector<Contact> contacts() const;
+
+ private:
+  void renew(State& state, Slice& mine, std::int64_t step);
+  void start_over(const State& state, std::int64_t step);
+  void list_pairs(const State& state, Slice& mine);
+  void list_near_walls(const State& state, Slice& mine);
+  static void list_received(const Grains& grains, Slice& mine);
+  void measure_motion(const State& state, Slice& mine, std::int64_t step) const;
+  double speed(const State& state, std::size_t slot) const;
+
+  void give_back(const State& state, const std::vector<Contact>& contacts);
+  std::size_t slice_of(std::uint32_t slot) const;
+  std::pair<std::size_t, std::uint64_t> pair_key(std::uint32_t a, std::uint32_t b) const;
+
+  double skin_;  // m
+  double max_radius_;
+  CoarseUnits units_;
+  Cells cells_;
+  CoarsePositions coarse_;
+  CoarsePositions coarse_when_sorted_;
+  std::vector<Slice> slices_;
+  std::vector<Contact> lasting_;  // contacts that outlive a sorting
+
+  Fixed fall_;                  // gravity per step^2, quanta
+  Fixed drift_y_ = 0;           // common velocity along y in the falling frame, quanta per step
+  std::int64_t sorted_at_ = 0;  // step
+};
+
+}  // namespace riesel

@@ -1,0 +1,85 @@
+#include "engine/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel {
+
+namespace {
+
+/// floor(count * y / period) for a y of the ring: exact.
+std::size_t part_of_ring(Fixed y, std::size_t count) {
+  __extension__ using Wide = unsigned __int128;
+  return static_cast<std::size_t>(
+      (static_cast<Wide>(static_cast<std::uint64_t>(y)) * static_cast<Wide>(count)) >> 64);
+}
+
+}  // namespace
+
+void Cells::sort(State& state, double range) {
+  Grains& grains = state.grains;
+#pragma omp single
+  lay_out(state, range);
+#pragma omp for schedule(static)
+  for (std::size_t i = 0; i < grains.size(); ++i) cell_of_old_slot_[i] = cell_at(grains, i);
+#pragma omp single
+  count();
+  permute(grains);
+}
+
+void Cells::lay_out(const State& state, double range) {
+  const Grains& grains = state.grains;
+  const auto [leftmost, rightmost] = std::minmax_element(grains.x.begin(), grains.x.end());
+  const Fixed extent = *rightmost - *leftmost;
+  left_edge_ = *leftmost;
+  columns_ = static_cast<std::size_t>(std::max(1.0, state.box.metres_x(extent) / range));
+  rows_ = static_cast<std::size_t>(std::max(1.0, state.box.length / range));
+  columns_per_quantum_ =
+      static_cast<double>(columns_) / std::max(1.0, static_cast<double>(extent));
+  cell_of_old_slot_.resize(grains.size());
+}
+
+std::uint32_t Cells::cell_at(const Grains& grains, std::size_t slot) const {
+  const auto from_left = static_cast<double>(grains.x[slot] - left_edge_);
+  const auto column = static_cast<std::size_t>(from_left * columns_per_quantum_);
+  return static_cast<std::uint32_t>(part_of_ring(grains.y[slot], rows_) * columns_
+                                    + std::min(column, columns_ - 1));
+}
+
+/// Counting sort.
+void Cells::count() {
+  const std::size_t n = cell_of_old_slot_.size();
+  start_.assign(columns_ * rows_ + 1, 0);
+  for (const std::uint32_t cell : cell_of_old_slot_) ++start_[cell + 1];
+  for (std::size_t cell = 1; cell < start_.size(); ++cell) start_[cell] += start_[cell - 1];
+
+  old_slot_.resize(n);
+  cell_of_slot_.resize(n);
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t cell = cell_of_old_slot_[i];
+    const std::uint32_t slot = next[cell]++;
+    old_slot_[slot] = static_cast<std::uint32_t>(i);
+    cell_of_slot_[slot] = cell;
+  }
+}
+
+template <class T>
+void Cells::permute(AlignedVector<T>& values, AlignedVector<T>& scratch) {
+#pragma omp single
+  scratch.resize(values.size());
+#pragma omp for schedule(static)
+  for (std::size_t i = 0; i < values.size(); ++i) scratch[i] = values[old_slot_[i]];
+#pragma omp single
+  values.swap(scratch);
+}
+
+void Cells::permute(Grains& g) {
+  for (auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})
+    permute(*component, fixed_scratch_);
+  permute(g.radius, real_scratch_);
+  permute(g.mass, real_scratch_);
+  permute(g.id, id_scratch_);
+}
+
+}  // namespace riesel

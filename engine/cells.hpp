@@ -1,0 +1,63 @@
+// The linked-cell grid: sorts the grains by cell, so that a cell is a range of slots.
+//
+// Cells are numbered row by row, x first. Along y their number divides the period and the row of a grain
+// follows from its fixed-point y by a multiplication; the rows close into a ring. With cells at least as long
+// as the search range, all partners of a grain stand in its cell and the eight around it; in sorted
+// order the half of them that comes after the grain is only two ranges of slots.
+#pragma once
+
+#include "engine/state.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace riesel {
+
+struct SlotRange {
+  std::size_t begin, end;
+};
+
+class Cells {
+ public:
+  /// Sorts the grains of `state` into cells of at least `range` (m): changes the slots, not the grains. To be
+  /// called by all threads of a team together, or outside of one.
+  void sort(State& state, double range);
+
+  /// Calls visit(SlotRange) for the ranges in which the later partners of `slot` stand: each unordered pair of
+  /// grains closer than the range comes up exactly once over all slots, if the period is longer than two ranges.
+  template <class Visit>
+  void for_each_later_range(std::size_t slot, Visit visit) const {
+    const std::size_t cell = cell_of_slot_[slot];
+    const std::size_t row = cell / columns_;
+    const std::size_t column = cell - row * columns_;
+    const std::size_t left = column == 0 ? 0 : column - 1;
+    const std::size_t right = column + 1 == columns_ ? column : column + 1;
+    visit(SlotRange{slot + 1, start_[row * columns_ + right + 1]});
+    if (rows_ == 1 || (rows_ == 2 && row == 1)) return;  // the ring has no further row
+    const std::size_t next = row + 1 == rows_ ? 0 : row + 1;
+    visit(SlotRange{start_[next * columns_ + left], start_[next * columns_ + right + 1]});
+  }
+
+ private:
+  void lay_out(const State& state, double range);
+  std::uint32_t cell_at(const Grains& grains, std::size_t slot) const;
+  void count();
+  void permute(Grains& grains);
+  template <class T>
+  void permute(AlignedVector<T>& values, AlignedVector<T>& scratch);
+
+  std::size_t columns_ = 1, rows_ = 1;
+  Fixed left_edge_ = 0;              // quanta of x
+  double columns_per_quantum_ = 0.;  // of x
+  std::vector<std::uint32_t> cell_of_old_slot_, cell_of_slot_;
+  std::vector<std::uint32_t> start_;     // first slot of each cell, and one past the last
+  std::vector<std::uint32_t> old_slot_;  // of each slot
+
+  // Room for the permutation, kept because sorting recurs.
+  AlignedVector<Fixed> fixed_scratch_;
+  AlignedVector<double> real_scratch_;
+  AlignedVector<std::int32_t> id_scratch_;
+};
+
+}  // namespace riesel

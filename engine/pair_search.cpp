@@ -1,0 +1,51 @@
+#include "engine/pair_search.hpp"
+
+#include <bit>
+#include <cstring>
+
+namespace riesel {
+
+namespace {
+
+constexpr std::size_t block = 64;  // pairs tested at a time: their results make one 64-bit word
+
+/// result[p] = 1 where pair p may overlap.
+void test_block(const std::uint32_t* first, const std::uint32_t* second, const float* reach2,
+                const std::int32_t* x, const std::int32_t* y, CoarseUnits units, std::size_t count,
+                std::uint8_t* result) {
+#pragma omp simd
+  for (std::size_t p = 0; p < count; ++p) {
+    const std::uint32_t i = first[p], j = second[p];
+    const auto dx = static_cast<float>(static_cast<std::int32_t>(
+                        static_cast<std::uint32_t>(x[j]) - static_cast<std::uint32_t>(x[i])))
+                    * units.x;
+    const auto dy = static_cast<float>(static_cast<std::int32_t>(
+                        static_cast<std::uint32_t>(y[j]) - static_cast<std::uint32_t>(y[i])))
+                    * units.y;
+    result[p] = dx * dx + dy * dy < reach2[p];
+  }
+}
+
+}  // namespace
+
+float CoarseUnits::generous_square(double reach) const {
+  // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7 relative.
+  const double generous = (reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y)));
+  return static_cast<float>(generous * generous * (1.0 + 1e-6));
+}
+
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
+                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
+  hits.clear();
+  alignas(cache_line) std::uint8_t result[block];
+  for (std::size_t p = 0; p < pairs.size(); p += block) {
+    const std::size_t count = std::min(block, pairs.size() - p);
+    test_block(&pairs.first[p], &pairs.second[p], &pairs.reach2[p], positions.x.data(),
+               positions.y.data(), units, count, result);
+    for (std::size_t k = 0; k < count; ++k)
+      if (result[k]) hits.push_back(static_cast<std::uint32_t>(p + k));
+  }
+}
+
+}  // namespace riesel

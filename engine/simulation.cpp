@@ -1,0 +1,132 @@
+#include "engine/simulation.hpp"
+
+#include "engine/contact_loop.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace riesel {
+
+namespace {
+
+State checked(State state) {
+  const Grains& g = state.grains;
+  if (g.size() == 0) throw std::invalid_argument("a simulation needs at least one grain");
+  if (!(state.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
+  std::vector<bool> seen(g.size(), false);
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    if (!(g.radius[i] > 0.0) || !(g.mass[i] > 0.0))
+      throw std::invalid_argument("radii and masses must be positive");
+    const auto id = static_cast<std::size_t>(g.id[i]);
+    if (id >= g.size() || seen[id]) throw std::invalid_argument("ids must be a permutation");
+    seen[id] = true;
+  }
+  return state;
+}
+
+std::string partners(const ContactName& name) {
+  const std::string grain = "grain " + std::to_string(name.grain);
+  const std::string partner = std::to_string(name.partner);
+  return name.wall == no_wall ? grain + " and grain " + partner
+                              : grain + " and grain " + partner + " of wall "
+                                    + std::to_string(name.wall);
+}
+
+}  // namespace
+
+int useful_threads(std::size_t grains) {
+  constexpr std::size_t grains_per_thread = 500;  // fewer do not pay for the barriers of a step
+  const auto most = static_cast<std::size_t>(omp_get_max_threads());
+  return static_cast<int>(std::clamp<std::size_t>(grains / grains_per_thread, 1, most));
+}
+
+Simulation::Simulation(State state, const ContactModel& model, int threads)
+    : state_(checked(std::move(state))), model_(model), fall_(fall_per_step(state_)),
+      candidates_(state_, threads) {}
+
+/// One step of all grains, by all threads together, each with its slice: the leapfrog form of velocity Verlet.
+void Simulation::step(Slice& mine, std::int64_t step) {
+  drift(mine, step);
+#pragma omp barrier
+  candidates_.maintain(state_, mine, step);
+  find_overlapping(mine.pairs, candidates_.coarse(), candidates_.units(), mine.hits);
+  resolve_contacts(mine, state_, model_);
+#pragma omp barrier
+  kick(mine);
+}
+
+void Simulation::advance(std::int64_t steps) {
+  const std::int64_t last = state_.step + steps;
+#pragma omp parallel num_threads(threads())
+  {
+    Slice& mine = candidates_.slices()[static_cast<std::size_t>(omp_get_thread_num())];
+    for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
+      step(mine, next);
+  }
+  collect();
+  fail_if_in_trouble();
+}
+
+/// Velocities take up the last kicks, positions move on to step `step`.
+void Simulation::drift(Slice& mine, std::int64_t step) {
+  Grains& g = state_.grains;
+  CoarsePositions& coarse = candidates_.coarse();
+  for (const Kick& kick : mine.received) {
+    g.ux[kick.slot] = wrapped_sum(g.ux[kick.slot], kick.x);
+    g.uy[kick.slot] = wrapped_sum(g.uy[kick.slot], kick.y);
+  }
+  const Fixed fallen = wrapped_product(fall_, step);
+  for (std::size_t i = mine.begin; i < mine.end; ++i) {
+    g.x[i] = wrapped_sum(g.x[i], g.ux[i]);
+    g.y[i] = wrapped_sum(g.y[i], wrapped_sum(g.uy[i], fallen));
+    coarse.x[i] = upper_half(g.x[i]);
+    coarse.y[i] = upper_half(g.y[i]);
+  }
+#pragma omp master
+  state_.step = step;
+}
+
+/// Gives the own grains the kicks of this step's contacts.
+void Simulation::kick(Slice& mine) {
+  Grains& g = state_.grains;
+  for (const Kick& old : mine.received) g.kick_x[old.slot] = g.kick_y[old.slot] = 0;
+  mine.received.clear();
+  for (const Slice& giver : candidates_.slices())
+    for (const Kick& kick : giver.kicks) {
+      if (kick.slot < mine.begin || kick.slot >= mine.end) continue;
+      g.kick_x[kick.slot] = wrapped_sum(g.kick_x[kick.slot], kick.x);
+      g.kick_y[kick.slot] = wrapped_sum(g.kick_y[kick.slot], kick.y);
+      mine.received.push_back(kick);
+    }
+  for (const Kick& kick : mine.received) candidates_.note_speed(state_, mine, kick.slot);
+}
+
+bool Simulation::in_trouble() const {
+  return std::any_of(candidates_.slices().begin(), candidates_.slices().end(),
+                     [](const Slice& slice) { return slice.trouble || slice.lost; });
+}
+
+/// Completes the state with what the slices know of contacts.
+void Simulation::collect() {
+  state_.contacts = candidates_.contacts();
+  for (Slice& slice : candidates_.slices()) {
+    state_.tally.merge(slice.tally);
+    slice.tally = {};
+  }
+}
+
+void Simulation::fail_if_in_trouble() const {
+  const std::string when = " at t = " + std::to_string(state_.time()) + " s (step "
+                           + std::to_string(state_.step) + ")";
+  for (const Slice& slice : candidates_.slices()) {
+    if (slice.trouble)
+      throw RunFailure("the force between " + partners(*slice.trouble) + " is not finite" + when);
+    if (slice.lost)
+      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when);
+  }
+}
+
+}  // namespace riesel

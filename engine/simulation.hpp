@@ -1,0 +1,50 @@
+// Steps a State: the integrator loop and what it needs between two steps.
+#pragma once
+
+#include "engine/candidates.hpp"
+#include "engine/contact_law.hpp"
+#include "engine/state.hpp"
+
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace riesel {
+
+/// The run cannot go on; what() says where, when and why.
+class RunFailure : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Threads that pay for this many grains on this machine, when the user leaves the choice to us.
+int useful_threads(std::size_t grains);
+
+class Simulation {
+ public:
+  /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its invariants do not
+  /// hold or the box is too small for the nearest image to be unique.
+  Simulation(State state, const ContactModel& model, int threads);
+
+  /// Does `steps` steps. The result does not depend on the number of threads, nor on how the steps are shared
+  /// between calls. Throws RunFailure when a force is not finite or a grain is lost.
+  void advance(std::int64_t steps);
+
+  const State& state() const { return state_; }
+  const ContactModel& model() const { return model_; }
+  int threads() const { return static_cast<int>(candidates_.slices().size()); }
+
+ private:
+  void step(Slice& mine, std::int64_t step);
+  void drift(Slice& mine, std::int64_t step);
+  void kick(Slice& mine);
+  bool in_trouble() const;
+  void collect();
+  void fail_if_in_trouble() const;
+
+  State state_;
+  ContactModel model_;
+  Fixed fall_;  // per step
+  Candidates candidates_;
+};
+
+}  // namespace riesel

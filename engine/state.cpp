@@ -1,0 +1,127 @@
+#include "engine/state.hpp"
+
+#include <array>
+#include <bit>
+#include <type_traits>
+
+namespace riesel {
+
+namespace {
+
+/// FNV-1a over the bytes of plain values.
+class Hash {
+ public:
+  template <class T>
+  void add(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    for (const auto byte : std::bit_cast<std::array<unsigned char, sizeof(T)>>(value))
+      hash_ = (hash_ ^ byte) * 0x100000001b3u;
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+void add(Hash& hash, const Grains& g, std::size_t i) {
+  for (const auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})
+    hash.add((*component)[i]);
+  hash.add(g.radius[i]);
+  hash.add(g.mass[i]);
+}
+
+void add(Hash& hash, const Contact& c) {
+  for (const auto part : {c.name.wall, c.name.grain, c.name.partner}) hash.add(part);
+  for (const auto part : {c.begin, c.max_overlap, c.slip_path, c.normal_loss, c.friction_loss})
+    hash.add(part);
+}
+
+void add(Hash& hash, const ContactTally& t) {
+  hash.add(t.begun);
+  hash.add(t.ended);
+  hash.add(t.max_overlap);
+  for (const auto& sum : {t.duration, t.slip_path, t.normal_loss, t.friction_loss}) {
+    hash.add(sum.high());
+    hash.add(sum.low());
+  }
+}
+
+}  // namespace
+
+void Grains::resize(std::size_t n) {
+  for (auto* component : {&x, &y, &ux, &uy, &kick_x, &kick_y}) component->resize(n);
+  radius.resize(n);
+  mass.resize(n);
+  id.resize(n);
+}
+
+Fixed fall_per_step(const State& state) {
+  return nearest_fixed(state.gravity * state.time_step * state.time_step / state.box.quantum_y());
+}
+
+void add_grain(State& state, const Grain& grain) {
+  Grains& g = state.grains;
+  const std::size_t i = g.size();
+  g.resize(i + 1);
+  g.x[i] = state.box.fixed_x(grain.x);
+  g.y[i] = state.box.fixed_y(grain.y);
+  g.ux[i] = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x());
+  g.uy[i] = nearest_fixed(grain.vy * state.time_step / state.box.quantum_y())
+            - fall_per_step(state) / 2;
+  g.radius[i] = grain.radius;
+  g.mass[i] = grain.mass;
+  g.id[i] = static_cast<std::int32_t>(i);
+}
+
+Grain grain_at(const State& state, std::size_t slot) {
+  const Grains& g = state.grains;
+  const Fixed fall = fall_per_step(state);
+  const Fixed free_velocity = wrapped_sum(g.uy[slot], wrapped_product(fall, state.step));
+  const double to_vx = state.box.quantum_x() / state.time_step;
+  const double to_vy = state.box.quantum_y() / state.time_step;
+  return {
+      .x = state.box.metres_x(g.x[slot]),
+      .y = state.box.place_y(g.y[slot]),
+      .vx = (static_cast<double>(g.ux[slot]) + 0.5 * static_cast<double>(g.kick_x[slot])) * to_vx,
+      .vy = (static_cast<double>(free_velocity)
+             + 0.5 * static_cast<double>(wrapped_sum(g.kick_y[slot], fall)))
+            * to_vy,
+      .radius = g.radius[slot],
+      .mass = g.mass[slot],
+  };
+}
+
+Grains ordered_by_id(const Grains& grains) {
+  Grains ordered;
+  ordered.resize(grains.size());
+  for (std::size_t slot = 0; slot < grains.size(); ++slot) {
+    const auto i = static_cast<std::size_t>(grains.id[slot]);
+    ordered.x[i] = grains.x[slot];
+    ordered.y[i] = grains.y[slot];
+    ordered.ux[i] = grains.ux[slot];
+    ordered.uy[i] = grains.uy[slot];
+    ordered.kick_x[i] = grains.kick_x[slot];
+    ordered.kick_y[i] = grains.kick_y[slot];
+    ordered.radius[i] = grains.radius[slot];
+    ordered.mass[i] = grains.mass[slot];
+    ordered.id[i] = grains.id[slot];
+  }
+  return ordered;
+}
+
+std::uint64_t state_hash(const State& state) {
+  Hash hash;
+  hash.add(state.box.width);
+  hash.add(state.box.length);
+  hash.add(state.gravity);
+  hash.add(state.time_step);
+  hash.add(state.step);
+  const Grains ordered = ordered_by_id(state.grains);
+  for (std::size_t i = 0; i < ordered.size(); ++i) add(hash, ordered, i);
+  for (const Contact& contact : state.contacts) add(hash, contact);
+  add(hash, state.tally.grains);
+  add(hash, state.tally.walls);
+  return hash.value();
+}
+
+}  // namespace riesel

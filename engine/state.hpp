@@ -1,0 +1,78 @@
+// The state of a simulation: everything that the future depends on, and nothing else.
+//
+// Time is the number of steps done. At step n a grain has its position X(n); its displacement per step
+// U, which is the leapfrog velocity w(n-1/2) dt seen from a frame that falls freely since step 0; and the
+// kick K(n), the contact acceleration at step n times dt^2, which the next step adds to U. Hence
+//
+//   displacement in the step n-1 -> n   D = U + G n               G = gravity dt^2, along y only
+//   velocity at step n                  v dt = U + G n + (G + K) / 2
+//
+// In free flight U does not change: a flying grain is three additions, and crossing several steps
+// at once is exact. See docs/architecture.md for why these are integers.
+#pragma once
+
+#include "engine/aligned.hpp"
+#include "engine/box.hpp"
+#include "engine/contact.hpp"
+#include "engine/fixed_point.hpp"
+#include "engine/tally.hpp"
+#include "engine/wall_lattice.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace riesel {
+
+/// The free grains, a structure of arrays. The slot of a grain changes when the store is sorted, its id
+/// does not. Invariants: all arrays have the same size; ids are a permutation of 0 ... size-1; radius and
+/// mass are positive.
+struct Grains {
+  AlignedVector<Fixed> x, y;            ///< position, quanta of the box's axes
+  AlignedVector<Fixed> ux, uy;          ///< U: displacement per step in the falling frame, quanta
+  AlignedVector<Fixed> kick_x, kick_y;  ///< K: contact acceleration of this step times dt^2, quanta
+  AlignedVector<double> radius;         ///< m
+  AlignedVector<double> mass;           ///< kg
+  AlignedVector<std::int32_t> id;
+
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t n);
+};
+
+struct State {
+  Box box{};
+  std::vector<WallLattice> walls;
+  double gravity = 0.0;     ///< m/s^2, along +y
+  double time_step = 0.0;   ///< s
+  std::int64_t step = 0;    ///< steps done
+  Grains grains;
+  std::vector<Contact> contacts;  ///< those that last, ordered by (wall, grain, partner)
+  Tally tally;                    ///< what all contacts did since step 0
+
+  double time() const { return static_cast<double>(step) * time_step; }  ///< s
+};
+
+/// One grain in SI units, to put grains in and to look at them.
+struct Grain {
+  double x, y;    ///< m
+  double vx, vy;  ///< m/s
+  double radius;  ///< m
+  double mass;    ///< kg
+};
+
+/// Adds a grain that touches nothing; its id is the number of grains before it. At step 0 only.
+void add_grain(State& state, const Grain& grain);
+
+/// The grain in `slot`, y in [0, length).
+Grain grain_at(const State& state, std::size_t slot);
+
+/// A copy in which the slots are ordered by id.
+Grains ordered_by_id(const Grains& grains);
+
+/// 64-bit FNV-1a hash of all that the future depends on, the same for any order of the slots.
+std::uint64_t state_hash(const State& state);
+
+/// Gravity times dt^2 in quanta of y: the G of the formulae above.
+Fixed fall_per_step(const State& state);
+
+}  // namespace riesel

@@ -1,0 +1,34 @@
+#include "engine/tally.hpp"
+
+#include <algorithm>
+
+namespace riesel {
+
+void ContactTally::add(const Contact& contact) {
+  max_overlap = std::max(max_overlap, contact.max_overlap);
+  duration.add(contact.duration());
+  slip_path.add(contact.slip_path);
+  normal_loss.add(contact.normal_loss);
+  friction_loss.add(contact.friction_loss);
+  impulse_y.add(contact.impulse_y);
+  impulse_y_times_step.add(contact.impulse_y_times_step);
+}
+
+void ContactTally::merge(const ContactTally& other) {
+  begun += other.begun;
+  ended += other.ended;
+  max_overlap = std::max(max_overlap, other.max_overlap);
+  duration.add(other.duration);
+  slip_path.add(other.slip_path);
+  normal_loss.add(other.normal_loss);
+  friction_loss.add(other.friction_loss);
+  impulse_y.add(other.impulse_y);
+  impulse_y_times_step.add(other.impulse_y_times_step);
+}
+
+void Tally::merge(const Tally& other) {
+  grains.merge(other.grains);
+  walls.merge(other.walls);
+}
+
+}  // namespace riesel

@@ -1,0 +1,41 @@
+// What the ended contacts of a run did, summed since step 0.
+//
+// Every member is a count, a maximum or an exact sum, so that tallies of several threads can be merged in
+// any order.
+#pragma once
+
+#include "engine/contact.hpp"
+#include "engine/exact_sum.hpp"
+
+#include <cstdint>
+
+namespace riesel {
+
+/// One kind of contact: between free grains, or of a grain with a wall.
+struct ContactTally {
+  std::int64_t begun = 0;
+  std::int64_t ended = 0;
+  double max_overlap = 0.0;  ///< m
+  ExactSum duration;         ///< s
+  ExactSum slip_path;        ///< m
+  ExactSum normal_loss;      ///< J
+  ExactSum friction_loss;    ///< J
+  /// kg m/s, impulse along y on the first grain of each contact; and the same with each step's part weighted
+  /// by the number of the step: for the walls the two tell how far the grains have fallen (gravity_work).
+  ExactSum impulse_y;
+  ExactSum impulse_y_times_step;
+
+  /// Adds all but the counts.
+  void add(const Contact& contact);
+  void merge(const ContactTally& other);
+};
+
+struct Tally {
+  ContactTally grains;  ///< free grain on free grain
+  ContactTally walls;   ///< free grain on wall grain
+
+  ContactTally& of(const ContactName& name) { return name.wall == no_wall ? grains : walls; }
+  void merge(const Tally& other);
+};
+
+}  // namespace riesel

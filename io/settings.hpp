@@ -1,0 +1,72 @@
+// The settings of a run: a YAML file, checked against the table of its scenario and turned into SI
+// values.
+//
+// All of the file is checked before anything is handed out, so that a scenario reads values that
+// exist, have the right kind, lie in their range and are in SI units. What is left to a scenario
+// are conditions between several settings; it reports those through reject(), which points at the
+// place in the user's file.
+#pragma once
+
+#include "io/settings_error.hpp"
+#include "io/settings_table.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+struct SettingsContents;
+
+class Settings {
+public:
+  /// Reads a file. `overrides` are "key=value" with the value in YAML's flow style; they replace or
+  /// add to what the file says, the last one of a key wins. Throws SettingsError.
+  static Settings from_file(const std::filesystem::path& file, const SettingsTables& tables,
+                            const std::vector<std::string>& overrides = {});
+
+  /// The same from text; `source` stands for the file in errors.
+  static Settings from_text(const std::string& text, const std::string& source,
+                            const SettingsTables& tables,
+                            const std::vector<std::string>& overrides = {});
+
+  const std::string& scenario() const;
+
+  /// Values in the SI unit of the table. Keys that the table does not hold, of another kind, or
+  /// without a value (see has()) are mistakes of the program: std::logic_error.
+  double number(const std::string& key) const;
+  std::int64_t integer(const std::string& key) const;
+  const std::string& text(const std::string& key) const;  ///< choices too
+  bool boolean(const std::string& key) const;
+  const std::vector<double>& numbers(const std::string& key) const;           ///< never empty
+  std::optional<std::int64_t> integer_or_auto(const std::string& key) const;  ///< nothing: auto
+
+  bool has(const std::string& key) const;    ///< given or by default
+  bool given(const std::string& key) const;  ///< by the file or an override
+
+  /// Throws the SettingsError "key: problem; remedy" at the key; if that was not given, at its
+  /// section or the file.
+  [[noreturn]] void reject(const std::string& key, const std::string& problem,
+                           const std::string& remedy) const;
+
+  /// Rejects unless one and only one of the keys has a value.
+  void require_exactly_one(const std::vector<std::string>& keys) const;
+
+  /// Settings file that gives the same values, bit by bit: each one written out in SI units,
+  /// defaults included.
+  std::string effective_yaml() const;
+
+  /// The file verbatim, without the overrides.
+  const std::string& source_text() const;
+
+private:
+  explicit Settings(std::shared_ptr<const SettingsContents> contents);
+
+  std::shared_ptr<const SettingsContents>
+      contents_;  ///< shared by copies, as nothing can change it
+};
+
+}  // namespace riesel::io

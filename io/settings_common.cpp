@@ -1,0 +1,162 @@
+// The settings of every scenario: the seed, the contact law and how the run is stepped.
+#include "io/settings_table.hpp"
+
+namespace riesel::io {
+namespace {
+
+const When linear_law = {"contact.law", {"linear"}};
+const When power_law = {"contact.law", {"power"}};
+const When nonlinear_law = {"contact.law", {"power", "hertz"}};
+const When viscous_slip = {"contact.slip", {"viscous"}};
+
+/// F_N = k xi^alpha + gamma xi^beta (d xi/dt)^g, written with the reduced mass for the linear law
+/// (see the manual's physics page).
+SettingsTable normal_force_settings() {
+  return {
+      {.key = "contact.law",
+       .kind = Kind::choice,
+       .fallback = "linear",
+       .choices = {"linear", "power", "hertz"},
+       .doc = "Law of the normal force: `linear` spring and dashpot, a `power` law with free "
+              "exponents, or `hertz` for Hertz-Kuwabara-Kono (exponents 3/2, 1/2 and 1)."},
+      {.key = "contact.stiffness",
+       .unit = "N/m",
+       .required = true,
+       .range = positive(),
+       .doc = "Stiffness k_N of the linear law.",
+       .only_when = linear_law},
+      {.key = "contact.stiffness",
+       .required = true,
+       .range = positive(),
+       .doc = "Elastic prefactor k of the law; its unit is N/m^alpha.",
+       .only_when = nonlinear_law},
+      {.key = "contact.damping",
+       .unit = "1/s",
+       .range = non_negative(),
+       .doc = "Damping gamma_N of the linear law, per reduced mass. Give this or "
+              "`contact.restitution`.",
+       .only_when = linear_law},
+      {.key = "contact.damping",
+       .required = true,
+       .range = non_negative(),
+       .doc = "Dissipative prefactor gamma of the law; its unit is N s^g / m^(beta + g).",
+       .only_when = nonlinear_law},
+      {.key = "contact.restitution",
+       .unit = "1",
+       .range = above_up_to(0.0, 1.0),
+       .doc = "Coefficient of normal restitution, from which the damping follows. Give this or "
+              "`contact.damping`.",
+       .only_when = linear_law},
+      {.key = "contact.restitution_of",
+       .kind = Kind::choice,
+       .fallback = "wall",
+       .choices = {"wall", "grains"},
+       .doc =
+           "The pair that `contact.restitution` is meant for: a grain and the `wall`, or two free "
+           "`grains`.",
+       .only_when = linear_law},
+      {.key = "contact.exponent_elastic",
+       .unit = "1",
+       .fallback = "1.5",
+       .range = positive(),
+       .doc = "Exponent alpha of the overlap in the elastic force.",
+       .only_when = power_law},
+      {.key = "contact.exponent_overlap",
+       .unit = "1",
+       .fallback = "0.5",
+       .range = non_negative(),
+       .doc = "Exponent beta of the overlap in the dissipative force.",
+       .only_when = power_law},
+      {.key = "contact.exponent_rate",
+       .unit = "1",
+       .fallback = "1",
+       .range = positive(),
+       .doc = "Exponent g of the overlap's rate in the dissipative force.",
+       .only_when = power_law},
+      {.key = "contact.impact_speed",
+       .unit = "m/s",
+       .fallback = "1 m/s",
+       .range = positive(),
+       .doc = "Typical impact speed, for which the duration of a contact is worked out: under a "
+              "nonlinear law it depends on the speed.",
+       .only_when = nonlinear_law},
+      {.key = "contact.attraction",
+       .kind = Kind::choice,
+       .fallback = "keep",
+       .choices = {"keep", "clip"},
+       .doc =
+           "The dashpot pulls near the end of a contact: `keep` that force, or `clip` the normal "
+           "force at zero."},
+  };
+}
+
+SettingsTable friction_settings() {
+  return {
+      {.key = "contact.friction",
+       .unit = "1",
+       .fallback = "0.5",
+       .range = non_negative(),
+       .doc = "Coefficient of Coulomb friction mu."},
+      {.key = "contact.slip",
+       .kind = Kind::choice,
+       .fallback = "cap",
+       .choices = {"cap", "literal", "viscous"},
+       .doc = "Friction near zero slip: `cap` it at the force that stops the slip within one step, "
+              "take the sign of the slip `literal`ly, or limit it by a `viscous` force."},
+      {.key = "contact.slip_damping",
+       .unit = "1/s",
+       .required = true,
+       .range = positive(),
+       .doc = "Coefficient gamma_t of the viscous limit, per reduced mass.",
+       .only_when = viscous_slip},
+  };
+}
+
+SettingsTable run_settings() {
+  return {
+      {.key = "run.steps_per_collision",
+       .unit = "1",
+       .fallback = "50",
+       .range = at_least(5.0),
+       .doc =
+           "Time steps per contact, counted in the shortest contact of all pairs that can meet."},
+      {.key = "run.threads",
+       .kind = Kind::integer_or_auto,
+       .fallback = "auto",
+       .range = between(1, 1024),
+       .doc = "Threads to use; `auto` takes what the machine or OMP_NUM_THREADS offers. The "
+              "results do "
+              "not depend on it."},
+      {.key = "run.stepping",
+       .kind = Kind::choice,
+       .fallback = "auto",
+       .choices = {"auto", "plain"},
+       .doc = "How time steps are carried out. The results do not depend on it."},
+  };
+}
+
+void append(SettingsTable& table, const SettingsTable& rows) {
+  table.insert(table.end(), rows.begin(), rows.end());
+}
+
+}  // namespace
+
+SettingsTable common_settings() {
+  SettingsTable table = {
+      {.key = "scenario",
+       .kind = Kind::text,
+       .required = true,
+       .doc = "The scenario to run; `riesel scenarios` lists them."},
+      {.key = "seed",
+       .kind = Kind::integer,
+       .fallback = "1",
+       .range = non_negative(),
+       .doc = "Seed of the random numbers: the same seed gives the same run, bit by bit."},
+  };
+  append(table, normal_force_settings());
+  append(table, friction_settings());
+  append(table, run_settings());
+  return table;
+}
+
+}  // namespace riesel::io

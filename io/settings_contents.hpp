@@ -1,0 +1,45 @@
+// What a Settings object holds, and how it is read. Internal to the settings.
+#pragma once
+
+#include "io/settings_error.hpp"
+#include "io/settings_table.hpp"
+#include "io/settings_value.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+struct SettingsContents {
+  /// A row of the table whose condition holds, and what became of it.
+  struct Entry {
+    Setting row;
+    std::optional<SettingValue> value;  ///< given or by default
+    std::optional<Place> given_at;      ///< place of the key
+  };
+
+  std::string source;                     ///< the file's name
+  std::string source_text;                ///< verbatim
+  SettingsTable table;                    ///< of the scenario
+  std::map<std::string, Place> sections;  ///< those that the file has
+  std::vector<Entry> entries;             ///< in table order, no key twice
+
+  /// Nothing if the table does not hold the key or no condition for it holds.
+  const Entry* find(const std::string& key) const;
+
+  /// Of the key; if it was not given, of its section; if the file lacks that too, the file's
+  /// beginning.
+  Place place_of(const std::string& key) const;
+};
+
+/// Throws SettingsError.
+SettingsContents read_settings(const std::string& text, const std::string& source,
+                               const SettingsTables& tables,
+                               const std::vector<std::string>& overrides);
+
+/// See Settings::effective_yaml().
+std::string effective_yaml(const SettingsContents& contents);
+
+}  // namespace riesel::io

@@ -1,0 +1,69 @@
+// effective.yaml: every value that a run used, written so that reading it back gives the same bits.
+#include "io/settings_contents.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace riesel::io {
+namespace {
+
+constexpr std::size_t numbers_per_line = 4;
+
+/// The fewest digits that read back to the same double. There is always a point, because readers of
+/// YAML 1.1 (Python's is one) take "1e-06" for a text.
+std::string written(double value) {
+  auto text = fmt::format("{}", value);
+  if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
+  return text;
+}
+
+std::string written(std::int64_t value) { return fmt::format("{}", value); }
+std::string written(bool value) { return value ? "true" : "false"; }
+std::string written(Auto) { return "auto"; }
+std::string written(const std::string& text) { return nlohmann::json(text).dump(); }
+
+std::string written(const std::vector<double>& values) {
+  std::string list = "[";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) list += i % numbers_per_line == 0 ? ",\n    " : ", ";
+    list += written(values[i]);
+  }
+  return list + "]";
+}
+
+std::string line(const SettingsContents::Entry& entry) {
+  const auto& row = entry.row;
+  const auto value = row.kind == Kind::choice
+                         ? std::get<std::string>(*entry.value)
+                         : std::visit([](const auto& v) { return written(v); }, *entry.value);
+  const bool has_unit = !row.unit.empty() && row.unit != "1";
+  return fmt::format("{}: {}{}\n", name_in_section(row.key), value,
+                     has_unit ? "  # " + row.unit : "");
+}
+
+/// All lines of a section; those of the keys outside of sections for "".
+std::vector<std::string> lines_of(const SettingsContents& contents, const std::string& section) {
+  std::vector<std::string> lines;
+  for (const auto& entry : contents.entries) {
+    if (section_of(entry.row.key) == section && entry.value) lines.push_back(line(entry));
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string effective_yaml(const SettingsContents& contents) {
+  std::string yaml = "# Every setting of the run, defaults included, in SI units.\n";
+  for (const auto& top_line : lines_of(contents, "")) yaml += top_line;
+  for (const auto& section : top_level_names(contents.table)) {
+    const auto lines = lines_of(contents, section);
+    if (!has_section(contents.table, section) || lines.empty()) continue;
+    yaml += fmt::format("\n{}:\n", section);
+    for (const auto& section_line : lines) yaml += "  " + section_line;
+  }
+  return yaml;
+}
+
+}  // namespace riesel::io

@@ -1,0 +1,41 @@
+// What is wrong with a settings file, said in a way that lets the user put it right: the place, the
+// key, the problem and the remedy.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace riesel::io {
+
+/// Where a setting was written.
+struct Place {
+  std::string source;  ///< the file, or "--set key=value" for an override
+  int line = 0;        ///< 1-based; 0 where lines make no sense
+  int column = 0;      ///< 1-based, in characters; 0 where columns make no sense
+};
+
+/// "tube.yaml:3:14", or the source alone.
+std::string to_string(const Place& place);
+
+/// Bad input. what() is "FILE:LINE:COLUMN: key: problem; remedy", on one line.
+class SettingsError : public std::runtime_error {
+public:
+  /// `key` is the dotted path, or empty if the problem is not that of a key.
+  SettingsError(Place place, std::string key, std::string problem, std::string remedy);
+
+  const Place& place() const { return place_; }
+  const std::string& key() const { return key_; }
+  const std::string& problem() const { return problem_; }
+  const std::string& remedy() const { return remedy_; }
+
+private:
+  Place place_;
+  std::string key_;
+  std::string problem_;
+  std::string remedy_;
+};
+
+/// Text from a settings file as an error message shows it: in quotes, on one line and not too long.
+std::string quoted(const std::string& text);
+
+}  // namespace riesel::io

@@ -1,0 +1,124 @@
+#include "io/settings_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace riesel::io {
+namespace {
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// The optimal string alignment distance (Damerau-Levenshtein without repeated edits), three rows
+/// at a time.
+std::size_t typing_errors(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before_previous;
+  std::vector<std::size_t> previous(b.size() + 1);
+  std::iota(previous.begin(), previous.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::vector<std::size_t> current(b.size() + 1, i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = previous[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      current[j] = std::min({previous[j] + 1, current[j - 1] + 1, replaced});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) current[j] = std::min(current[j], before_previous[j - 2] + 1);
+    }
+    before_previous = std::move(previous);
+    previous = std::move(current);
+  }
+  return previous.back();
+}
+
+std::vector<std::string> sections_with(const std::string& name, const SettingsTable& table) {
+  std::vector<std::string> sections;
+  for (const auto& section : top_level_names(table)) {
+    if (has_key(table, section + "." + name)) sections.push_back(section);
+  }
+  return sections;
+}
+
+/// For a key that is right but stands in the wrong section.
+std::optional<std::string> misplaced_remedy(const std::string& key, const SettingsTable& table) {
+  const auto name = name_in_section(key);
+  if (name != key && has_key(table, name)) {
+    return fmt::format("'{}' belongs at the top level, outside of any section", name);
+  }
+  if (const auto sections = sections_with(name, table); !sections.empty()) {
+    return fmt::format("'{}' belongs into the section {}", name, enumerate(sections));
+  }
+  return {};
+}
+
+/// For a key or section that another scenario has.
+std::optional<std::string> other_scenario_remedy(const std::string& key,
+                                                 const std::string& scenario,
+                                                 const SettingsTables& tables) {
+  std::vector<std::string> others;
+  for (const auto& [name, table] : tables) {
+    if (has_key(table, key) || has_section(table, key)) others.push_back(name);
+  }
+  if (others.empty()) return {};
+  return fmt::format("the scenario {} does not have it, only {}: remove it", scenario,
+                     enumerate(others));
+}
+
+std::optional<std::string> mistyped_remedy(const std::string& key, const SettingsTable& table) {
+  const auto section = section_of(key);
+  const auto neighbours = section.empty() ? top_level_names(table) : names_of(table, section);
+  if (const auto nearest = nearest_name(name_in_section(key), neighbours)) {
+    return fmt::format("did you mean '{}'?", section.empty() ? *nearest : section + "." + *nearest);
+  }
+  std::vector<std::string> names;
+  for (const auto& row : table) names.push_back(name_in_section(row.key));
+  if (const auto nearest = nearest_name(name_in_section(key), names)) {
+    const auto row = std::ranges::find(
+        table, *nearest, [](const Setting& candidate) { return name_in_section(candidate.key); });
+    return fmt::format("did you mean '{}'?", row->key);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_name(const std::string& name,
+                                        const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest_name = 64;  // nothing longer is a typing error of a key
+  if (name.size() > longest_name) return {};
+  std::optional<std::string> nearest;
+  std::size_t fewest_errors = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const auto& candidate : candidates) {
+    const auto errors = typing_errors(lower_case(name), lower_case(candidate));
+    if (errors < fewest_errors) {
+      fewest_errors = errors;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+std::string enumerate(const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
+    list += names[i];
+  }
+  return list;
+}
+
+std::string unknown_key_remedy(const std::string& key, const std::string& scenario,
+                               const SettingsTables& tables) {
+  const auto& table = tables.at(scenario);
+  if (const auto remedy = misplaced_remedy(key, table)) return *remedy;
+  if (const auto remedy = other_scenario_remedy(key, scenario, tables)) return *remedy;
+  if (const auto remedy = mistyped_remedy(key, table)) return *remedy;
+  const auto section = section_of(key);
+  if (section.empty()) return "expected " + enumerate(top_level_names(table));
+  return fmt::format("the keys of {} are {}", section, enumerate(names_of(table, section)));
+}
+
+}  // namespace riesel::io

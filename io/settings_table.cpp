@@ -1,0 +1,133 @@
+#include "io/settings_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace riesel::io {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void contradiction(const Setting& row, const std::string& problem) {
+  throw std::logic_error(fmt::format("settings table: {}: {}", row.key, problem));
+}
+
+void append_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+bool exclude_each_other(const Setting& a, const Setting& b) {
+  if (!a.only_when || !b.only_when || a.only_when->key != b.only_when->key) return false;
+  return std::ranges::find_first_of(a.only_when->values, b.only_when->values)
+         == a.only_when->values.end();
+}
+
+/// The condition must refer to a row before this one that always counts, so that one pass in table
+/// order decides about all rows.
+void verify_condition(const Setting& row, const SettingsTable& earlier_rows) {
+  const auto condition_row = std::ranges::find(earlier_rows, row.only_when->key, &Setting::key);
+  if (condition_row == earlier_rows.end() || condition_row->kind != Kind::choice
+      || condition_row->only_when || condition_row->fallback.empty()) {
+    contradiction(row, "depends on " + row.only_when->key
+                           + ", which is no earlier, unconditional choice with a default");
+  }
+  for (const auto& value : row.only_when->values) {
+    if (std::ranges::find(condition_row->choices, value) == condition_row->choices.end()) {
+      contradiction(row, fmt::format("{} is never {}", row.only_when->key, value));
+    }
+  }
+}
+
+void verify_row(const Setting& row, const SettingsTable& earlier_rows) {
+  if (row.key.empty() || std::ranges::count(row.key, '.') > 1) contradiction(row, "bad key");
+  if (!row.doc.ends_with('.')) contradiction(row, "the doc does not end with a full stop");
+  if (row.required && !row.fallback.empty()) contradiction(row, "required, but has a default");
+  if ((row.kind == Kind::choice) == row.choices.empty()) {
+    contradiction(row, "choices belong to the kind choice, and only to it");
+  }
+  if (row.only_when) verify_condition(row, earlier_rows);
+  for (const auto& earlier : earlier_rows) {
+    if (earlier.key == row.key && !exclude_each_other(earlier, row))
+      contradiction(row, "stands twice");
+  }
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  const bool above = low_open ? value > low : value >= low;
+  const bool below = high_open ? value < high : value <= high;
+  return above && below;
+}
+
+Range any() { return {}; }
+Range positive() { return {.low = 0.0, .low_open = true}; }
+Range non_negative() { return {.low = 0.0}; }
+Range at_least(double low) { return {.low = low}; }
+Range between(double low, double high) { return {.low = low, .high = high}; }
+Range above_up_to(double low, double high) { return {.low = low, .high = high, .low_open = true}; }
+
+void verify_table(const SettingsTable& table) {
+  SettingsTable earlier_rows;
+  for (const auto& row : table) {
+    verify_row(row, earlier_rows);
+    earlier_rows.push_back(row);
+  }
+}
+
+std::string section_of(const std::string& key) {
+  const auto dot = key.find('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+
+std::string name_in_section(const std::string& key) { return key.substr(key.find('.') + 1); }
+
+bool has_key(const SettingsTable& table, const std::string& key) {
+  return std::ranges::find(table, key, &Setting::key) != table.end();
+}
+
+bool has_section(const SettingsTable& table, const std::string& section) {
+  return !section.empty() && !names_of(table, section).empty();
+}
+
+std::vector<std::string> top_level_names(const SettingsTable& table) {
+  std::vector<std::string> names;
+  for (const auto& row : table) append_once(names, row.key.substr(0, row.key.find('.')));
+  return names;
+}
+
+std::vector<std::string> names_of(const SettingsTable& table, const std::string& section) {
+  std::vector<std::string> names;
+  for (const auto& row : table) {
+    if (section_of(row.key) == section) append_once(names, name_in_section(row.key));
+  }
+  return names;
+}
+
+std::string to_string(const Range& range, const std::string& unit) {
+  const bool has_unit = !unit.empty() && unit != "1";
+  const auto end = [&](double value) {
+    return fmt::format("{}{}", value, has_unit ? " " + unit : "");
+  };
+  const bool has_low = range.low != -infinity;
+  const bool has_high = range.high != infinity;
+  if (has_low && has_high && !range.low_open && !range.high_open) {
+    return fmt::format("from {} to {}", range.low, end(range.high));
+  }
+  const auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", end(range.low));
+  const auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", end(range.high));
+  if (has_low && has_high) return low + " and " + high;
+  if (has_low) return low;
+  if (has_high) return high;
+  return "";
+}
+
+std::string to_string(const When& when) {
+  return fmt::format("{} is {}", when.key, fmt::join(when.values, " or "));
+}
+
+}  // namespace riesel::io

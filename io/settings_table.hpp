@@ -1,0 +1,96 @@
+// The table of settings: one row per key says all that is known about it, its kind, unit, default,
+// range and meaning.
+//
+// Everything that deals with settings works from these rows: reading and checking a file, the
+// errors, the recorded effective.yaml and the reference page of the manual. So a new setting is one
+// new row, and no two of these can disagree. The rows that all scenarios share are in
+// common_settings(); a scenario appends its own.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+enum class Kind {
+  number,   ///< a quantity: "0.66 mm" or an SI number
+  integer,  ///< fits into 64 bits
+  choice,   ///< one of Setting::choices
+  text,     ///< not empty
+  boolean,  ///< true or false
+  numbers,  ///< a list of quantities, one quantity, or {from, to, points, spacing: log | linear}
+  integer_or_auto,  ///< an integer or the word auto
+};
+
+/// The values a number may take.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;   ///< `low` itself is out of range
+  bool high_open = false;  ///< `high` itself is out of range
+
+  bool contains(double value) const;
+};
+Range any();
+Range positive();
+Range non_negative();
+Range at_least(double low);
+Range between(double low, double high);      ///< both ends included
+Range above_up_to(double low, double high);  ///< `low` excluded, `high` included
+
+/// The condition that an earlier setting of kind choice has one of some values.
+struct When {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+/// One row of the table. Two rows may have the same key if their conditions exclude each other:
+/// that is how the unit of a contact law's stiffness depends on the law.
+struct Setting {
+  std::string key = {};  ///< "section.name" or "name"
+  Kind kind = Kind::number;
+  std::string unit = {};  ///< SI unit of the stored value, "1" for pure numbers; empty: a bare SI
+                          ///< number, no unit is taken
+  std::string fallback = {};  ///< the default as YAML text; empty: none
+  bool required = false;      ///< an error if not given (and if `only_when` holds)
+  Range range = {};
+  std::vector<std::string> choices = {};
+  std::string doc = {};                ///< for the reference page; ends with a full stop
+  std::optional<When> only_when = {};  ///< the row counts only under this condition
+};
+
+using SettingsTable = std::vector<Setting>;
+
+/// The whole table of each scenario (common rows included), by the scenario's name.
+using SettingsTables = std::map<std::string, SettingsTable>;
+
+/// The rows of all scenarios: scenario, seed, contact.*, run.*.
+SettingsTable common_settings();
+
+/// Throws std::logic_error if a row contradicts itself or another one (in code, not in a user's
+/// file).
+void verify_table(const SettingsTable& table);
+
+/// The part of a key before the dot; empty for a key at the top level.
+std::string section_of(const std::string& key);
+/// The part of a key after the dot.
+std::string name_in_section(const std::string& key);
+
+bool has_key(const SettingsTable& table, const std::string& key);
+bool has_section(const SettingsTable& table, const std::string& section);
+
+/// What stands at the top level of a file, in table order: the sections, and the keys outside of
+/// any.
+std::vector<std::string> top_level_names(const SettingsTable& table);
+/// The names within a section, in table order, each once.
+std::vector<std::string> names_of(const SettingsTable& table, const std::string& section);
+
+/// "above 0 m", "from 1 to 1024", ...; empty if anything goes.
+std::string to_string(const Range& range, const std::string& unit);
+/// "contact.law is power or hertz"
+std::string to_string(const When& when);
+
+}  // namespace riesel::io

@@ -1,0 +1,126 @@
+#include "io/settings_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+namespace riesel::io {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+unsigned byte_at(std::string_view text, std::size_t i) {
+  return static_cast<unsigned char>(text[i]);
+}
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+[[noreturn]] void refuse_size(const std::string& source) {
+  throw SettingsError({source}, "", fmt::format("is larger than {} bytes", largest_settings_text),
+                      "a settings file is a page of YAML; check that this is the right file");
+}
+
+/// The length of the UTF-8 character that begins at `i`; 0 if none does (RFC 3629, section 4).
+std::size_t character_length(std::string_view text, std::size_t i) {
+  const unsigned lead = byte_at(text, i);
+  if (lead < 0x80U) return 1;
+  if (lead < 0xC2U || lead > 0xF4U) return 0;
+  const std::size_t length = lead < 0xE0U ? 2 : lead < 0xF0U ? 3 : 4;
+  if (text.size() - i < length) return 0;
+
+  // The second byte is narrower after these leads: overlong forms, surrogates, beyond U+10FFFF.
+  const unsigned second = byte_at(text, i + 1);
+  const unsigned lowest = lead == 0xE0U ? 0xA0U : lead == 0xF0U ? 0x90U : 0x80U;
+  const unsigned highest = lead == 0xEDU ? 0x9FU : lead == 0xF4U ? 0x8FU : 0xBFU;
+  if (second < lowest || second > highest) return 0;
+  const auto rest = text.substr(i + 2, length - 2);
+  return std::ranges::all_of(rest, continues_character) ? length : 0;
+}
+
+void refuse_bad_characters(const std::string& text, const std::string& source) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    if (length == 0) {
+      throw SettingsError(PlaceFinder(text, source).at(i), "", "is not UTF-8",
+                          "save the file as UTF-8");
+    }
+    const unsigned byte = byte_at(text, i);
+    if ((byte < 0x20U && byte != '\n' && byte != '\t') || byte == 0x7FU) {
+      throw SettingsError(PlaceFinder(text, source).at(i), "",
+                          fmt::format("control character 0x{:02X}", byte),
+                          "remove it, or check that this is a text file");
+    }
+    i += length;
+  }
+}
+
+void refuse_tab_indentation(const std::string& text, const std::string& source) {
+  bool in_indentation = true;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_indentation && text[i] == '\t') {
+      throw SettingsError(PlaceFinder(text, source).at(i), "", "tab in the indentation",
+                          "YAML is indented with spaces: replace it");
+    }
+    in_indentation = text[i] == '\n' || (in_indentation && text[i] == ' ');
+  }
+}
+
+}  // namespace
+
+std::string read_settings_text(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw SettingsError({source}, "", "is a directory", "give the path of a YAML file");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    const auto reason = std::generic_category().message(errno);
+    throw SettingsError({source}, "", fmt::format("cannot be opened ({})", reason),
+                        "check the path");
+  }
+  // Sizes reported by the file system mean nothing for pipes, hence one byte more than allowed is
+  // tried.
+  std::string text(largest_settings_text + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) throw SettingsError({source}, "", "cannot be read", "check the file");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_settings_text) refuse_size(source);
+  return text;
+}
+
+std::string clean_settings_text(std::string_view text, const std::string& source) {
+  if (text.size() > largest_settings_text) refuse_size(source);
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  std::string clean;
+  clean.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool before_newline = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+    if (!before_newline) clean += text[i];
+  }
+  refuse_bad_characters(clean, source);
+  refuse_tab_indentation(clean, source);
+  return clean;
+}
+
+PlaceFinder::PlaceFinder(std::string_view text, std::string source)
+    : text_(text), place_{std::move(source), 1, 1} {}
+
+Place PlaceFinder::at(std::size_t offset) {
+  if (offset < offset_) *this = PlaceFinder(text_, place_.source);
+  for (; offset_ < std::min(offset, text_.size()); ++offset_) {
+    if (text_[offset_] == '\n') {
+      ++place_.line;
+      place_.column = 1;
+    } else if (!continues_character(text_[offset_])) {
+      ++place_.column;
+    }
+  }
+  return place_;
+}
+
+}  // namespace riesel::io

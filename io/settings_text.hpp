@@ -1,0 +1,38 @@
+// The bytes of a settings file, before any YAML: what must be true of them whatever they say.
+#pragma once
+
+#include "io/settings_error.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace riesel::io {
+
+constexpr std::size_t largest_settings_text = 1'000'000;  ///< bytes
+
+/// The file verbatim. Throws SettingsError if it cannot be read, is a directory or is too large.
+std::string read_settings_text(const std::filesystem::path& file);
+
+/// The text as the YAML parser shall see it: without byte order mark, lines ending in \n. Throws
+/// SettingsError if it is too large, no UTF-8, contains control characters, or is indented with
+/// tabs.
+std::string clean_settings_text(std::string_view text, const std::string& source);
+
+/// Lines and columns of bytes of a text, counting columns in characters as editors do. Asking for
+/// places in ascending order takes time proportional to the text, once.
+class PlaceFinder {
+public:
+  /// `text` must outlive the finder.
+  PlaceFinder(std::string_view text, std::string source);
+
+  Place at(std::size_t offset);
+
+private:
+  std::string_view text_;
+  Place place_;  ///< of offset_
+  std::size_t offset_ = 0;
+};
+
+}  // namespace riesel::io

@@ -1,0 +1,157 @@
+#!/usr/bin/env bash
+# From a fresh checkout to a first result, or to a tested one: ./setup.sh help
+set -euo pipefail
+
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
+
+build_packages=(
+  cmake ninja-build g++ git
+  libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
+  libudunits2-dev librandom123-dev catch2
+  python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
+# clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
+lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
+
+riesel=build/release/app/riesel
+run_input=scenarios/periodic_tube.yaml
+run_output=runs/periodic_tube
+
+usage() {
+  cat <<END
+Usage: ./setup.sh COMMAND
+
+  run        install what is missing, build, and run $run_input
+             into $run_output; ends with the summary on the screen
+  test       install what is missing, build with warnings as errors, run all tests;
+             further arguments go to ctest, e.g. -R engine
+  build      install what is missing and build the release: $riesel
+  lint       check formatting, C++ and shell scripts (clang-format, clang-tidy, shellcheck)
+  format     let clang-format rewrite the C++ sources
+  packages   install the Debian packages that are missing
+  help       this text
+END
+}
+
+say() { printf '\n== %s\n' "$*"; }
+
+die() {
+  printf 'setup.sh: %s\n' "$*" >&2
+  exit 1
+}
+
+missing_packages() {
+  local package
+  for package in "$@"; do
+    if [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]]; then
+      echo "$package"
+    fi
+  done
+}
+
+# Needs neither the network nor sudo when nothing is missing.
+install_packages() {
+  if ! command -v apt-get >/dev/null; then
+    say "Not a Debian system. riesel needs what Debian calls: $*"
+    return
+  fi
+  local missing as_root=()
+  mapfile -t missing < <(missing_packages "$@")
+  if ((${#missing[@]} == 0)); then return; fi
+  say "Installing ${missing[*]}"
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || die "neither root nor sudo; have these installed: ${missing[*]}"
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" apt-get update -q || die "apt-get update failed; missing: ${missing[*]}"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends "${missing[@]}" ||
+    die "apt-get could not install ${missing[*]}"
+}
+
+# build PRESET [arguments of cmake --build...]
+build() {
+  local preset=$1
+  shift
+  say "Building build/$preset"
+  cmake --preset "$preset" || die "cmake could not configure build/$preset"
+  cmake --build --preset "$preset" "$@" || die "the build in build/$preset failed"
+}
+
+# What decides about a result: the program and its input.
+fingerprint() { sha256sum "$riesel" "$run_input"; }
+
+# Runs once per program and input: a result that is there is shown, an interrupted run is continued,
+# and a directory that belongs to another program or input is left alone.
+run_scenario() {
+  local out=$run_output number=1
+  while [[ -e "$out" && "$(cat "$out.sha256" 2>/dev/null)" != "$(fingerprint)" ]]; do
+    number=$((number + 1))
+    out=$run_output-$number
+  done
+
+  mkdir -p "$(dirname "$run_output")"
+  if [[ ! -e "$out" ]]; then
+    say "Running $run_input into $out"
+    fingerprint >"$out.sha256"
+    "$riesel" run "$run_input" --out "$out" || die "the run failed"
+  elif [[ ! -e "$out/summary.json" ]]; then
+    say "Continuing the interrupted run in $out"
+    "$riesel" resume "$out" || die "could not continue; to start again: rm -r $out"
+  else
+    say "$out holds the result of this program and this input already"
+  fi
+  say "Summary ($out/summary.json)"
+  cat "$out/summary.json"
+}
+
+cpp_files() { find engine io scenarios app tests bench -name '*.[ch]pp' | sort; }
+
+# All three checks, even if the first one complains.
+lint() {
+  local complaints=()
+  say "clang-format"
+  cpp_files | xargs clang-format --dry-run -Werror || complaints+=("clang-format (try ./setup.sh format)")
+  say "shellcheck"
+  shellcheck setup.sh .ci/run || complaints+=(shellcheck)
+  # One process per source, as many as there are processors. Headers are checked where they are
+  # included; the outside project of the packaging test is not in the compiler's command lines.
+  say "clang-tidy"
+  build ci --target riesel_build_info
+  cpp_files | grep '\.cpp$' | grep -v '^tests/package/' |
+    xargs -n 1 -P "$(nproc)" clang-tidy --quiet -p build/ci || complaints+=(clang-tidy)
+  ((${#complaints[@]} == 0)) || die "complaints from: ${complaints[*]}"
+}
+
+command=${1:-help}
+shift || true
+case $command in
+  run)
+    install_packages "${build_packages[@]}"
+    build release --target riesel
+    run_scenario
+    ;;
+  test)
+    install_packages "${build_packages[@]}"
+    build ci
+    say "Testing"
+    ctest --preset ci --parallel "$(nproc)" "$@"
+    ;;
+  build)
+    install_packages "${build_packages[@]}"
+    build release
+    ;;
+  lint)
+    install_packages "${build_packages[@]}" "${lint_packages[@]}"
+    lint
+    ;;
+  format)
+    install_packages "${lint_packages[@]}"
+    cpp_files | xargs clang-format -i
+    ;;
+  packages) install_packages "${build_packages[@]}" ;;
+  help | -h | --help) usage ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac

@@ -1,0 +1,8 @@
+// Catch2 3 and 2.13 differ in the name of their header.
+#pragma once
+
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+#else
+#include <catch2/catch.hpp>
+#endif

@@ -1,0 +1,42 @@
+// The reference page holds every row, each in one line of a Markdown table.
+#include "io/settings_reference.hpp"
+#include "tests/io/settings_fixture.hpp"
+
+using namespace settings_fixture;
+
+namespace {
+
+bool holds_line(const std::string& page, const std::string& line) {
+  return page.find("\n" + line + "\n") != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the reference page describes the settings") {
+  const auto page = settings_reference(tables());
+  CHECK(holds_line(page, "## All scenarios"));
+  CHECK(holds_line(page, "## Scenario `tube`"));
+  CHECK(holds_line(page,
+                   "| `contact.stiffness` | N/m, above 0 | required | Stiffness k_N of the linear "
+                   "law. Only when contact.law is linear. |"));
+  CHECK(holds_line(page,
+                   "| `grains.polydispersity` | number, at least 0 and below 1 | `5 %` | Relative "
+                   "half width of the distribution of radii. |"));
+  CHECK(holds_line(page,
+                   "| `impact.speed` | list of m/s, at least 0 | `[0.1, 0.3 m/s]` | Speeds. |"));
+  CHECK(holds_line(page, "| `output.pictures` | `true` or `false` | `true` | Whether to draw. |"));
+  CHECK(holds_line(page, "| `output.title` | text |  | Title. |"));
+}
+
+TEST_CASE("common settings stand in the reference page once") {
+  const auto page = settings_reference(tables());
+  for (const auto& row : common_settings()) {
+    REQUIRE(page.find("| `" + row.key + "` |") != std::string::npos);
+    CHECK(page.find("## Scenario") > page.rfind("| `" + row.key + "` |"));
+  }
+}
+
+TEST_CASE("bars within a cell are escaped") {
+  const SettingsTables one = {{"x", {{.key = "a.b", .unit = "m", .doc = "Either | or."}}}};
+  CHECK(settings_reference(one).find("| Either \\| or. |") != std::string::npos);
+}

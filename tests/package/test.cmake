@@ -1,0 +1,18 @@
+# Installs riesel to a fresh directory and builds and runs an outside project against it.
+# cmake -DBUILD_DIR= -DWORK_DIR= -DCXX_COMPILER= -DCXX_FLAGS= -DVERSION= -P test.cmake
+cmake_minimum_required(VERSION 3.25)
+
+file(REMOVE_RECURSE "${WORK_DIR}")
+set(step COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --install "${BUILD_DIR}" --prefix "${WORK_DIR}/prefix"
+  OUTPUT_QUIET ${step})
+execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja
+  -S "${CMAKE_CURRENT_LIST_DIR}" -B "${WORK_DIR}/build"
+  "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
+  "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
+  "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" ${step})
+execute_process(COMMAND ${CMAKE_COMMAND} --build "${WORK_DIR}/build" ${step})
+execute_process(COMMAND "${WORK_DIR}/build/uses_riesel" OUTPUT_VARIABLE said ${step})
+if(NOT said STREQUAL "riesel ${VERSION}\n")
+  message(FATAL_ERROR "expected `riesel ${VERSION}`, got `${said}`")
+endif()
