@@ -18,12 +18,12 @@ struct ContactName {
 
 inline constexpr std::int32_t no_wall = -1;
 
-/// SI units throughout. Times are resolved within the step: the straight relative path of the two bodies
-/// tells when they met and when they will part.
+/// SI units throughout. Times are resolved within the step: the relative path of the two bodies tells when they
+/// met and when they will part.
 struct Contact {
   ContactName name{};
   double begin = 0.0;          ///< s, since step 0
-  double end = 0.0;            ///< s, when the contact ends if it goes on straight
+  double end = 0.0;            ///< s, when the contact ends, or a step from now
   double entry_rate = 0.0;     ///< m/s, normal approach velocity at the beginning
   double entry_slip = 0.0;     ///< m/s, slip velocity at the beginning
   double overlap = 0.0;        ///< m, now

@@ -5,8 +5,8 @@
 //
 // Where the damping force jumps, as in eq. (1) when a contact begins and ends at full speed, a sampled force
 // would be first order: the kick of a step stands for the time from half a step before to half a step after,
-// and the jump falls anywhere. The straight relative path tells when the bodies met and will part, to second
-// order; the damping is weighted with the part of the kick's time that it covers.
+// and the jump falls anywhere. The extrapolated path tells when the bodies met and will part; the damping is
+// weighted with the time for which it acts. So one contact is second order in dt wherever its ends fall.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -32,25 +32,33 @@ struct Touch {
   double overlap;         ///< m
   double rate;            ///< m/s, d(overlap)/dt: positive while approaching
   double slip;            ///< m/s, along s = n turned by 90 degrees, of the first relative to the second
-  double since;           ///< s, the straight path entered the overlap so long ago
-  double until;           ///< s, and leaves it after this time
+  double since;           ///< s, in touch since; dt if longer than the last step
+  double until;           ///< s, in touch for; dt if longer than the next step
   double elastic_energy;  ///< J
   double normal_power;    ///< W, dissipated by the normal damping (negative where a clipped force gives back)
   double friction_power;  ///< W, dissipated by friction
 };
 
-/// The time before and after now that the straight relative path spends in the overlap. s; infinite at rest.
+/// How much of the last and of the next time step two bodies spend in the overlap: s, at most dt. Their relative path is
+/// extrapolated with the present velocity and normal acceleration (m/s^2, positive apart).
 struct Passage {
   double since, until;
 };
 
-inline Passage straight_passage(const Encounter& e) {
+inline Passage passage(const Encounter& e, double acceleration, double dt) {
+  // |r + v s + a s^2 / 2|^2 = reach^2, to second order in s
   const double closing = -e.separation.dot(e.velocity);
-  const double speed2 = e.velocity.squaredNorm();
+  const double curvature = e.velocity.squaredNorm() + e.separation.norm() * acceleration;
   const double depth2 = e.reach * e.reach - e.separation.squaredNorm();
-  const double half_chord = std::sqrt(closing * closing + speed2 * depth2);
-  return {(half_chord - closing) / speed2, (half_chord + closing) / speed2};
+  const double root = std::sqrt(closing * closing + curvature * depth2);
+  // Written without a quotient that could be 0/0, negative or not a number: then the bodies stay in touch.
+  return {depth2 < dt * (root + closing) ? depth2 / (root + closing) : dt,
+          depth2 < dt * (root - closing) ? depth2 / (root - closing) : dt};
 }
+
+/// The part of the step before (or after) now for which the present kick stands: half of it, unless the contact begins
+/// (or ends) in it; then there is no other kick to stand for the rest.
+inline double kick_time(double in_touch, double dt) { return in_touch < dt ? in_touch : 0.5 * dt; }
 
 template <class Normal, class Slip>
 Touch touch(const Encounter& e, const Normal& normal, const Slip& slip_law, double mu,
@@ -64,16 +72,13 @@ Touch touch(const Encounter& e, const Normal& normal, const Slip& slip_law, doub
   t.rate = -e.velocity.dot(n);
   t.slip = -e.velocity.dot(s);
 
-  // `since` runs backwards along the path, so closing counts against it.
-  const Passage passage = straight_passage(e);
-  t.since = passage.since;
-  t.until = passage.until;
-  const double covered_before = t.since < dt ? t.since : 0.5 * dt;
-  const double covered_after = t.until < dt ? t.until : 0.5 * dt;
-  const double weight = (covered_before + covered_after) / dt;
-
   const double elastic = normal.elastic(t.overlap);
   const double damping = normal.damping(t.overlap, t.rate, e.reduced_mass);
+  const Passage in_touch = passage(e, (elastic + damping) / e.reduced_mass, dt);
+  t.since = in_touch.since;
+  t.until = in_touch.until;
+  const double weight = (kick_time(t.since, dt) + kick_time(t.until, dt)) / dt;
+
   double f_n = elastic + weight * damping;
   if (attraction == Attraction::clip && (elastic + damping < 0.0 || f_n < 0.0)) f_n = 0.0;
 

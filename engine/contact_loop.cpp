@@ -85,11 +85,11 @@ void live(Contact& c, bool begins, const ContactName& name, const Touch& t, doub
           const StepUnits& units) {
   if (begins) {
     c.name = name;
-    c.begin = units.time - (t.since < units.dt ? t.since : units.dt);
+    c.begin = units.time - t.since;
     c.entry_rate = t.rate;
     c.entry_slip = t.slip;
   }
-  c.end = units.time + (t.until < units.dt ? t.until : units.dt);
+  c.end = units.time + t.until;
   c.overlap = t.overlap;
   c.max_overlap = std::max(c.max_overlap, t.overlap);
   c.slip_path += std::abs(t.slip) * units.dt;

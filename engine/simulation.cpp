@@ -1,6 +1,7 @@
 #include "engine/simulation.hpp"
 
 #include "engine/contact_loop.hpp"
+#include "engine/observables.hpp"
 
 #include <omp.h>
 
@@ -12,7 +13,8 @@ namespace riesel {
 
 namespace {
 
-State checked(State state) {
+/// `state` if a simulation can start from it, its balances opened.
+State ready(State state) {
   const Grains& g = state.grains;
   if (g.size() == 0) throw std::invalid_argument("a simulation needs at least one grain");
   if (!(state.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
@@ -24,6 +26,7 @@ State checked(State state) {
     if (id >= g.size() || seen[id]) throw std::invalid_argument("ids must be a permutation");
     seen[id] = true;
   }
+  if (state.step == 0) state.origin = origin_of(state);
   return state;
 }
 
@@ -44,7 +47,7 @@ int useful_threads(std::size_t grains) {
 }
 
 Simulation::Simulation(State state, const ContactModel& model, int threads)
-    : state_(checked(std::move(state))), model_(model), fall_(fall_per_step(state_)),
+    : state_(ready(std::move(state))), model_(model), fall_(fall_per_step(state_)),
       candidates_(state_, threads) {}
 
 /// One step of all grains, by all threads together, each with its slice: the leapfrog form of velocity Verlet.

@@ -39,6 +39,12 @@ struct Grains {
   void resize(std::size_t n);
 };
 
+/// The system at step 0, for the balances of energy and momentum.
+struct Origin {
+  double kinetic = 0.0;     ///< J
+  double momentum_y = 0.0;  ///< kg m/s
+};
+
 struct State {
   Box box{};
   std::vector<WallLattice> walls;
@@ -47,7 +53,8 @@ struct State {
   std::int64_t step = 0;    ///< steps done
   Grains grains;
   std::vector<Contact> contacts;  ///< those that last, ordered by (wall, grain, partner)
-  Tally tally;                    ///< what all contacts did since step 0
+  Tally tally;                    ///< what the ended contacts did since step 0
+  Origin origin;                  ///< set by the Simulation that does the first step
 
   double time() const { return static_cast<double>(step) * time_step; }  ///< s
 };

@@ -46,10 +46,14 @@ SteadyState assess_steady_state(std::span<const double> velocities,
 
 std::string_view name(SteadyVerdict verdict) {
   switch (verdict) {
-    case SteadyVerdict::steady: return "steady";
-    case SteadyVerdict::accelerating: return "accelerating";
-    case SteadyVerdict::drifting: return "drifting";
-    case SteadyVerdict::too_short: return "too_short";
+  case SteadyVerdict::steady:
+    return "steady";
+  case SteadyVerdict::accelerating:
+    return "accelerating";
+  case SteadyVerdict::drifting:
+    return "drifting";
+  case SteadyVerdict::too_short:
+    return "too_short";
   }
   return "too_short";
 }

@@ -1,7 +1,7 @@
 // Whether a run has reached a steady state, and the mean it has there.
 //
-// On the fast branch of the tube the grains fall for seconds before wall and gravity balance. A mean
-// over such a run is a number without meaning, so no mean leaves here without a verdict on it.
+// On the fast branch of the tube the grains fall for seconds before wall and gravity balance. A
+// mean over such a run is a number without meaning, so no mean leaves here without a verdict on it.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ enum class SteadyVerdict {
   steady,        ///< no trend, and long enough to tell: mean and error can be trusted
   accelerating,  ///< runaway: a significant growth that is large by the measures below
   drifting,      ///< a significant trend of either sign that is no runaway
-  too_short      ///< fewer than `min_independent_samples` after the transient, and no trend to be seen
+  too_short  ///< fewer than `min_independent_samples` after the transient, and no trend to be seen
 };
 
-/// What the series of velocities says. Everything but the first two lines holds for the samples after
-/// the transient; velocities in the unit of the samples, times in sample intervals.
+/// What the series of velocities says. Everything but the first two lines holds for the samples
+/// after the transient; velocities in the unit of the samples, times in sample intervals.
 struct SteadyState {
   SteadyVerdict verdict;
   std::size_t transient_end;    ///< index of the first sample after the transient
@@ -31,15 +31,15 @@ struct SteadyState {
   double trend_error;           ///< 68 %
 };
 
-/// A significant growth is a runaway if what it gains within the samples after the transient is this
-/// part of their mean, or if it is this part of free fall.
+/// A significant growth is a runaway if what it gains within the samples after the transient is
+/// this part of their mean, or if it is this part of free fall.
 inline constexpr double runaway_fraction = 0.1;
 
-/// Judges a series of velocities (positive downstream), sampled at even intervals. `free_fall_gain` is
-/// what a grain in free fall gains per sample interval, g times the interval, in the unit of the samples.
-/// The transient is cut by MSER-5, the rest judged by the estimates of time_series.hpp. About one in a
-/// hundred stationary series is called accelerating or drifting (measured: docs/statistics.md).
-/// std::invalid_argument for a sample that is not finite.
+/// Judges a series of velocities (positive downstream), sampled at even intervals. `free_fall_gain`
+/// is what a grain in free fall gains per sample interval, g times the interval, in the unit of the
+/// samples. The transient is cut by MSER-5, the rest judged by the estimates of time_series.hpp.
+/// About one in a hundred stationary series is called accelerating or drifting (measured:
+/// docs/statistics.md). std::invalid_argument for a sample that is not finite.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain = std::nullopt);
 

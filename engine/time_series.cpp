@@ -13,20 +13,22 @@
 namespace riesel {
 namespace {
 
-// How many of the slowest cosines measure the noise. More would make the error bar itself less noisy
-// (by 25 % with eight), but reach into frequencies where the spectrum of a short run is no longer flat.
+// How many of the slowest cosines measure the noise. More would make the error bar itself less
+// noisy (by 25 % with eight), but reach into frequencies where the spectrum of a short run is no
+// longer flat.
 constexpr std::size_t cosines = 8;
 
 // Student's t for eight degrees of freedom: two-sided 68.27 % and 99 %.
 constexpr double student_68 = 1.06681;
 constexpr double student_99 = 3.35539;
 
-// The error grows by this over the number of independent samples: it pays for the spectrum's fall within
-// the cosines, and for the series whose correlation is missed, which are the ones that pass as long enough.
-// Measured, see docs/statistics.md.
+// The error grows by this over the number of independent samples: it pays for the spectrum's fall
+// within the cosines, and for the series whose correlation is missed, which are the ones that pass
+// as long enough. Measured, see docs/statistics.md.
 constexpr double finite_sample_allowance = 6.0;
 
-// Random-walk error: ten blocks have nine steps, whose variance has eight degrees of freedom, as above.
+// Random-walk error: ten blocks have nine steps, whose variance has eight degrees of freedom, as
+// above.
 constexpr std::size_t blocks = 10;
 
 // The smallest series worth a second look.
@@ -38,8 +40,9 @@ constexpr double resolution = 1e-12;
 void require_finite(std::span<const double> series) {
   const auto bad = std::ranges::find_if_not(series, [](double v) { return std::isfinite(v); });
   if (bad == series.end()) return;
-  throw std::invalid_argument("sample " + std::to_string(bad - series.begin()) + " of the series is "
-                              + std::to_string(*bad) + "; statistics need finite samples");
+  throw std::invalid_argument("sample " + std::to_string(bad - series.begin())
+                              + " of the series is " + std::to_string(*bad)
+                              + "; statistics need finite samples");
 }
 
 /// Summed relative to the first sample, so that the mean of a constant series is exact.
@@ -102,8 +105,8 @@ double cosine_coefficient(std::span<const double> deviations, std::size_t k) {
   return sum * std::sqrt(2.0 / n);
 }
 
-/// Long-run variance: n times the variance of the mean of n samples, which is the spectral density at
-/// frequency zero; read off the cosines `first`, first + 1, ..., `cosines` of them.
+/// Long-run variance: n times the variance of the mean of n samples, which is the spectral density
+/// at frequency zero; read off the cosines `first`, first + 1, ..., `cosines` of them.
 double long_run_variance(std::span<const double> deviations, std::size_t first) {
   double sum = 0.0;
   for (std::size_t k = first; k < first + cosines; ++k) {
@@ -113,8 +116,8 @@ double long_run_variance(std::span<const double> deviations, std::size_t first) 
   return sum / static_cast<double>(cosines);
 }
 
-/// Autocorrelation time with Sokal's window, the first lag of at least five exponential times. A window
-/// that would be longer than a fifth of the series ends there.
+/// Autocorrelation time with Sokal's window, the first lag of at least five exponential times. A
+/// window that would be longer than a fifth of the series ends there.
 double windowed_time(std::span<const double> deviations) {
   const std::size_t n = deviations.size();
   const double scale = 1.0 / (power_of(deviations) * static_cast<double>(n));
@@ -128,7 +131,8 @@ double windowed_time(std::span<const double> deviations) {
   return time * (1.0 + bias_of_subtracted_mean);
 }
 
-/// Of deviations from a mean (`first_cosine` 1) or a line (2, as the line has taken the first cosine).
+/// Of deviations from a mean (`first_cosine` 1) or a line (2, as the line has taken the first
+/// cosine).
 double integrated_time(std::span<const double> deviations, std::size_t first_cosine) {
   const double variance = power_of(deviations);
   if (variance == 0.0) return 1.0;
@@ -143,8 +147,9 @@ std::vector<double> block_means(std::span<const double> series) {
   return means;
 }
 
-/// Error of the least-squares slope of a random walk. The steps between the means of adjacent blocks of
-/// length l have variance 2/3 l w, where w is the walk's variance per sample; the slope has 6/5 w/n.
+/// Error of the least-squares slope of a random walk. The steps between the means of adjacent
+/// blocks of length l have variance 2/3 l w, where w is the walk's variance per sample; the slope
+/// has 6/5 w/n.
 double random_walk_slope_error(std::span<const double> series) {
   const std::vector<double> means = block_means(series);
   std::vector<double> steps(blocks - 1);
@@ -163,7 +168,7 @@ std::size_t transient_length(std::span<const double> series) {
   require_finite(series);
   constexpr std::size_t batch = 5;
   const std::size_t batches = series.size() / batch;
-  double mean = 0.0;     // of the batches kept, and their summed squared deviations: Welford's update
+  double mean = 0.0;  // of the batches kept, and their summed squared deviations: Welford's update
   double squares = 0.0;  // from the end of the series backwards
   double least = std::numeric_limits<double>::infinity();
   std::size_t cut = 0;
@@ -193,7 +198,8 @@ double autocorrelation_time(std::span<const double> series) {
 
 MeanEstimate estimate_mean(std::span<const double> series) {
   require_finite(series);
-  if (series.empty()) return {.mean = 0, .error = 0, .autocorrelation_time = 1, .independent_samples = 0};
+  if (series.empty())
+    return {.mean = 0, .error = 0, .autocorrelation_time = 1, .independent_samples = 0};
   const auto n = static_cast<double>(series.size());
   const std::vector<double> deviations = deviations_from_mean(series);
   if (series.size() < min_samples) {
@@ -206,7 +212,8 @@ MeanEstimate estimate_mean(std::span<const double> series) {
   const double independent = n / time;
   const double error_of_long_series = std::sqrt(long_run_variance(deviations, 1) / n);
   return {.mean = mean_of(series),
-          .error = student_68 * (1.0 + finite_sample_allowance / independent) * error_of_long_series,
+          .error =
+              student_68 * (1.0 + finite_sample_allowance / independent) * error_of_long_series,
           .autocorrelation_time = time,
           .independent_samples = independent};
 }

@@ -1,14 +1,15 @@
-// The statistics of one evenly sampled, correlated series: where its transient ends, its mean with an
-// error bar that keeps its word, and its trend.
+// The statistics of one evenly sampled, correlated series: where its transient ends, its mean with
+// an error bar that keeps its word, and its trend.
 //
-// Successive samples of a flow remember each other, so the textbook error of a mean is far too small.
-// The usual cure is to sum the autocorrelation function up to a window. It overlooks a weak but slow
-// component beneath fast noise, which is just what a granular flow has. The errors here come from
-// the slowest motions themselves, eight cosines across the whole series, and take from Student's
-// distribution what is owed to so few. docs/statistics.md has the formulas and what was measured.
+// Successive samples of a flow remember each other, so the textbook error of a mean is far too
+// small. The usual cure is to sum the autocorrelation function up to a window. It overlooks a weak
+// but slow component beneath fast noise, which is just what a granular flow has. The errors here
+// come from the slowest motions themselves, eight cosines across the whole series, and take from
+// Student's distribution what is owed to so few. docs/statistics.md has the formulas and what was
+// measured.
 //
-// The unit of time is the sample interval. Pure functions; std::invalid_argument for a sample that is
-// not finite.
+// The unit of time is the sample interval. Pure functions; std::invalid_argument for a sample that
+// is not finite.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,7 @@ inline constexpr double min_independent_samples = 20.0;
 /// A mean and how well it is known. `mean` and `error` in the unit of the samples.
 struct MeanEstimate {
   double mean;
-  double error;                 ///< half width of the interval that covers the truth in 68 % of cases
+  double error;  ///< half width of the interval that covers the truth in 68 % of cases
   double autocorrelation_time;  ///< sample intervals per independent sample, >= 1
   double independent_samples;   ///< below `min_independent_samples` the error may be too small
 };
@@ -39,21 +40,23 @@ struct TrendEstimate {
 /// J. Oper. Res. Soc. 61, 1389 (2010).
 std::size_t transient_length(std::span<const double> series);
 
-/// Integrated autocorrelation time 1 + 2 (rho_1 + rho_2 + ...) >= 1, in sample intervals: the greater
-/// of the windowed sum (Sokal, Cargese lectures 1996, self-consistent window; bias correction of
-/// Wolff, Comput. Phys. Commun. 156, 143 (2004)) and of what the eight slowest cosines say. The first
-/// is precise, the second sees what the window cuts off. A lower bound where it exceeds a twelfth of the
-/// series; the length of the series if that is below 20. 1 for a constant series.
+/// Integrated autocorrelation time 1 + 2 (rho_1 + rho_2 + ...) >= 1, in sample intervals: the
+/// greater of the windowed sum (Sokal, Cargese lectures 1996, self-consistent window; bias
+/// correction of Wolff, Comput. Phys. Commun. 156, 143 (2004)) and of what the eight slowest
+/// cosines say. The first is precise, the second sees what the window cuts off. A lower bound where
+/// it exceeds a twelfth of the series; the length of the series if that is below 20. 1 for a
+/// constant series.
 double autocorrelation_time(std::span<const double> series);
 
-/// Mean and standard error from the eight slowest cosines: Müller, J. Bus. Econ. Stat. 32, 311 (2014);
-/// Lazarus, Lewis, Stock and Watson, ibid. 36, 541 (2018). Fewer than 20 samples count as one
-/// independent sample, whose error is the standard deviation; none at all give zeros.
+/// Mean and standard error from the eight slowest cosines: Müller, J. Bus. Econ. Stat. 32, 311
+/// (2014); Lazarus, Lewis, Stock and Watson, ibid. 36, 541 (2018). Fewer than 20 samples count as
+/// one independent sample, whose error is the standard deviation; none at all give zeros.
 MeanEstimate estimate_mean(std::span<const double> series);
 
-/// Least-squares slope. The residuals give its error as the cosines do for the mean; if too few of them
-/// are independent, they cannot be told from a random walk, and the error is at least that of a random
-/// walk's slope (Durlauf and Phillips, Econometrica 56, 1333 (1988)). Zeros below 20 samples.
+/// Least-squares slope. The residuals give its error as the cosines do for the mean; if too few of
+/// them are independent, they cannot be told from a random walk, and the error is at least that of
+/// a random walk's slope (Durlauf and Phillips, Econometrica 56, 1333 (1988)). Zeros below 20
+/// samples.
 TrendEstimate estimate_trend(std::span<const double> series);
 
 /// Whether the slope differs from zero, at a nominal false-alarm rate of 1 %.

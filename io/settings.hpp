@@ -65,8 +65,8 @@ public:
 private:
   explicit Settings(std::shared_ptr<const SettingsContents> contents);
 
-  std::shared_ptr<const SettingsContents>
-      contents_;  ///< shared by copies, as nothing can change it
+  /// Shared by copies, as nothing can change it.
+  std::shared_ptr<const SettingsContents> contents_;
 };
 
 }  // namespace riesel::io

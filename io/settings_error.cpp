@@ -7,15 +7,30 @@
 namespace riesel::io {
 namespace {
 
-constexpr std::size_t longest_quote = 60;
+constexpr std::size_t longest_excerpt = 60;
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// Keys and values may contain line breaks; a message is one line.
+std::string on_one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20U) c = ' ';
+  }
+  return text;
+}
+
+std::string excerpt(const std::string& text) {
+  if (text.size() <= longest_excerpt) return text;
+  std::size_t end = longest_excerpt;
+  while (end > 0 && continues_character(text[end])) --end;
+  return text.substr(0, end) + "...";
+}
 
 std::string message(const Place& place, const std::string& key, const std::string& problem,
                     const std::string& remedy) {
-  return fmt::format("{}: {}{}{}; {}", to_string(place), key, key.empty() ? "" : ": ", problem,
-                     remedy);
+  const auto subject = key.empty() ? "" : excerpt(key) + ": ";
+  return on_one_line(fmt::format("{}: {}{}; {}", to_string(place), subject, problem, remedy));
 }
-
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 }  // namespace
 
@@ -32,13 +47,7 @@ SettingsError::SettingsError(Place place, std::string key, std::string problem, 
       remedy_(std::move(remedy)) {}
 
 std::string quoted(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    if (line.size() >= longest_quote && !continues_character(c))
-      return fmt::format("'{}...'", line);
-    line += static_cast<unsigned char>(c) < 0x20U ? ' ' : c;
-  }
-  return fmt::format("'{}'", line);
+  return fmt::format("'{}'", on_one_line(excerpt(text)));
 }
 
 }  // namespace riesel::io

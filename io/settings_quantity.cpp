@@ -14,7 +14,8 @@
 namespace riesel::io {
 namespace {
 
-constexpr double most_points = 100'000;
+/// Per list; so few that effective.yaml, which writes out each one, stays readable to this program.
+constexpr std::size_t most_values = 10'000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -60,7 +61,7 @@ SettingsTable span_rows(const Setting& row) {
   rows[1].key = row.key + ".to";
   for (auto& end : rows) end.kind = Kind::number;
   rows.push_back(
-      {.key = row.key + ".points", .kind = Kind::integer, .range = between(2, most_points)});
+      {.key = row.key + ".points", .kind = Kind::integer, .range = between(2, most_values)});
   rows.push_back({.key = row.key + ".spacing", .kind = Kind::choice, .choices = {"log", "linear"}});
   return rows;
 }
@@ -120,6 +121,12 @@ std::vector<double> read_span(const Setting& row, const YamlNode& map) {
 std::vector<double> read_list(const Setting& row, const YamlNode& list) {
   if (list.items.empty()) {
     throw SettingsError(list.place, row.key, "the list is empty", "give at least one value");
+  }
+  if (list.items.size() > most_values) {
+    throw SettingsError(
+        list.place, row.key,
+        fmt::format("the list has {} values, {} are allowed", list.items.size(), most_values),
+        "split the run");
   }
   auto item_row = row;
   item_row.kind = Kind::number;

@@ -173,6 +173,12 @@ TEST_CASE("effective.yaml of a range holds its values") {
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(same_bits(a[i], b[i]));
 }
 
+TEST_CASE("effective.yaml of the longest list can be read again") {
+  const auto first =
+      read(wall + "impact: {speed: {from: 0.1, to: 40, points: 10000, spacing: log}}");
+  CHECK(read(first.effective_yaml()).numbers("impact.speed").size() == 10'000);
+}
+
 TEST_CASE("texts of any content survive effective.yaml") {
   for (const std::string text :
        {"null", "~", "true", "a: b # c", "it's \\\"x\\\"", "ü\\n\\tz", "- 1"}) {

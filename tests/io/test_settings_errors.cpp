@@ -129,6 +129,8 @@ TEST_CASE("long and many-lined values are quoted on one short line") {
   const auto message = tube_error("gravity: \"" + std::string(500, 'x') + "\"");
   CHECK(message.find("got '" + std::string(60, 'x') + "...'") != std::string::npos);
   CHECK(tube_error("gravity: \"a\\nb\"").find("got 'a b'") != std::string::npos);
+  CHECK(tube_error("gravity: \"3 a\\nb\"").find("replace 'a b'") != std::string::npos);
+  CHECK(tube_error("\"a\\nb\": 3").find("f.yaml:4:1: a b: unknown key; ") == 0);
 }
 
 TEST_CASE("missing values") {
@@ -228,6 +230,11 @@ TEST_CASE("lists and ranges") {
   const std::string expected = "expected a velocity such as '0.5 m/s' or a number in m/s, ";
   CHECK(speed_error("[]")
         == "f.yaml:3:17: impact.speed: the list is empty; give at least one value");
+  std::string many = "[1";
+  for (int i = 0; i < 10'000; ++i) many += ", 1";
+  CHECK(
+      speed_error(many + "]")
+      == "f.yaml:3:17: impact.speed: the list has 10001 values, 10000 are allowed; split the run");
   CHECK(speed_error("[1, 2 kg]")
         == "f.yaml:3:21: impact.speed: " + expected
                + "got '2 kg'; replace 'kg' by a unit that converts to m/s");
@@ -247,7 +254,7 @@ TEST_CASE("lists and ranges") {
         == "f.yaml:3:31: impact.speed.to: " + expected
                + "got '2 kg'; replace 'kg' by a unit that converts to m/s");
   CHECK(speed_error("{from: 1, to: 2, points: 1, spacing: log}")
-        == "f.yaml:3:42: impact.speed.points: must be from 2 to 100000, got '1'; give a value in "
+        == "f.yaml:3:42: impact.speed.points: must be from 2 to 10000, got '1'; give a value in "
            "this "
            "range");
   CHECK(speed_error("{from: 1, to: 2, points: 3, spacing: liner}")

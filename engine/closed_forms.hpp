@@ -1,0 +1,39 @@
+// What is known of a contact without simulating it. SI units.
+//
+// Source: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995), eqs. (4), (5) and the text around them; for the
+// general elastic law the quadrature of the energy integral, e.g. Landau and Lifshitz, Theory of Elasticity, par. 9.
+#pragma once
+
+#include "engine/contact_law.hpp"
+
+namespace riesel {
+
+/// A linear contact of two bodies: k_N in N/m, gamma_N in 1/s, reduced mass in kg.
+struct LinearContact {
+  double k_n, gamma_n, reduced_mass;
+
+  /// Below critical damping two bodies rebound; above they do not, and there is no t_col.
+  bool rebounds() const;
+  /// s, eq. (4); of a contact that rebounds.
+  double collision_time() const;
+  /// e_N = exp(-gamma_N t_col / 2)
+  double restitution() const;
+};
+
+/// 1/s, the gamma_N that gives restitution 0 < e_N <= 1 to a linear contact.
+double damping_for_restitution(double restitution, double k_n, double reduced_mass);
+
+/// s, duration of an undamped head-on contact under F = k xi^alpha that begins with the given speed (m/s).
+/// For alpha = 1 it does not depend on the speed.
+double elastic_collision_time(const ElasticLine& line, double reduced_mass, double speed);
+
+/// m, largest overlap of the same contact: a bound for the damped one.
+double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed);
+
+/// s, how long a head-on contact under `normal` lasts: eq. (4) for the linear law, else the elastic time.
+double collision_time(const NormalLaw& normal, double reduced_mass, double speed);
+
+/// m, chord of a straight passage at the given impact height through a circle of radius `reach`.
+double chord(double reach, double impact_height);
+
+}  // namespace riesel

@@ -1,0 +1,105 @@
+#include "engine/impact.hpp"
+
+#include "engine/simulation.hpp"
+
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace riesel {
+
+namespace {
+
+/// The system looks whether an impact is over every so many steps: what happens meanwhile is free flight.
+constexpr std::int64_t steps_between_looks = 16;
+
+/// An impact is given up after so many collision times, plus the time to cross so many wall grains.
+constexpr double patience_in_collisions = 2000.0;
+constexpr double patience_in_reaches = 50.0;
+
+/// Periodic along y far beyond the grain's reach, so that a single wall grain is alone.
+constexpr double period_in_reaches = 64.0;
+
+State start(const ImpactSetup& setup, const Impact& impact) {
+  const double scale = period_in_reaches * setup.reach();
+  State state;
+  std::int64_t wall_grains = 1;
+  double length = scale;
+  if (!setup.single_wall_grain()) {
+    wall_grains = std::llround(std::ceil(scale / setup.wall_spacing));
+    length = static_cast<double>(wall_grains) * setup.wall_spacing;
+  }
+  state.box = {.width = scale, .length = length};
+  state.walls = {{.line = 0.0, .radius = setup.wall_grain_radius, .count = wall_grains}};
+  state.time_step = setup.time_step;
+  add_grain(state, {.x = impact.x,
+                    .y = impact.y,
+                    .vx = -impact.v_x,
+                    .vy = impact.v_y,
+                    .radius = setup.grain_radius,
+                    .mass = setup.grain_mass});
+  return state;
+}
+
+/// Whether the grain can never touch the wall again.
+bool gone(const ImpactSetup& setup, const State& state, const Grain& grain) {
+  if (!state.contacts.empty()) return false;
+  if (!setup.single_wall_grain()) return grain.x > setup.reach() && grain.vx > 0.0;
+  const double y = state.box.metres_y(state.grains.y[0]);  // relative to the wall grain
+  return grain.x * grain.vx + y * grain.vy > 0.0;
+}
+
+}  // namespace
+
+double just_upstream(const ImpactSetup& setup, double x) {
+  constexpr double gap = 1e-3;  // of the reach: no contact yet
+  const double reach = (1.0 + gap) * setup.reach();
+  return -std::sqrt(reach * reach - x * x);
+}
+
+ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
+  const double speed = std::hypot(impact.v_x, impact.v_y);
+  const double patience = patience_in_collisions * setup.collision_time
+                          + patience_in_reaches * setup.reach() / speed;
+  Simulation simulation(start(setup, impact), setup.model, 1);
+  ImpactEnd end = ImpactEnd::stuck;
+  while (simulation.state().time() < patience) {
+    simulation.advance(steps_between_looks);
+    const Grain grain = grain_at(simulation.state(), 0);
+    if (grain.x < -setup.reach()) {
+      end = ImpactEnd::passed;
+      break;
+    }
+    if (gone(setup, simulation.state(), grain)) {
+      end = ImpactEnd::away;
+      break;
+    }
+  }
+  const Grain grain = grain_at(simulation.state(), 0);
+  const ContactTally& tally = simulation.state().tally.walls;
+  return {.dv_x = grain.vx + impact.v_x,
+          .dv_y = impact.v_y - grain.vy,
+          .contacts = static_cast<double>(tally.begun),
+          .contact_time = tally.duration.value(),
+          .max_overlap = tally.max_overlap,
+          .end = end};
+}
+
+std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector<Impact>& impacts,
+                                     int threads) {
+  std::vector<ImpactResult> results(impacts.size());
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    try {
+      results[i] = follow(setup, impacts[i]);
+    } catch (...) {
+#pragma omp critical
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+}  // namespace riesel

@@ -1,0 +1,39 @@
+// What can be read off a state at one moment. SI units; the same bits for any order of the grains.
+#pragma once
+
+#include "engine/state.hpp"
+
+#include <cstdint>
+
+namespace riesel {
+
+/// Cumulative since step 0 unless said otherwise.
+struct Energies {
+  double kinetic = 0.0;        ///< J, now
+  double elastic = 0.0;        ///< J, stored in contacts now
+  double gravity_work = 0.0;   ///< J, done by gravity
+  double normal_loss = 0.0;    ///< J, dissipated by the normal damping
+  double friction_loss = 0.0;  ///< J, dissipated by friction
+  double residual = 0.0;       ///< J, origin + gravity work - all the rest: the error of the time step
+};
+
+struct Observables {
+  double time = 0.0;                  ///< s
+  double mean_vx = 0.0, mean_vy = 0.0;  ///< m/s, over grains
+  double sigma_vx = 0.0, sigma_vy = 0.0;  ///< m/s, standard deviations over grains
+  double granular_temperature = 0.0;  ///< (m/s)^2, (sigma_vx^2 + sigma_vy^2) / 2
+  Energies energies;
+  double contacts = 0.0;              ///< per grain, now
+  double grain_contacts_begun = 0.0;  ///< cumulative count
+  double wall_contacts_begun = 0.0;   ///< cumulative count
+  double wall_impulse_y = 0.0;        ///< kg m/s, given to the grains by the walls, cumulative
+  double max_overlap = 0.0;           ///< m, over all contacts so far
+  double outside = 0.0;               ///< grains beyond a wall line: gone through the wall, now
+};
+
+/// What the balances of a run start from: to be kept in State::origin at step 0.
+Origin origin_of(const State& state);
+
+Observables observe(const State& state);
+
+}  // namespace riesel

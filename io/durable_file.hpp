@@ -1,0 +1,33 @@
+// Files that survive whatever happens while they are written: a full disk, a kill, a power failure.
+//
+// A file is never changed in place. The new content goes aside to NAME.tmp and to the disk (fsync),
+// and only then takes the name over by a rename, which is atomic. Where the generation before is
+// kept, it first gets a second name, so that the steps are
+//
+//   1. NAME.tmp       written, fsync, close
+//   2. NAME.replaced  hard link to NAME
+//   3. NAME           renamed from NAME.tmp
+//   4. NAME.previous  renamed from NAME.replaced
+//   5. the directory  fsync
+//
+// Between any two of them NAME is a complete generation (once there was one), and so is
+// NAME.previous. In particular the older of the two goes last: should NAME have been damaged on the
+// disk, NAME.previous is the good one and stays until step 4, after NAME has become good.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace riesel::io {
+
+enum class Previous { discard, keep };
+
+/// Replaces `path` by a file with this content; on return it is on the disk. If anything fails, the
+/// old file is still there, NAME.tmp is not, and a FileError is thrown.
+void write_durably(const std::filesystem::path& path, std::string_view content,
+                   Previous previous = Previous::discard);
+
+/// NAME.previous: where the generation before is kept.
+std::filesystem::path previous_generation(const std::filesystem::path& path);
+
+}  // namespace riesel::io

@@ -1,0 +1,32 @@
+// What is wrong with a file or directory, said in a way that lets the user put it right: which one,
+// the problem and the remedy.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace riesel::io {
+
+/// A file or directory that cannot be written, read or trusted. what() is "FILE: problem; remedy",
+/// on one line.
+class FileError : public std::runtime_error {
+public:
+  FileError(std::filesystem::path file, std::string problem, std::string remedy);
+
+  const std::filesystem::path& file() const { return file_; }
+  const std::string& problem() const { return problem_; }
+  const std::string& remedy() const { return remedy_; }
+
+private:
+  std::filesystem::path file_;
+  std::string problem_;
+  std::string remedy_;
+};
+
+/// The error for a system call that failed: the problem is `action` ("cannot be written") and the
+/// system's text for `error_number` (an errno), the remedy follows from the latter.
+FileError system_failure(const std::filesystem::path& file, const std::string& action,
+                         int error_number);
+
+}  // namespace riesel::io

@@ -1,0 +1,29 @@
+// Where a result comes from: the program, its build and libraries, the machine, the command and the
+// settings. Stored in every run file, so that a number can be traced years later.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace riesel::io {
+
+/// Names and values, in the order in which they are worth reading. Texts may have several lines.
+using Provenance = std::vector<std::pair<std::string, std::variant<std::int64_t, std::string>>>;
+
+/// What only the command knows of a run.
+struct RunOrigin {
+  std::vector<std::string> arguments;  ///< argv
+  std::int64_t seed = 0;
+  int threads = 1;
+  std::string source;    ///< the user's settings file, verbatim
+  std::string settings;  ///< the effective settings, YAML
+};
+
+/// The origin, the build, the libraries, the machine, the batch job if any, and the present time
+/// (ISO 8601, UTC). What the system does not tell is "unknown".
+Provenance collect_provenance(const RunOrigin& origin);
+
+}  // namespace riesel::io

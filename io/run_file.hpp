@@ -1,0 +1,85 @@
+// run.h5: the record of a run. Its provenance, the time series of its observables, the final state,
+// and the curve of an impact scenario. Plain HDF5 with units, for whatever reads HDF5.
+//
+// The file is built in memory and written as a whole (write_durably), with each flush. HDF5 files
+// that are changed in place can be lost altogether by a kill or a full disk in the middle of a
+// flush, and a reader has to be locked out. This way the file on the disk is complete at any time,
+// with every row up to the last flush, and can be read while the run goes on. The price is memory
+// and a flush that takes time proportional to all rows (8 bytes per value): flush with each
+// checkpoint, not with each row.
+#pragma once
+
+#include "engine/state.hpp"
+#include "io/provenance.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+/// A column of a table: a data set with the attributes `unit` and `doc`.
+struct Column {
+  std::string name;  ///< the data set's: no slash
+  std::string unit;  ///< "m/s", "1"
+  std::string doc;   ///< one sentence
+};
+
+/// The name of the run file in the directory of a run.
+inline constexpr auto run_file_name = "run.h5";
+
+class RunFile {
+public:
+  /// Creates the file at once, with `provenance` in /provenance and a series of no rows in
+  /// /series/NAME for each column. Throws FileError; in particular if the file exists.
+  static RunFile create(const std::filesystem::path& path, const Provenance& provenance,
+                        const std::vector<Column>& series);
+
+  /// Opens the file for a run that goes on from a checkpoint: forgets all rows but the first
+  /// `rows`, and keeps `provenance` in /provenance/resume_1, /provenance/resume_2, ... The file on
+  /// the disk is not changed before the next flush. Throws FileError; in particular if there are
+  /// fewer rows, or other columns.
+  static RunFile reopen(const std::filesystem::path& path, const Provenance& provenance,
+                        const std::vector<Column>& series, std::int64_t rows);
+
+  ~RunFile();
+  RunFile(RunFile&&) noexcept;
+  RunFile& operator=(RunFile&&) noexcept;
+  RunFile(const RunFile&) = delete;
+  RunFile& operator=(const RunFile&) = delete;
+
+  /// Adds a row to the series, one value for each column in the order given at creation. In memory
+  /// only, see flush().
+  void append(std::span<const double> row);
+
+  /// Rows so far, flushed or not.
+  std::int64_t rows() const;
+
+  /// All rows of the column `name` so far, flushed or not.
+  std::vector<double> series(const std::string& name) const;
+
+  /// Replaces the final state in /final: grains and contacts in SI units, grains in the order of
+  /// their ids, walls.
+  void write_final_state(const State& state);
+
+  /// Replaces the curve: one data set /curve/NAME for each column. Each row has one value for each
+  /// column.
+  void write_curve(const std::vector<Column>& columns,
+                   const std::vector<std::vector<double>>& rows);
+
+  /// Puts all that was written so far on the disk. What was not flushed is lost when the RunFile
+  /// goes. Call it before a checkpoint that counts these rows. Throws FileError; the file on the
+  /// disk is then that of the flush before, and the next flush may succeed.
+  void flush();
+
+private:
+  class Contents;
+  explicit RunFile(std::unique_ptr<Contents> contents);
+
+  std::unique_ptr<Contents> contents_;
+};
+
+}  // namespace riesel::io
