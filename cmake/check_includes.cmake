@@ -13,7 +13,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(engine_rooms     "engine/")
-set(engine_external  "Eigen/" "omp.h" "experimental/simd" "immintrin.h")
+set(engine_external  "Eigen/" "omp.h" "Random123/" "experimental/simd" "immintrin.h")
 set(engine_not       "fstream" "iostream" "filesystem" "cstdio" "print")   # no files, no printing
 
 set(io_rooms         "engine/" "io/")
@@ -21,7 +21,7 @@ set(io_external      "hdf5.h" "yaml-cpp/" "udunits2.h" "nlohmann/" "fmt/" "omp.h
                      "unistd.h" "fcntl.h" "sys/" "sched.h")
 
 set(scenarios_rooms     "engine/" "io/" "scenarios/")
-set(scenarios_external  "Eigen/" "Random123/")
+set(scenarios_external  "Eigen/")
 
 set(app_rooms        "engine/" "io/" "scenarios/" "app/")
 set(app_external     "CLI/" "fmt/" "omp.h" "unistd.h" "sys/")

@@ -16,7 +16,6 @@ struct ImpactSetup {
   double wall_grain_radius;  ///< m
   double wall_spacing;       ///< m; a value <= 0 stands for a single wall grain
   ContactModel model;
-  double time_step;       ///< s
   double collision_time;  ///< s, of a head-on contact: the scale for giving up
 
   double reach() const { return grain_radius + wall_grain_radius; }  ///< m
@@ -28,6 +27,7 @@ struct Impact {
   double x, y;  ///< m
   double v_x;   ///< m/s, towards the wall
   double v_y;   ///< m/s, along it
+  double time_step;  ///< s
 };
 
 enum class ImpactEnd {

@@ -5,13 +5,12 @@
 #include <cstdint>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace riesel::io {
 
-/// Names and values, in the order in which they are worth reading. Texts may have several lines.
-using Provenance = std::vector<std::pair<std::string, std::variant<std::int64_t, std::string>>>;
+/// Names and values, in the order in which they are worth reading. Values may have several lines.
+using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 /// What only the command knows of a run.
 struct RunOrigin {

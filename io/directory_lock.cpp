@@ -1,0 +1,63 @@
+#include "io/directory_lock.hpp"
+
+#include "io/file_error.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <string>
+
+namespace riesel::io {
+namespace {
+
+constexpr auto cannot_be_locked = "the directory cannot be locked";
+
+/// The host too: on a network file system the process may run elsewhere.
+std::string description_of_this_process() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return fmt::format("process {} on {}", getpid(), host.data());
+}
+
+/// What the holder wrote, which may not have come to that yet.
+std::string description_of_holder(int descriptor) {
+  std::array<char, 512> text{};
+  const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
+  if (size <= 0) return "another process";
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
+void describe_holder(int descriptor) {
+  const auto text = description_of_this_process();
+  const bool written = ftruncate(descriptor, 0) == 0
+                       && pwrite(descriptor, text.data(), text.size(), 0) >= 0;
+  static_cast<void>(written);  // it is only a help: the lock holds without (on a full disk, say)
+}
+
+}  // namespace
+
+DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
+    : descriptor_(open((directory / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+    describe_holder(descriptor_);
+    return;
+  }
+  const int error_number = errno;
+  const auto holder = description_of_holder(descriptor_);
+  close(descriptor_);
+  if (error_number != EWOULDBLOCK) {
+    throw system_failure(directory, cannot_be_locked, error_number);
+  }
+  throw FileError(directory, "is in use by " + holder,
+                  "wait until that ends, or choose another directory");
+}
+
+DirectoryLock::~DirectoryLock() { close(descriptor_); }
+
+}  // namespace riesel::io

@@ -1,0 +1,114 @@
+#include "io/durable_file.hpp"
+
+#include "io/file_error.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <utility>
+
+namespace riesel::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto cannot_be_written = "cannot be written";
+
+fs::path with_suffix(fs::path path, const char* suffix) { return path += suffix; }
+
+/// An open file; errors are reported for `path`, whatever the file is called at the moment.
+class Descriptor {
+public:
+  Descriptor(const fs::path& name, int flags, const fs::path& path)
+      : path_(path),
+        descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
+    check(descriptor_);
+  }
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  void write(std::string_view content) {
+    constexpr std::size_t most = std::size_t{1} << 30;  // what Linux takes at once
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), std::min(content.size(), most));
+      if (written < 0 && errno == EINTR) continue;
+      check(written);
+      content.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  void sync() { check(fsync(descriptor_)); }
+
+  /// Network file systems report here what could not be written.
+  void close() { check(::close(std::exchange(descriptor_, -1))); }
+
+private:
+  void check(ssize_t result) const {
+    if (result < 0) throw system_failure(path_, cannot_be_written, errno);
+  }
+
+  const fs::path& path_;
+  int descriptor_;
+};
+
+/// Removes a file when it goes, unless the file has been given its place.
+class Leftover {
+public:
+  explicit Leftover(fs::path path) : path_(std::move(path)) { unlink(path_.c_str()); }
+  ~Leftover() { unlink(path_.c_str()); }
+  Leftover(const Leftover&) = delete;
+  Leftover& operator=(const Leftover&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+private:
+  fs::path path_;
+};
+
+void write_aside(const fs::path& aside, std::string_view content, const fs::path& path) {
+  Descriptor file(aside, O_WRONLY | O_CREAT | O_EXCL, path);
+  file.write(content);
+  file.sync();
+  file.close();
+}
+
+/// Gives the present generation, if there is one, a second name.
+bool link_present(const fs::path& path, const fs::path& second) {
+  if (link(path.c_str(), second.c_str()) == 0) return true;
+  if (errno == ENOENT) return false;
+  throw system_failure(path, "the generation before cannot be kept", errno);
+}
+
+void rename_to(const fs::path& from, const fs::path& to, const fs::path& path) {
+  if (rename(from.c_str(), to.c_str()) != 0) {
+    throw system_failure(path, "cannot be replaced", errno);
+  }
+}
+
+void sync_directory_of(const fs::path& path) {
+  const auto parent = path.parent_path();
+  Descriptor(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY, path).sync();
+}
+
+}  // namespace
+
+void write_durably(const fs::path& path, std::string_view content, Previous previous) {
+  const Leftover aside(with_suffix(path, ".tmp"));
+  const Leftover replaced(with_suffix(path, ".replaced"));
+  write_aside(aside.path(), content, path);
+  const bool keeps = previous == Previous::keep && link_present(path, replaced.path());
+  rename_to(aside.path(), path, path);
+  if (keeps) rename_to(replaced.path(), previous_generation(path), path);
+  sync_directory_of(path);
+}
+
+fs::path previous_generation(const fs::path& path) { return with_suffix(path, ".previous"); }
+
+}  // namespace riesel::io

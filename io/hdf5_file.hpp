@@ -1,0 +1,38 @@
+// HDF5 files, always as a whole in memory: created there, or read into it at once.
+//
+// HDF5 writes in place, and where that fails (a full disk) the library cannot even close the file
+// properly. So it never writes: the finished image of the file goes to write_durably(), which knows
+// how. The format is the classic one, which every HDF5 since 1.8 reads.
+#pragma once
+
+#include "io/hdf5_object.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace riesel::io {
+
+class Hdf5File {
+public:
+  /// An empty file in memory. It begins with a user block of so many bytes, which HDF5 leaves
+  /// alone: 0, or a power of two from 512 on.
+  static Hdf5File create(std::size_t user_block = 0);
+
+  /// Reads the file into memory. What is changed there does not change the file. HDF5's parser is
+  /// not safe with damaged files. Throws Hdf5Error.
+  static Hdf5File open(const std::filesystem::path& path);
+
+  Hdf5Group root() const;
+
+  /// The bytes of the file as it is now; valid until the next call of HDF5. The user block, if any,
+  /// is in front and may be written.
+  std::span<char> image();
+
+private:
+  explicit Hdf5File(Hdf5Handle handle);
+
+  Hdf5Handle handle_;
+};
+
+}  // namespace riesel::io

@@ -1,0 +1,68 @@
+#include "scenarios/contact_settings.hpp"
+
+#include "engine/closed_forms.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace riesel::scenarios {
+
+namespace {
+
+/// The restitution of a system is that of a grain of `grains.mass` with the wall, as in the paper, unless
+/// `restitution_of` says that two such grains are meant.
+double linear_damping(const io::Settings& settings) {
+  settings.require_exactly_one({"contact.damping", "contact.restitution"});
+  if (settings.has("contact.damping")) return settings.number("contact.damping");
+  const bool of_grains = settings.text("contact.restitution_of") == "grains";
+  const double reduced_mass = settings.number("grains.mass") * (of_grains ? 0.5 : 1.0);
+  return damping_for_restitution(settings.number("contact.restitution"),
+                                 settings.number("contact.stiffness"), reduced_mass);
+}
+
+NormalLaw normal_law(const io::Settings& settings) {
+  const std::string& law = settings.text("contact.law");
+  const double stiffness = settings.number("contact.stiffness");
+  if (law == "linear") return LinearLaw{.k_n = stiffness, .gamma_n = linear_damping(settings)};
+  const double damping = settings.number("contact.damping");
+  if (law == "hertz") return HertzKuwabaraKonoLaw{.k = stiffness, .gamma = damping};
+  return PowerLaw{.k = stiffness,
+                  .gamma = damping,
+                  .alpha = settings.number("contact.exponent_elastic"),
+                  .beta = settings.number("contact.exponent_overlap"),
+                  .g = settings.number("contact.exponent_rate")};
+}
+
+SlipLaw slip_law(const io::Settings& settings) {
+  const std::string& slip = settings.text("contact.slip");
+  if (slip == "literal") return LiteralSlip{};
+  if (slip == "viscous") return ViscousSlip{.gamma_t = settings.number("contact.slip_damping")};
+  return CappedSlip{};
+}
+
+}  // namespace
+
+ContactModel contact_model(const io::Settings& settings) {
+  return {.normal = normal_law(settings),
+          .slip = slip_law(settings),
+          .friction = settings.number("contact.friction"),
+          .attraction = settings.text("contact.attraction") == "clip" ? Attraction::clip
+                                                                      : Attraction::keep};
+}
+
+double collision_time(const io::Settings& settings, const ContactModel& model,
+                      double reduced_mass) {
+  if (const auto* linear = std::get_if<LinearLaw>(&model.normal)) {
+    const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass};
+    if (!contact.rebounds())
+      settings.reject("contact.damping", "so much damping that grains do not rebound",
+                      "choose it below 2 sqrt(stiffness / reduced mass)");
+    return contact.collision_time();
+  }
+  return riesel::collision_time(model.normal, reduced_mass,
+                                settings.number("contact.impact_speed"));
+}
+
+double time_step(const io::Settings& settings, double collision_time) {
+  return collision_time / settings.number("run.steps_per_collision");
+}
+
+}  // namespace riesel::scenarios

@@ -1,0 +1,244 @@
+// Many grains fall through a vertical tube with corrugated walls, periodic along the fall: Fig. 6 of
+// Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
+//
+// Started slowly, the grains reach a steady state in which collisions with the walls balance gravity. Started
+// fast, they may reach another one, which the paper shows to be an artefact of soft grains.
+#include "engine/closed_forms.hpp"
+#include "engine/random.hpp"
+#include "scenarios/contact_settings.hpp"
+#include "scenarios/packing.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace riesel::scenarios {
+
+namespace {
+
+using std::numbers::pi;
+
+io::SettingsTable own_settings() {
+  return {
+      {.key = "grains.diameter",
+       .unit = "m",
+       .fallback = "1 mm",
+       .range = io::positive(),
+       .doc = "Mean diameter of the free grains."},
+      {.key = "grains.mass",
+       .unit = "kg",
+       .fallback = "1 mg",
+       .range = io::positive(),
+       .doc = "Mass of a free grain of the mean diameter; others in proportion to their area."},
+      {.key = "grains.polydispersity",
+       .unit = "1",
+       .fallback = "0.05",
+       .range = io::between(0.0, 0.3),
+       .doc = "Relative spread of the diameters: half width of the uniform distribution, standard "
+              "deviation of the truncated normal one."},
+      {.key = "grains.size_distribution",
+       .kind = io::Kind::choice,
+       .fallback = "uniform",
+       .choices = {"uniform", "truncated_normal"},
+       .doc = "Distribution of the diameters; the normal one is cut off at three standard "
+              "deviations."},
+      {.key = "grains.area_fraction",
+       .unit = "1",
+       .fallback = "0.55",
+       .range = io::between(0.001, 0.9),
+       .doc = "Area of the free grains divided by width times length of the tube; met to one grain."},
+      {.key = "wall.grain_diameter",
+       .unit = "m",
+       .fallback = "0.66 mm",
+       .range = io::positive(),
+       .doc = "Diameter of the wall grains, which are fixed."},
+      {.key = "wall.spacing",
+       .unit = "m",
+       .fallback = "1.2 mm",
+       .range = io::positive(),
+       .doc = "Distance between the centres of neighbouring wall grains; adjusted so that a whole "
+              "number of them fits the length."},
+      {.key = "tube.width",
+       .unit = "m",
+       .fallback = "20 mm",
+       .range = io::positive(),
+       .doc = "Distance between the two wall lines, on which the centres of the wall grains stand."},
+      {.key = "tube.length",
+       .unit = "m",
+       .fallback = "100 mm",
+       .range = io::positive(),
+       .doc = "Period of the tube."},
+      {.key = "gravity",
+       .unit = "m/s^2",
+       .fallback = "10 m/s^2",
+       .range = io::non_negative(),
+       .doc = "Acceleration along the tube."},
+      {.key = "start.axial_velocity",
+       .unit = "m/s",
+       .fallback = "1 m/s",
+       .range = io::any(),
+       .doc = "Velocity of the grains' centre of mass at the start."},
+      {.key = "start.random_velocity",
+       .unit = "m/s",
+       .fallback = "0.5 m/s",
+       .range = io::non_negative(),
+       .doc = "Root mean square of each component of the random velocities at the start, which are "
+              "normally distributed; their momenta add up to zero."},
+      {.key = "run.duration",
+       .unit = "s",
+       .required = true,
+       .range = io::positive(),
+       .doc = "Simulated time."},
+      {.key = "output.interval",
+       .unit = "s",
+       .fallback = "1 ms",
+       .range = io::positive(),
+       .doc = "Simulated time between two rows of the time series."},
+      {.key = "output.checkpoint_interval",
+       .unit = "s",
+       .fallback = "60 s",
+       .range = io::positive(),
+       .doc = "Time on the clock between two checkpoints; the results do not depend on it."},
+  };
+}
+
+State empty_tube(const io::Settings& settings) {
+  State state;
+  state.box = {.width = settings.number("tube.width"), .length = settings.number("tube.length")};
+  const double radius = 0.5 * settings.number("wall.grain_diameter");
+  const double spacing = settings.number("wall.spacing");
+  if (spacing > state.box.length)
+    settings.reject("wall.spacing", "wider than the tube is long",
+                    "choose it below tube.length or make the tube longer");
+  const std::int64_t count = std::llround(state.box.length / spacing);
+  state.walls = {{.line = 0.0, .radius = radius, .count = count},
+                 {.line = state.box.width, .radius = radius, .count = count}};
+  state.gravity = settings.number("gravity");
+  return state;
+}
+
+/// Relative to the mean diameter.
+double relative_diameter(const io::Settings& settings, const RandomStream& stream,
+                         std::uint64_t grain) {
+  const double spread = settings.number("grains.polydispersity");
+  if (settings.text("grains.size_distribution") == "uniform")
+    return 1.0 + spread * (2.0 * stream.uniform(grain)[0] - 1.0);
+  for (std::uint32_t draw = 0;; ++draw) {
+    const double deviation = stream.normal(grain, draw)[0];
+    if (std::abs(deviation) <= 3.0) return 1.0 + spread * deviation;
+  }
+}
+
+double largest_relative_diameter(const io::Settings& settings) {
+  const double spread = settings.number("grains.polydispersity");
+  return 1.0 + (settings.text("grains.size_distribution") == "uniform" ? spread : 3.0 * spread);
+}
+
+/// As many grains as bring their area closest to the fraction.
+std::vector<double> draw_radii(const io::Settings& settings, const Box& box) {
+  const RandomStream stream(static_cast<std::uint64_t>(settings.integer("seed")), Use::radius);
+  const double wanted = settings.number("grains.area_fraction") * box.width * box.length;
+  std::vector<double> radii;
+  for (double area = 0.0;;) {
+    const double radius = 0.5 * settings.number("grains.diameter")
+                          * relative_diameter(settings, stream, radii.size());
+    const double next = area + pi * radius * radius;
+    const bool closer_without = next - wanted > wanted - area;
+    if (closer_without && !radii.empty()) return radii;
+    radii.push_back(radius);
+    area = next;
+  }
+}
+
+void reject_what_has_no_room(const io::Settings& settings, const State& empty) {
+  const double largest = settings.number("grains.diameter") * largest_relative_diameter(settings);
+  const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
+  if (free_width < largest)
+    settings.reject("tube.width", "too narrow for the grains between the wall grains",
+                    "choose more than " + std::to_string(largest + empty.box.width - free_width)
+                        + " m");
+  if (empty.box.length < 4.0 * largest)
+    settings.reject("tube.length", "too short for a periodic tube of grains of this size",
+                    "choose at least four grain diameters, " + std::to_string(4.0 * largest) + " m");
+  const double densest = pi / std::sqrt(12.0);  // discs on a triangular lattice
+  const double wanted = settings.number("grains.area_fraction");
+  if (wanted * empty.box.width > densest * free_width)
+    settings.reject("grains.area_fraction", "more than can be packed between the wall grains",
+                    "choose at most " + std::to_string(densest * free_width / empty.box.width)
+                        + ", and less for grains of unequal size");
+}
+
+/// Velocities as set, exactly: that of the centre of mass, and the mean square of the random part.
+void set_velocities(const io::Settings& settings, std::vector<Grain>& grains) {
+  const RandomStream stream(static_cast<std::uint64_t>(settings.integer("seed")), Use::velocity);
+  double mass = 0.0, px = 0.0, py = 0.0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const auto [vx, vy] = stream.normal(i);
+    grains[i].vx = vx;
+    grains[i].vy = vy;
+    mass += grains[i].mass;
+    px += grains[i].mass * vx;
+    py += grains[i].mass * vy;
+  }
+  double squares = 0.0;
+  for (Grain& grain : grains) {
+    grain.vx -= px / mass;
+    grain.vy -= py / mass;
+    squares += grain.vx * grain.vx + grain.vy * grain.vy;
+  }
+  const double rms = std::sqrt(squares / (2.0 * static_cast<double>(grains.size())));
+  const double scale = rms > 0.0 ? settings.number("start.random_velocity") / rms : 0.0;
+  for (Grain& grain : grains) {
+    grain.vx *= scale;
+    grain.vy = scale * grain.vy + settings.number("start.axial_velocity");
+  }
+}
+
+std::vector<Grain> start_grains(const io::Settings& settings, const State& empty) {
+  const std::vector<double> radii = draw_radii(settings, empty.box);
+  const auto places =
+      pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
+  if (!places)
+    settings.reject("grains.area_fraction", "no start without overlaps was found",
+                    "choose a smaller fraction, or grains of more equal size");
+  const double mean_radius = 0.5 * settings.number("grains.diameter");
+  std::vector<Grain> grains(radii.size());
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double relative = radii[i] / mean_radius;
+    grains[i] = {.x = (*places)[i].x,
+                 .y = (*places)[i].y,
+                 .vx = 0.0,
+                 .vy = 0.0,
+                 .radius = radii[i],
+                 .mass = settings.number("grains.mass") * relative * relative};
+  }
+  set_velocities(settings, grains);
+  return grains;
+}
+
+Problem prepare(const io::Settings& settings) {
+  State state = empty_tube(settings);
+  reject_what_has_no_room(settings, state);
+  const ContactModel model = contact_model(settings);
+  const std::vector<Grain> grains = start_grains(settings, state);
+
+  const auto lightest = std::min_element(
+      grains.begin(), grains.end(), [](auto& a, auto& b) { return a.mass < b.mass; });
+  const double shortest = collision_time(settings, model, 0.5 * lightest->mass);
+  state.time_step = time_step(settings, shortest);
+  for (const Grain& grain : grains) add_grain(state, grain);
+  return Flow{.state = std::move(state), .model = model};
+}
+
+}  // namespace
+
+Scenario periodic_tube() {
+  return {.name = "periodic_tube",
+          .summary = "Grains fall through a periodic vertical tube with corrugated walls: steady mean "
+                     "velocity (Fig. 6).",
+          .own_settings = own_settings(),
+          .prepare = prepare};
+}
+
+}  // namespace riesel::scenarios

@@ -1,0 +1,57 @@
+// A scenario turns settings into a problem for the engine. One scenario is one .cpp file, with the .yaml
+// beside it that reproduces a figure of the paper; all of them stand in one table.
+//
+// To add one: write its .cpp with a function that returns its Scenario, declare that function in table.cpp and
+// add it to the table there.
+#pragma once
+
+#include "engine/contact_law.hpp"
+#include "engine/impact.hpp"
+#include "engine/state.hpp"
+#include "io/settings.hpp"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace riesel::scenarios {
+
+/// Many grains, to be stepped for a while and averaged over.
+struct Flow {
+  State state;
+  ContactModel model;
+};
+
+/// Single grains thrown at a wall; each point of the curve is the mean over its starts.
+struct ImpactCurve {
+  struct Point {
+    double v_x, v_y;  ///< m/s
+    std::size_t first_impact, impacts;
+  };
+  ImpactSetup setup;
+  std::vector<Impact> impacts;
+  std::vector<Point> points;
+};
+
+using Problem = std::variant<Flow, ImpactCurve>;
+
+struct Scenario {
+  std::string name;
+  std::string summary;                           ///< one sentence, with the figure it reproduces
+  io::SettingsTable own_settings;                ///< besides the common ones
+  Problem (*prepare)(const io::Settings&);       ///< throws SettingsError for what cannot be
+};
+
+/// All scenarios, in the order in which they are listed to the user.
+const std::vector<Scenario>& all();
+
+/// The scenario with this name, which must exist.
+const Scenario& named(const std::string& name);
+
+/// The settings of each scenario, common rows included: what io::Settings wants.
+const io::SettingsTables& settings_tables();
+
+/// The contact model of a problem: fixed by the settings alone, so that a resumed run finds it again.
+ContactModel contact_model(const io::Settings& settings);
+
+}  // namespace riesel::scenarios

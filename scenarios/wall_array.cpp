@@ -1,0 +1,84 @@
+// One grain hits an endless row of wall grains: Figs. 4 and 5 of Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
+//
+// Means over starting places spread over one wavelength of the wall. At high axial velocity a grain touches two and more
+// wall grains before it leaves, and the loss of axial velocity rises again: the paper's emergency brake.
+#include "engine/closed_forms.hpp"
+#include "scenarios/impact_settings.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace riesel::scenarios {
+
+namespace {
+
+io::SettingsTable own_settings() {
+  io::SettingsTable rows = impact_settings();
+  const io::SettingsTable more = {
+      {.key = "wall.spacing",
+       .unit = "m",
+       .fallback = "0.66 mm",
+       .range = io::positive(),
+       .doc = "Distance between the centres of neighbouring wall grains (the wavelength of the wall)."},
+      {.key = "impact.height",
+       .unit = "m",
+       .range = io::positive(),
+       .doc = "Distance of the free grain's centre from the wall line at the start. By default the sum of "
+              "the radii, where nothing can touch yet."},
+      {.key = "impact.starts",
+       .kind = io::Kind::integer,
+       .fallback = "10",
+       .range = io::between(1, 10000),
+       .doc = "Number of starting places, evenly spread over one spacing of the wall grains."},
+      {.key = "impact.normal_velocity",
+       .kind = io::Kind::numbers,
+       .unit = "m/s",
+       .fallback = "[0.1 m/s, 0.3 m/s, 0.5 m/s]",
+       .range = io::positive(),
+       .doc = "Velocities towards the wall before the impact: one curve each."},
+  };
+  rows.insert(rows.end(), more.begin(), more.end());
+  return rows;
+}
+
+double start_height(const io::Settings& settings, double reach) {
+  if (!settings.has("impact.height")) return reach;
+  const double height = settings.number("impact.height");
+  if (height < reach * (1.0 - 1e-12))
+    settings.reject("impact.height", "the grain would overlap a wall grain at the start",
+                    "choose at least the sum of the two radii, " + std::to_string(reach) + " m");
+  return height;
+}
+
+/// m, the way in the overlap of a grain that sinks in as deep as a head-on impact with v_x would.
+double typical_chord(const ImpactSetup& setup, double v_x) {
+  const double depth = v_x * setup.collision_time / std::numbers::pi;
+  return chord(setup.reach(), std::max(0.0, setup.reach() - depth));
+}
+
+Problem prepare(const io::Settings& settings) {
+  const double spacing = settings.number("wall.spacing");
+  ImpactCurve curve = empty_curve(settings, spacing);
+  const double height = start_height(settings, curve.setup.reach());
+
+  std::vector<double> starts(static_cast<std::size_t>(settings.integer("impact.starts")));
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    starts[i] = static_cast<double>(i) * spacing / static_cast<double>(starts.size());
+
+  for (const double v_x : settings.numbers("impact.normal_velocity"))
+    for (const double v_y : settings.numbers("impact.axial_velocity"))
+      add_point(settings, curve, v_x, v_y, height, starts, typical_chord(curve.setup, v_x));
+  return curve;
+}
+
+}  // namespace
+
+Scenario wall_array() {
+  return {.name = "wall_array",
+          .summary = "A grain hits an endless row of wall grains: loss of axial velocity and number of "
+                     "contacts (Figs. 4 and 5).",
+          .own_settings = own_settings(),
+          .prepare = prepare};
+}
+
+}  // namespace riesel::scenarios
