@@ -16,10 +16,14 @@ if(TARGET riesel)  # BOOTSTRAP
 install(TARGETS riesel RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
 install(TARGETS ${libraries} EXPORT riesel ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+get_property(private_headers GLOBAL PROPERTY RIESEL_PRIVATE_HEADERS)
+foreach(header IN LISTS private_headers)
+  list(APPEND except PATTERN ${header} EXCLUDE)
+endforeach()
 foreach(room IN LISTS rooms)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${room}/"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/riesel/${room}"
-    FILES_MATCHING PATTERN "*.hpp")
+    FILES_MATCHING PATTERN "*.hpp" ${except})
 endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenarios/" DESTINATION "${riesel_scenarios_dir}"
   FILES_MATCHING PATTERN "*.yaml")

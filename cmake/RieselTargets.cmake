@@ -1,7 +1,8 @@
 # How a room of the house becomes a target: warnings, arithmetic, sanitizers, and what a room may
 # include.
 #
-#   riesel_library(engine SOURCES a.cpp ... [PUBLIC targets...] [PRIVATE targets...])
+#   riesel_library(engine SOURCES a.cpp ... [PRIVATE_HEADERS b.hpp ...]
+#                  [PUBLIC targets...] [PRIVATE targets...])
 #   riesel_program(riesel ROOM app SOURCES main.cpp ... LINK targets...)
 #
 # What a room may include (the table in docs/architecture.md) is enforced by the compiler. Includes
@@ -46,7 +47,7 @@ target_compile_options(riesel_warnings INTERFACE
   -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion
   -Wold-style-cast -Wcast-qual -Wcast-align
   -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi
-  -Wformat=2 -Wundef -Wimplicit-fallthrough -Wmissing-declarations
+  -Wformat=2 -Wundef -Wimplicit-fallthrough
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wduplicated-branches -Wlogical-op -Wsuggest-override>
   ${riesel_false_warnings}
   $<$<BOOL:${RIESEL_WERROR}>:-Werror>)
@@ -86,8 +87,9 @@ macro(riesel_bootstrap list folder)
   endif()
 endmacro()
 
+# PRIVATE_HEADERS need libraries that are PRIVATE, and are not installed.
 function(riesel_library room)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRIVATE_HEADERS;PUBLIC;PRIVATE")
   riesel_bootstrap(arg_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/")
   set(target riesel_${room})
   riesel_room_include(${room} include_dir)
@@ -101,6 +103,7 @@ function(riesel_library room)
   riesel_house_rules(${target})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY RIESEL_LIBRARIES ${room})
+  set_property(GLOBAL APPEND PROPERTY RIESEL_PRIVATE_HEADERS ${arg_PRIVATE_HEADERS})
 endfunction()
 
 function(riesel_program target)

@@ -57,7 +57,7 @@ Candidates::Candidates(State& state, int threads)
 }
 
 void Candidates::maintain(State& state, Slice& mine, std::int64_t step) {
-  mine.budget -= largest(slices_, &Slice::fastest);
+  mine.budget -= std::sqrt(largest(slices_, &Slice::fastest2));
   if (mine.budget >= 0.0) return;  // all threads agree: budgets and speeds are the same for all
 
 #pragma omp barrier
@@ -151,11 +151,12 @@ void Candidates::list_received(const Grains& grains, Slice& mine) {
 }
 
 /// Speeds are those of the next drift: with the kick that the next step will add.
-double Candidates::speed(const State& state, std::size_t slot) const {
+double Candidates::squared_speed(const State& state, std::size_t slot) const {
   const Grains& g = state.grains;
   const Fixed uy = wrapped_sum(wrapped_difference(g.uy[slot], drift_y_), g.kick_y[slot]);
-  return std::hypot(state.box.metres_x(wrapped_sum(g.ux[slot], g.kick_x[slot])),
-                    state.box.metres_y(uy));
+  const double vx = state.box.metres_x(wrapped_sum(g.ux[slot], g.kick_x[slot]));
+  const double vy = state.box.metres_y(uy);
+  return vx * vx + vy * vy;
 }
 
 void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t step) const {
@@ -164,7 +165,7 @@ void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t st
   const std::int32_t drift = upper_half(wrapped_sum(wrapped_product(steps, drift_y_),
                                                     wrapped_product(sum_of_steps, fall_)));
   float farthest2 = 0.0F;
-  mine.fastest = 0.0;
+  mine.fastest2 = 0.0;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
     const std::int32_t y = coarse_difference(coarse_.y[i], coarse_when_sorted_.y[i]);
     const float dx =

@@ -35,7 +35,7 @@ class Candidates {
 
   /// Grain `slot` of `mine` has a new velocity: keeps the bound on the speeds.
   void note_speed(const State& state, Slice& mine, std::size_t slot) const {
-    mine.fastest = std::max(mine.fastest, speed(state, slot));
+    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, slot));
   }
 
   /// Contacts of all slices, ordered by name.
@@ -48,7 +48,7 @@ class Candidates {
   void list_near_walls(const State& state, Slice& mine);
   static void list_received(const Grains& grains, Slice& mine);
   void measure_motion(const State& state, Slice& mine, std::int64_t step) const;
-  double speed(const State& state, std::size_t slot) const;
+  double squared_speed(const State& state, std::size_t slot) const;
 
   void give_back(const State& state, const std::vector<Contact>& contacts);
   std::size_t slice_of(std::uint32_t slot) const;

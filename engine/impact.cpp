@@ -82,7 +82,8 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
           .contacts = static_cast<double>(tally.begun),
           .contact_time = tally.duration.value(),
           .max_overlap = tally.max_overlap,
-          .end = end};
+          .end = end,
+          .steps = simulation.state().step};
 }
 
 std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector<Impact>& impacts,

@@ -4,7 +4,7 @@
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
 
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace riesel {
@@ -43,6 +43,7 @@ struct ImpactResult {
   double contact_time;  ///< s, sum of their durations
   double max_overlap;   ///< m
   ImpactEnd end;
+  std::int64_t steps;
 };
 
 /// Follows one impact to its end.

@@ -1,5 +1,8 @@
 #include "engine/pair_search.hpp"
 
+#include "engine/vector_kernel.hpp"
+
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -10,7 +13,7 @@ namespace {
 constexpr std::size_t block = 64;  // pairs tested at a time: their results make one 64-bit word
 
 /// result[p] = 1 where pair p may overlap.
-void test_block(const std::uint32_t* first, const std::uint32_t* second, const float* reach2,
+[[gnu::always_inline]] inline void test_block(const std::uint32_t* first, const std::uint32_t* second, const float* reach2,
                 const std::int32_t* x, const std::int32_t* y, CoarseUnits units, std::size_t count,
                 std::uint8_t* result) {
 #pragma omp simd
@@ -26,6 +29,19 @@ void test_block(const std::uint32_t* first, const std::uint32_t* second, const f
   }
 }
 
+/// Appends the indices of the pairs with a result; most words of results are zero.
+[[gnu::always_inline]] inline void collect(const std::uint8_t* result, std::size_t count,
+                                           std::size_t first_pair,
+                                           std::vector<std::uint32_t>& hits) {
+  for (std::size_t word = 0; word < count; word += sizeof(std::uint64_t)) {
+    std::uint64_t bytes;
+    std::memcpy(&bytes, result + word, sizeof bytes);
+    for (; bytes != 0; bytes &= bytes - 1)
+      hits.push_back(static_cast<std::uint32_t>(
+          first_pair + word + static_cast<std::size_t>(std::countr_zero(bytes)) / 8));
+  }
+}
+
 }  // namespace
 
 float CoarseUnits::generous_square(double reach) const {
@@ -34,17 +50,16 @@ float CoarseUnits::generous_square(double reach) const {
   return static_cast<float>(generous * generous * (1.0 + 1e-6));
 }
 
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
+RIESEL_VECTOR_KERNEL void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
                       CoarseUnits units, std::vector<std::uint32_t>& hits) {
   hits.clear();
   alignas(cache_line) std::uint8_t result[block];
   for (std::size_t p = 0; p < pairs.size(); p += block) {
     const std::size_t count = std::min(block, pairs.size() - p);
+    if (count < block) std::memset(result, 0, block);
     test_block(&pairs.first[p], &pairs.second[p], &pairs.reach2[p], positions.x.data(),
                positions.y.data(), units, count, result);
-    for (std::size_t k = 0; k < count; ++k)
-      if (result[k]) hits.push_back(static_cast<std::uint32_t>(p + k));
+    collect(result, count, p, hits);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/contact_loop.hpp"
 #include "engine/observables.hpp"
+#include "engine/vector_kernel.hpp"
 
 #include <omp.h>
 
@@ -28,6 +29,16 @@ State ready(State state) {
   }
   if (state.step == 0) state.origin = origin_of(state);
   return state;
+}
+
+/// Moves `count` grains by one step along one axis.
+RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, Fixed* position,
+                              std::int32_t* coarse) {
+#pragma omp simd
+  for (std::size_t i = 0; i < count; ++i) {
+    position[i] = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
+    coarse[i] = upper_half(position[i]);
+  }
 }
 
 std::string partners(const ContactName& name) {
@@ -81,13 +92,10 @@ void Simulation::drift(Slice& mine, std::int64_t step) {
     g.ux[kick.slot] = wrapped_sum(g.ux[kick.slot], kick.x);
     g.uy[kick.slot] = wrapped_sum(g.uy[kick.slot], kick.y);
   }
-  const Fixed fallen = wrapped_product(fall_, step);
-  for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    g.x[i] = wrapped_sum(g.x[i], g.ux[i]);
-    g.y[i] = wrapped_sum(g.y[i], wrapped_sum(g.uy[i], fallen));
-    coarse.x[i] = upper_half(g.x[i]);
-    coarse.y[i] = upper_half(g.y[i]);
-  }
+  const std::size_t count = mine.end - mine.begin;
+  fly(count, 0, &g.ux[mine.begin], &g.x[mine.begin], &coarse.x[mine.begin]);
+  fly(count, wrapped_product(fall_, step), &g.uy[mine.begin], &g.y[mine.begin],
+      &coarse.y[mine.begin]);
 #pragma omp master
   state_.step = step;
 }

@@ -58,7 +58,7 @@ struct Slice {
   ContactBook wall_contacts;
   std::vector<Kick> kicks;     ///< of this step, by contacts of the slice on grains of any slice
   std::vector<Kick> received;  ///< of this step, by contacts of any slice on grains of the slice
-  double fastest = 0.0;        ///< m per step, bound on the own grains' speeds relative to the drift
+  double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
   double farthest = 0.0;       ///< m, largest own displacement relative to the drift since the sorting
   double budget = 0.0;         ///< m, displacement that leaves the candidates valid; equal in all slices
 

@@ -1,27 +1,10 @@
 #include "engine/state.hpp"
 
-#include <array>
-#include <bit>
-#include <type_traits>
+#include "engine/hash.hpp"
 
 namespace riesel {
 
 namespace {
-
-/// FNV-1a over the bytes of plain values.
-class Hash {
- public:
-  template <class T>
-  void add(T value) {
-    static_assert(std::is_arithmetic_v<T>);
-    for (const auto byte : std::bit_cast<std::array<unsigned char, sizeof(T)>>(value))
-      hash_ = (hash_ ^ byte) * 0x100000001b3u;
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 void add(Hash& hash, const Grains& g, std::size_t i) {
   for (const auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})

@@ -2,6 +2,7 @@
 
 #include "engine/time_series.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace riesel {
@@ -9,33 +10,42 @@ namespace {
 
 bool is_runaway(const TrendEstimate& trend, double mean, double duration,
                 std::optional<double> free_fall_gain) {
-  const bool doubles_soon = trend.slope * duration >= runaway_fraction * std::abs(mean);
+  const bool gains = trend.slope * duration >= runaway_fraction * std::abs(mean);
   const bool falls = free_fall_gain && trend.slope >= runaway_fraction * *free_fall_gain;
-  return trend.slope > 0.0 && (doubles_soon || falls);
+  return trend.slope > 0.0 && (gains || falls);
 }
 
 // The trend comes first: a fall looks like one long correlation, and would pass for too short.
 SteadyVerdict verdict_on(const MeanEstimate& mean, const TrendEstimate& trend, double duration,
-                         std::optional<double> free_fall_gain) {
+                         bool has_arrived, std::optional<double> free_fall_gain) {
   if (is_significant(trend)) {
     return is_runaway(trend, mean.mean, duration, free_fall_gain) ? SteadyVerdict::accelerating
                                                                   : SteadyVerdict::drifting;
   }
-  if (mean.independent_samples < min_independent_samples) return SteadyVerdict::too_short;
+  if (!has_arrived || mean.independent_samples < min_independent_samples) {
+    return SteadyVerdict::too_short;
+  }
   return SteadyVerdict::steady;
 }
 
 }  // namespace
 
+// MSER weighs the bias of what it keeps against the noise, so that at its cut the bias is as large
+// as the error bar. To cut as much again takes the bias of an exponential approach to its square. A
+// cut too long for that shows a run that has not arrived, where the most is seen of a trend
+// without.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain) {
-  const std::size_t transient = transient_length(velocities);
-  const std::span<const double> settled = velocities.subspan(transient);
+  const std::size_t cut = transient_length(velocities);
+  const bool has_arrived = 5 * cut <= 2 * velocities.size();
+  const std::size_t transient_end = has_arrived ? 2 * cut : cut;
+  const std::span<const double> settled = velocities.subspan(transient_end);
+
   const MeanEstimate mean = estimate_mean(settled);
   const TrendEstimate trend = estimate_trend(settled);
   const auto duration = static_cast<double>(settled.size());
-  return {.verdict = verdict_on(mean, trend, duration, free_fall_gain),
-          .transient_end = transient,
+  return {.verdict = verdict_on(mean, trend, duration, has_arrived, free_fall_gain),
+          .transient_end = transient_end,
           .mean = mean.mean,
           .error = mean.error,
           .autocorrelation_time = mean.autocorrelation_time,
@@ -55,7 +65,7 @@ std::string_view name(SteadyVerdict verdict) {
   case SteadyVerdict::too_short:
     return "too_short";
   }
-  return "too_short";
+  return "unknown";
 }
 
 }  // namespace riesel

@@ -15,7 +15,7 @@ enum class SteadyVerdict {
   steady,        ///< no trend, and long enough to tell: mean and error can be trusted
   accelerating,  ///< runaway: a significant growth that is large by the measures below
   drifting,      ///< a significant trend of either sign that is no runaway
-  too_short  ///< fewer than `min_independent_samples` after the transient, and no trend to be seen
+  too_short      ///< no trend to be seen, but too few independent samples or too long a transient
 };
 
 /// What the series of velocities says. Everything but the first two lines holds for the samples
@@ -37,9 +37,11 @@ inline constexpr double runaway_fraction = 0.1;
 
 /// Judges a series of velocities (positive downstream), sampled at even intervals. `free_fall_gain`
 /// is what a grain in free fall gains per sample interval, g times the interval, in the unit of the
-/// samples. The transient is cut by MSER-5, the rest judged by the estimates of time_series.hpp.
-/// About one in a hundred stationary series is called accelerating or drifting (measured:
-/// docs/statistics.md). std::invalid_argument for a sample that is not finite.
+/// samples. The transient is twice what MSER-5 cuts; a run of which MSER-5 cuts more than two
+/// fifths has not arrived, cannot be steady, and is judged from the single cut on. The rest is
+/// judged by the estimates of time_series.hpp. About one in a hundred stationary series is called
+/// accelerating or drifting (measured: docs/statistics.md). std::invalid_argument for a sample that
+/// is not finite.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain = std::nullopt);
 

@@ -13,22 +13,21 @@
 namespace riesel {
 namespace {
 
-// How many of the slowest cosines measure the noise. More would make the error bar itself less
-// noisy (by 25 % with eight), but reach into frequencies where the spectrum of a short run is no
-// longer flat.
+// How many of the slowest cosines measure the noise. With eight the error bar itself scatters by
+// 25 %; more would reach into frequencies where the spectrum of a short run is no longer flat.
 constexpr std::size_t cosines = 8;
 
 // Student's t for eight degrees of freedom: two-sided 68.27 % and 99 %.
 constexpr double student_68 = 1.06681;
 constexpr double student_99 = 3.35539;
 
-// The error grows by this over the number of independent samples: it pays for the spectrum's fall
-// within the cosines, and for the series whose correlation is missed, which are the ones that pass
-// as long enough. Measured, see docs/statistics.md.
+// The error of a mean grows by this over the number of independent samples. It pays for the fall of
+// the spectrum within the cosines, and for the choice among short series: those whose correlation
+// is underestimated are the ones that pass as long enough. Measured, see docs/statistics.md.
 constexpr double finite_sample_allowance = 6.0;
 
-// Random-walk error: ten blocks have nine steps, whose variance has eight degrees of freedom, as
-// above.
+// The random walk is measured on ten blocks: nine steps, whose variance has eight degrees of
+// freedom.
 constexpr std::size_t blocks = 10;
 
 // The smallest series worth a second look.
@@ -106,7 +105,7 @@ double cosine_coefficient(std::span<const double> deviations, std::size_t k) {
 }
 
 /// Long-run variance: n times the variance of the mean of n samples, which is the spectral density
-/// at frequency zero; read off the cosines `first`, first + 1, ..., `cosines` of them.
+/// at frequency zero. Read off `cosines` of the cosines, from the one numbered `first` upwards.
 double long_run_variance(std::span<const double> deviations, std::size_t first) {
   double sum = 0.0;
   for (std::size_t k = first; k < first + cosines; ++k) {
@@ -116,8 +115,8 @@ double long_run_variance(std::span<const double> deviations, std::size_t first) 
   return sum / static_cast<double>(cosines);
 }
 
-/// Autocorrelation time with Sokal's window, the first lag of at least five exponential times. A
-/// window that would be longer than a fifth of the series ends there.
+/// Autocorrelation time with Sokal's window, which ends at the first lag of five decay times (the
+/// integrated time is two of them), and at a fifth of the series at the latest.
 double windowed_time(std::span<const double> deviations) {
   const std::size_t n = deviations.size();
   const double scale = 1.0 / (power_of(deviations) * static_cast<double>(n));
@@ -131,8 +130,7 @@ double windowed_time(std::span<const double> deviations) {
   return time * (1.0 + bias_of_subtracted_mean);
 }
 
-/// Of deviations from a mean (`first_cosine` 1) or a line (2, as the line has taken the first
-/// cosine).
+/// Of deviations from a mean (`first_cosine` 1) or from a line (2: the line took the first cosine).
 double integrated_time(std::span<const double> deviations, std::size_t first_cosine) {
   const double variance = power_of(deviations);
   if (variance == 0.0) return 1.0;
@@ -147,9 +145,9 @@ std::vector<double> block_means(std::span<const double> series) {
   return means;
 }
 
-/// Error of the least-squares slope of a random walk. The steps between the means of adjacent
-/// blocks of length l have variance 2/3 l w, where w is the walk's variance per sample; the slope
-/// has 6/5 w/n.
+/// Standard error of the slope fitted to a random walk that gains the variance w per sample: w
+/// shows in the steps from block mean to block mean, of variance 2/3 w times the length of a block;
+/// the slope has the variance 6/5 w/n.
 double random_walk_slope_error(std::span<const double> series) {
   const std::vector<double> means = block_means(series);
   std::vector<double> steps(blocks - 1);
@@ -168,8 +166,10 @@ std::size_t transient_length(std::span<const double> series) {
   require_finite(series);
   constexpr std::size_t batch = 5;
   const std::size_t batches = series.size() / batch;
-  double mean = 0.0;  // of the batches kept, and their summed squared deviations: Welford's update
-  double squares = 0.0;  // from the end of the series backwards
+  // Mean and summed squared deviations of the batches kept: Welford's update, from the end
+  // backwards.
+  double mean = 0.0;
+  double squares = 0.0;
   double least = std::numeric_limits<double>::infinity();
   std::size_t cut = 0;
   for (std::size_t kept = 1; kept <= batches; ++kept) {
@@ -198,8 +198,9 @@ double autocorrelation_time(std::span<const double> series) {
 
 MeanEstimate estimate_mean(std::span<const double> series) {
   require_finite(series);
-  if (series.empty())
+  if (series.empty()) {
     return {.mean = 0, .error = 0, .autocorrelation_time = 1, .independent_samples = 0};
+  }
   const auto n = static_cast<double>(series.size());
   const std::vector<double> deviations = deviations_from_mean(series);
   if (series.size() < min_samples) {
@@ -210,10 +211,9 @@ MeanEstimate estimate_mean(std::span<const double> series) {
   }
   const double time = integrated_time(deviations, 1);
   const double independent = n / time;
-  const double error_of_long_series = std::sqrt(long_run_variance(deviations, 1) / n);
+  const double allowance = 1.0 + finite_sample_allowance / independent;
   return {.mean = mean_of(series),
-          .error =
-              student_68 * (1.0 + finite_sample_allowance / independent) * error_of_long_series,
+          .error = student_68 * allowance * std::sqrt(long_run_variance(deviations, 1) / n),
           .autocorrelation_time = time,
           .independent_samples = independent};
 }

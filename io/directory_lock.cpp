@@ -34,8 +34,8 @@ std::string description_of_holder(int descriptor) {
 
 void describe_holder(int descriptor) {
   const auto text = description_of_this_process();
-  const bool written = ftruncate(descriptor, 0) == 0
-                       && pwrite(descriptor, text.data(), text.size(), 0) >= 0;
+  const bool written =
+      ftruncate(descriptor, 0) == 0 && pwrite(descriptor, text.data(), text.size(), 0) >= 0;
   static_cast<void>(written);  // it is only a help: the lock holds without (on a full disk, say)
 }
 

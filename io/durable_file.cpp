@@ -24,8 +24,7 @@ fs::path with_suffix(fs::path path, const char* suffix) { return path += suffix;
 class Descriptor {
 public:
   Descriptor(const fs::path& name, int flags, const fs::path& path)
-      : path_(path),
-        descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
+      : path_(path), descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
     check(descriptor_);
   }
   ~Descriptor() {

@@ -36,15 +36,14 @@ Hdf5File Hdf5File::create(std::size_t user_block) {
   const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
   check_hdf5(H5Pset_userblock(properties.id(), user_block), what);
   const auto access = access_properties();
-  return Hdf5File({H5Fcreate("in memory", H5F_ACC_TRUNC, properties.id(), access.id()), H5Fclose,
-                   what});
+  return Hdf5File(
+      {H5Fcreate("in memory", H5F_ACC_TRUNC, properties.id(), access.id()), H5Fclose, what});
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   silence_hdf5();
   const auto access = access_properties();
-  return Hdf5File(
-      {H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, "open the file"});
+  return Hdf5File({H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, "open the file"});
 }
 
 Hdf5Group Hdf5File::root() const {

@@ -71,9 +71,7 @@ void check_scalar(hid_t space, const std::string& what) {
   }
 }
 
-Hdf5Handle scalar_space() {
-  return {H5Screate(H5S_SCALAR), H5Sclose, "make a scalar"};
-}
+Hdf5Handle scalar_space() { return {H5Screate(H5S_SCALAR), H5Sclose, "make a scalar"}; }
 
 Hdf5Handle open_attribute(hid_t object, const std::string& name, const std::string& what) {
   Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, what);
@@ -115,10 +113,9 @@ Hdf5Handle timeless(const std::string& what) {
 Hdf5Handle creation_properties(const Hdf5Shape& shape, const std::string& what) {
   auto properties = timeless(what);
   if (shape.rows == 0 && !shape.growing) return properties;
-  const std::size_t rows = shape.growing
-                               ? growing_rows_per_chunk
-                               : std::clamp<std::size_t>(values_per_chunk / shape.columns, 1,
-                                                         shape.rows);
+  const std::size_t rows =
+      shape.growing ? growing_rows_per_chunk
+                    : std::clamp<std::size_t>(values_per_chunk / shape.columns, 1, shape.rows);
   const Extent chunk = {rows, shape.columns};
   check_hdf5(H5Pset_chunk(properties.id(), dimensions(shape), chunk.data()), what);
   check_hdf5(H5Pset_fletcher32(properties.id()), what);
@@ -134,8 +131,7 @@ void check_size(std::size_t size, const Hdf5Shape& shape, const std::string& wha
 }  // namespace
 
 Hdf5Object::Hdf5Object(Hdf5Handle handle, std::string path)
-    : handle_(std::move(handle)),
-      path_(std::move(path)) {}
+    : handle_(std::move(handle)), path_(std::move(path)) {}
 
 std::string Hdf5Object::path_of(const std::string& name) const {
   return path_.ends_with('/') ? path_ + name : path_ + '/' + name;
@@ -187,8 +183,8 @@ template <Hdf5Number T>
 void Hdf5Data::write(std::span<const T> values) {
   const auto what = "write the data set " + path();
   check_size(values.size(), shape(), what);
-  check_hdf5(
-      H5Dwrite(id(), TypeOf<T>::native(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+  check_hdf5(H5Dwrite(id(), TypeOf<T>::native(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+             what);
 }
 
 template <Hdf5Number T>
@@ -211,13 +207,13 @@ void Hdf5Data::append(std::span<const T> values) {
   const Extent extent = {old.rows + added.rows, old.columns};
   check_hdf5(H5Dset_extent(id(), extent.data()), what);
   const Hdf5Handle place(H5Dget_space(id()), H5Sclose, what);
-  check_hdf5(H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
-                                 nullptr),
-             what);
+  check_hdf5(
+      H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+      what);
   const auto memory = create_space(added, what);
-  check_hdf5(H5Dwrite(id(), TypeOf<T>::native(), memory.id(), place.id(), H5P_DEFAULT,
-                      values.data()),
-             what);
+  check_hdf5(
+      H5Dwrite(id(), TypeOf<T>::native(), memory.id(), place.id(), H5P_DEFAULT, values.data()),
+      what);
 }
 
 void Hdf5Data::shrink(std::size_t rows) {
@@ -258,9 +254,9 @@ Hdf5Data Hdf5Group::create_data(const std::string& name, const Hdf5Shape& shape)
 }
 
 Hdf5Data Hdf5Group::data(const std::string& name) const {
-  return {{H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,
-           "open the data set " + path_of(name)},
-          path_of(name)};
+  return {
+      {H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose, "open the data set " + path_of(name)},
+      path_of(name)};
 }
 
 void Hdf5Group::write_text(const std::string& name, std::string_view text) {
@@ -271,27 +267,28 @@ void Hdf5Group::write_text(const std::string& name, std::string_view text) {
   const Hdf5Handle data(H5Dcreate2(id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT,
                                    properties.id(), H5P_DEFAULT),
                         H5Dclose, what);
-  check_hdf5(H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes_of(text)),
-             what);
+  check_hdf5(H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes_of(text)), what);
 }
 
-std::string Hdf5Group::read_text(const std::string& name) const {
+std::string Hdf5Group::read_text(const std::string& name, std::size_t most_bytes) const {
   const auto what = "read the text " + path_of(name);
   const Hdf5Handle data(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose, what);
   const Hdf5Handle type(H5Dget_type(data.id()), H5Tclose, what);
   const Hdf5Handle space(H5Dget_space(data.id()), H5Sclose, what);
   check_scalar(space.id(), what);
-  std::string text(text_length(type.id(), what), '\0');
+  const std::size_t length = text_length(type.id(), what);
+  if (length > most_bytes) throw Hdf5Error("cannot " + what + ": it is too long");
+  std::string text(length, '\0');
   check_hdf5(H5Dread(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), what);
   return without_padding(std::move(text));
 }
 
-#define RIESEL_INSTANTIATE(T)                                                                     \
-  template void Hdf5Object::set_attribute<T>(const std::string&, T);                              \
-  template T Hdf5Object::attribute<T>(const std::string&) const;                                  \
-  template void Hdf5Data::write<T>(std::span<const T>);                                           \
-  template void Hdf5Data::read<T>(std::span<T>) const;                                            \
-  template void Hdf5Data::append<T>(std::span<const T>);                                          \
+#define RIESEL_INSTANTIATE(T)                                                                      \
+  template void Hdf5Object::set_attribute<T>(const std::string&, T);                               \
+  template T Hdf5Object::attribute<T>(const std::string&) const;                                   \
+  template void Hdf5Data::write<T>(std::span<const T>);                                            \
+  template void Hdf5Data::read<T>(std::span<T>) const;                                             \
+  template void Hdf5Data::append<T>(std::span<const T>);                                           \
   template Hdf5Data Hdf5Group::create_data<T>(const std::string&, const Hdf5Shape&);
 RIESEL_INSTANTIATE(std::int32_t)
 RIESEL_INSTANTIATE(std::int64_t)

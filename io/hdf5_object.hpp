@@ -19,8 +19,8 @@
 namespace riesel::io {
 
 template <class T>
-concept Hdf5Number = std::same_as<T, std::int32_t> || std::same_as<T, std::int64_t>
-                     || std::same_as<T, std::uint64_t> || std::same_as<T, double>;
+concept Hdf5Number = std::same_as<T, std::int32_t> || std::same_as<T, std::int64_t> || std::same_as<
+    T, std::uint64_t> || std::same_as<T, double>;
 
 /// What groups and data sets have in common: attributes.
 class Hdf5Object {
@@ -86,8 +86,9 @@ public:
   Hdf5Data data(const std::string& name) const;
 
   /// A text of any length, as a data set: a string of fixed length in UTF-8, without checksum.
+  /// A text that claims to be longer than `most_bytes` is not read.
   void write_text(const std::string& name, std::string_view text);
-  std::string read_text(const std::string& name) const;
+  std::string read_text(const std::string& name, std::size_t most_bytes) const;
 
 private:
   friend class Hdf5File;

@@ -160,6 +160,7 @@ void print_power_table(int count) {
   std::puts("| | accelerating | drifting | too short | steady | covered |");
   std::puts("|---|--:|--:|--:|--:|--:|");
   line("free fall from rest, noise 5 % of the last velocity", 0, 0.05, [](double s) { return s; });
+  line("free fall from rest, noise 20 %", 0, 0.2, [](double s) { return s; });
   line("free fall from rest, noise 50 %", 0, 0.5, [](double s) { return s; });
   line("slow fall, mean 1, gain 0.3, noise 5 %", 0, 0.05, [](double s) { return 0.85 + 0.3 * s; });
   line("approach 1 - exp(-t/T), noise 0.1 %, seen for 1 T", 0, 0.001, approach(1));
@@ -167,8 +168,10 @@ void print_power_table(int count) {
   line("approach, noise 5 %, seen for 2 T", 0, 0.05, approach(2));
   line("approach, noise 5 %, seen for 3 T", 0, 0.05, approach(3));
   line("approach, noise 5 %, seen for 5 T", 1, 0.05, approach(5));
+  line("approach, noise 5 %, seen for 7 T", 1, 0.05, approach(7));
   line("approach, noise 5 %, seen for 10 T", 1, 0.05, approach(10));
   line("approach, noise 1 %, seen for 10 T", 1, 0.01, approach(10));
+  line("approach, noise 1 %, seen for 15 T", 1, 0.01, approach(15));
   line("approach, noise 5 %, seen for 30 T", 1, 0.05, approach(30));
   line("decay 1 + 2 exp(-t/T), noise 5 %, seen for 2 T", 0, 0.05,
        [](double s) { return 1.0 + 2.0 * std::exp(-2.0 * s); });

@@ -1,0 +1,184 @@
+// riesel check: what a settings file means, before hours are spent on it.
+#include "app/commands.hpp"
+#include "app/exit_status.hpp"
+#include "engine/closed_forms.hpp"
+#include "engine/simulation.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace riesel::app {
+
+namespace {
+
+template <class... Parts>
+void line(const char* what, fmt::format_string<Parts...> format, Parts&&... parts) {
+  fmt::print("  {:<22}{}\n", what, fmt::format(format, std::forward<Parts>(parts)...));
+}
+
+template <class... Parts>
+void warn(fmt::format_string<Parts...> format, Parts&&... parts) {
+  fmt::print("  warning: {}\n", fmt::format(format, std::forward<Parts>(parts)...));
+}
+
+/// A head-on contact of the kind that a system has.
+struct Pair {
+  double reduced_mass;  // kg
+  double speed;         // m/s, the fastest to be expected
+};
+
+/// t_col and e_N, the latter in closed form for the linear law only.
+void print_contact(const char* what, const NormalLaw& normal, const Pair& pair) {
+  const double t_col = collision_time(normal, pair.reduced_mass, pair.speed);
+  if (const auto* linear = std::get_if<LinearLaw>(&normal)) {
+    const LinearContact contact{linear->k_n, linear->gamma_n, pair.reduced_mass};
+    line(what, "t_col = {:.4g} s, e_N = {:.4f}", t_col, contact.restitution());
+  } else {
+    line(what, "t_col = {:.4g} s at {:.3g} m/s", t_col, pair.speed);
+  }
+}
+
+void warn_of_overlap(const NormalLaw& normal, const Pair& pair, double diameter) {
+  const double overlap = std::visit(
+      [&](const auto& law) {
+        return elastic_max_overlap(law.elastic_line(), pair.reduced_mass, pair.speed);
+      },
+      normal);
+  line("expected overlap", "up to {:.2g} m, {:.2g} % of the diameter, in an impact of {:.3g} m/s",
+       overlap, 100.0 * overlap / diameter, pair.speed);
+  if (overlap > 0.01 * diameter)
+    warn("overlaps over 1 % of the diameter are to be expected; raise contact.stiffness by a factor "
+         "{:.2g}", std::pow(overlap / (0.01 * diameter), 2.0));
+}
+
+void warn_of_time_step(const io::Settings& settings) {
+  const double steps = settings.number("run.steps_per_collision");
+  if (steps < 20.0)
+    warn("{:.3g} steps per collision are few: errors grow with the square of the step; 50 keep them "
+         "at 1e-4", steps);
+}
+
+double memory_in_use() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024.0;
+}
+
+/// Particle-steps per second, from a few real steps.
+double measured_speed(const scenarios::Flow& flow, int threads) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double enough_seconds = 0.3;
+  Simulation simulation(flow.state, flow.model, threads);
+  simulation.advance(10);  // caches and threads warm up
+  const auto start = Clock::now();
+  std::int64_t steps = 0;
+  double seconds = 0.0;
+  for (std::int64_t chunk = 10; seconds < enough_seconds; chunk *= 2) {
+    simulation.advance(chunk);
+    steps += chunk;
+    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  }
+  return static_cast<double>(flow.state.grains.size()) * static_cast<double>(steps) / seconds;
+}
+
+std::string readable_time(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+  if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+void print_critical_velocity(double chord_length, double t_col, double fastest) {
+  const double v_crit = chord_length / t_col;
+  line("v_crit", "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col)", v_crit, chord_length);
+  if (fastest > v_crit)
+    warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the contact "
+         "can push them away (brake failure)", fastest);
+}
+
+void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
+  const State& state = flow.state;
+  const Grains& grains = state.grains;
+  const auto n = static_cast<double>(grains.size());
+  const double mass = settings.number("grains.mass");
+  const double diameter = settings.number("grains.diameter");
+  const double random = settings.number("start.random_velocity");
+  const double axial = settings.number("start.axial_velocity");
+  // Two grains of a normal distribution rarely meet at more than four standard deviations of each.
+  const double fastest = std::max({4.0 * std::numbers::sqrt2 * random, std::abs(axial), 1e-3});
+
+  double area = 0.0;
+  for (const double radius : grains.radius) area += std::numbers::pi * radius * radius;
+  line("grains", "{}, area fraction {:.4f}", grains.size(),
+       area / (state.box.width * state.box.length));
+  line("wall grains", "{} per wall, spacing {:.6g} m", state.walls.front().count,
+       state.walls.front().spacing(state.box));
+  print_contact("grain and grain", flow.model.normal, {0.5 * mass, fastest});
+  print_contact("grain and wall", flow.model.normal, {mass, fastest});
+  line("time step", "{:.4g} s", state.time_step);
+  warn_of_time_step(settings);
+  warn_of_overlap(flow.model.normal, {0.5 * mass, fastest}, diameter);
+
+  const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
+  const double depth = random * t_col / std::numbers::pi;
+  const double reach = 0.5 * diameter + state.walls.front().radius;
+  print_critical_velocity(chord(reach, reach - depth), t_col, std::abs(axial));
+
+  const double steps = std::ceil(settings.number("run.duration") / state.time_step);
+  const auto wanted = settings.integer_or_auto("run.threads");
+  const int threads = wanted ? static_cast<int>(*wanted) : useful_threads(grains.size());
+  const double speed = measured_speed(flow, threads);
+  line("steps", "{:.0f}", steps);
+  line("expected time", "{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
+       readable_time(n * steps / speed), threads, threads == 1 ? "" : "s", speed / 1e6);
+  line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
+}
+
+void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve) {
+  const ImpactSetup& setup = curve.setup;
+  double fastest_normal = 0.0, fastest = 0.0, slowest = 1e300, shortest_step = 1e300;
+  for (const Impact& impact : curve.impacts) {
+    fastest_normal = std::max(fastest_normal, impact.v_x);
+    fastest = std::max(fastest, impact.v_y);
+    slowest = std::min(slowest, impact.v_y);
+    shortest_step = std::min(shortest_step, impact.time_step);
+  }
+  line("impacts", "{} in {} points, v_y = {:.3g} ... {:.3g} m/s", curve.impacts.size(),
+       curve.points.size(), slowest, fastest);
+  const double speed = std::max(fastest_normal, slowest);
+  print_contact("grain and wall", setup.model.normal, {setup.grain_mass, speed});
+  line("time step", "{:.4g} s, down to {:.3g} s where passages are short",
+       setup.collision_time / settings.number("run.steps_per_collision"), shortest_step);
+  warn_of_time_step(settings);
+  if (fastest_normal > 0.0)
+    warn_of_overlap(setup.model.normal, {setup.grain_mass, fastest_normal},
+                    2.0 * setup.grain_radius);
+  const double height = setup.single_wall_grain() ? curve.impacts.front().x
+                                                  : setup.reach()
+                                                        - fastest_normal * setup.collision_time
+                                                              / std::numbers::pi;
+  line("v_crit", "{:.3g} m/s: above it a grain passes a wall grain sooner than t_col",
+       chord(setup.reach(), height) / setup.collision_time);
+}
+
+}  // namespace
+
+int check(const CheckOptions& options) {
+  const auto settings = io::Settings::from_file(options.file, scenarios::settings_tables(),
+                                                options.overrides);
+  const scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  fmt::print("{}: {}\n", options.file.string(), settings.scenario());
+  if (const auto* flow = std::get_if<scenarios::Flow>(&problem))
+    check_flow(settings, *flow);
+  else
+    check_curve(settings, std::get<scenarios::ImpactCurve>(problem));
+  return exit_done;
+}
+
+}  // namespace riesel::app

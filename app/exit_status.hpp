@@ -1,0 +1,10 @@
+// What the program returns to the shell. An interrupted run returns 128 + the signal.
+#pragma once
+
+namespace riesel::app {
+
+inline constexpr int exit_done = 0;
+inline constexpr int exit_failed = 1;     ///< the run failed
+inline constexpr int exit_bad_input = 2;  ///< settings or usage
+
+}  // namespace riesel::app

@@ -1,0 +1,124 @@
+// The command riesel: reads the command line, calls a subcommand, turns errors into messages and exit status.
+#include "app/commands.hpp"
+#include "app/exit_status.hpp"
+#include "app/interrupt.hpp"
+#include "engine/simulation.hpp"
+#include "io/build_info.hpp"
+#include "io/file_error.hpp"
+#include "io/settings_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <exception>
+#include <functional>
+#include <new>
+#include <string>
+
+namespace {
+
+using namespace riesel;
+
+std::string version_text() {
+  const BuildInfo& build = build_info();
+  return fmt::format("riesel {} ({}{}, {}, {})", build.version, build.git_commit,
+                     build.git_dirty ? ", changed" : "", build.compiler, build.build_type);
+}
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "Change a setting: key.path=value; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void add_threads(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option_function<std::string>(
+      "--threads", [&](const std::string& n) { overrides.push_back("run.threads=" + n); },
+      "Number of threads, or 'auto'; the results do not depend on it");
+}
+
+/// What the command line says: the subcommand, ready to be called, and its options.
+class CommandLine {
+ public:
+  CommandLine(int argc, char** argv) : arguments_(argv, argv + argc) {
+    program_.set_version_flag("--version", version_text());
+    program_.require_subcommand(1);
+    add_run();
+    add_resume();
+    add_check();
+    program_.add_subcommand("scenarios", "List the scenarios")->callback([this] {
+      command_ = app::list_scenarios;
+    });
+  }
+
+  CLI::App& program() { return program_; }
+  const std::function<int()>& command() const { return command_; }
+
+ private:
+  void add_run() {
+    CLI::App* run = program_.add_subcommand("run", "Run a settings file");
+    run->add_option("FILE", run_.file, "Settings in YAML")->required();
+    run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]");
+    add_overrides(*run, run_.overrides);
+    add_threads(*run, run_.overrides);
+    run->callback([this] { command_ = [this] { return app::run(run_, arguments_); }; });
+  }
+
+  void add_resume() {
+    CLI::App* resume = program_.add_subcommand("resume", "Go on with a run from its last checkpoint");
+    resume->add_option("DIR", resume_.checkpoint, "Directory of the run, or its checkpoint.h5")
+        ->required();
+    add_overrides(*resume, resume_.overrides);
+    add_threads(*resume, resume_.overrides);
+    resume->callback([this] { command_ = [this] { return app::resume(resume_, arguments_); }; });
+  }
+
+  void add_check() {
+    CLI::App* check = program_.add_subcommand(
+        "check", "Validate a settings file and tell what it means: t_col, e_N, time step, cost");
+    check->add_option("FILE", check_.file, "Settings in YAML")->required();
+    add_overrides(*check, check_.overrides);
+    add_threads(*check, check_.overrides);
+    check->callback([this] { command_ = [this] { return app::check(check_); }; });
+  }
+
+  const app::Arguments arguments_;
+  CLI::App program_{"riesel: molecular dynamics of rapid granular flow", "riesel"};
+  app::RunOptions run_;
+  app::ResumeOptions resume_;
+  app::CheckOptions check_;
+  std::function<int()> command_;
+};
+
+int fail(int status, const std::string& message) {
+  fmt::print(stderr, "riesel: {}\n", message);
+  return status;
+}
+
+int call(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const io::SettingsError& error) {
+    return fail(app::exit_bad_input, error.what());
+  } catch (const app::UnusableInput& error) {
+    return fail(app::exit_bad_input, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(app::exit_failed, "out of memory; choose fewer grains");
+  } catch (const std::exception& error) {
+    return fail(app::exit_failed, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CommandLine line(argc, argv);
+  try {
+    line.program().parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_text = line.program().exit(error) == 0;
+    return asked_for_text ? app::exit_done : app::exit_bad_input;
+  }
+  app::catch_interrupts();
+  return call(line.command());
+}

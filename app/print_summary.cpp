@@ -1,0 +1,55 @@
+#include "app/print_summary.hpp"
+
+#include <fmt/core.h>
+
+namespace riesel::app {
+
+namespace {
+
+std::string explanation(const std::string& state) {
+  if (state == "steady") return "no trend after the transient";
+  if (state == "accelerating") return "the grains still gain speed: the mean is no steady velocity";
+  if (state == "drifting") return "there still is a trend: the mean is no steady velocity";
+  return "too few independent samples for a steady mean";
+}
+
+void print_common(const io::RunSummary& run, const std::filesystem::path& directory) {
+  fmt::print("  {:<22}{:.1f} million particle-steps/s on {} thread{} ({:.1f} s)\n", "speed",
+             run.particle_steps_per_second / 1e6, run.threads, run.threads == 1 ? "" : "s",
+             run.wall_seconds);
+  fmt::print("  {:<22}{:016x}\n", "state hash", run.state_hash);
+  fmt::print("  {:<22}{}/summary.json, run.h5, effective.yaml\n", "files", directory.string());
+}
+
+}  // namespace
+
+void print_summary(const io::FlowSummary& s, const std::filesystem::path& directory) {
+  fmt::print("{}: {} grains, {:.6g} s in {} steps\n", s.run.scenario, s.run.grains, s.time,
+             s.run.steps);
+  fmt::print("  {:<22}{:.5g} +- {:.2g} m/s (after {:.3g} s)\n", "mean axial velocity",
+             s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
+  fmt::print("  {:<22}{}: {}\n", "state", s.state, explanation(s.state));
+  fmt::print("  {:<22}{:.4g} m^2/s^2\n", "granular temperature", s.granular_temperature);
+  fmt::print("  {:<22}{:.4g} 1/s x {:.4g} m/s = {:.4g} m/s^2, gravity {:.4g} m/s^2\n",
+             "wall collisions", s.balance.n_dot, s.balance.dv_y, s.balance.n_dot_dv_y,
+             s.balance.gravity);
+  fmt::print("  {:<22}{:.2g} of the work of gravity\n", "energy residual",
+             s.energy.gravity_work != 0.0 ? s.energy.residual / s.energy.gravity_work : 0.0);
+  fmt::print("  {:<22}{:.2g} of the mean grain diameter\n", "largest overlap",
+             s.validity.max_overlap_ratio);
+  print_common(s.run, directory);
+}
+
+void print_summary(const io::CurveSummary& s, const std::filesystem::path& directory) {
+  int passed = 0, stuck = 0;
+  for (const io::CurvePoint& point : s.curve) {
+    passed += point.passed;
+    stuck += point.stuck;
+  }
+  fmt::print("{}: {} points\n", s.run.scenario, s.curve.size());
+  if (passed > 0) fmt::print("  {:<22}{} impacts, left out of the means\n", "through the wall", passed);
+  if (stuck > 0) fmt::print("  {:<22}{} impacts, left out of the means\n", "stuck at the wall", stuck);
+  print_common(s.run, directory);
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,51 @@
+#include "app/progress.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace riesel::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto between_updates_of_a_line = 200ms;
+constexpr auto between_lines = 10s;
+
+}  // namespace
+
+Progress::Progress()
+    : terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), last_shown_(start_) {}
+
+std::string Progress::time_left(double done) const {
+  const double progress = done - done_at_start_;
+  if (progress <= 0.0) return "--:--:--";
+  const std::chrono::duration<double> spent = Clock::now() - start_;
+  const auto left = std::chrono::duration_cast<std::chrono::seconds>(spent * (1.0 - done) / progress);
+  return fmt::format("{:%H:%M:%S}", left);
+}
+
+void Progress::show(double done, const std::string& text) {
+  if (done_at_start_ < 0.0) done_at_start_ = done;
+  const auto now = Clock::now();
+  if (now - last_shown_ < (terminal_ ? Clock::duration(between_updates_of_a_line) : between_lines))
+    return;
+  last_shown_ = now;
+  const std::string line = fmt::format("{:5.1f} %  {}  {} left", 100.0 * done, text, time_left(done));
+  if (terminal_)
+    fmt::print(stderr, "\r{:<79}", line);
+  else
+    fmt::print(stderr, "{}\n", line);
+  std::fflush(stderr);
+  line_open_ = terminal_;
+}
+
+void Progress::finish() {
+  if (line_open_) fmt::print(stderr, "\n");
+  line_open_ = false;
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,20 @@
+#include "app/commands.hpp"
+#include "app/run_curve.hpp"
+#include "app/run_flow.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace riesel::app {
+
+int run(const RunOptions& options, const Arguments& arguments) {
+  const auto settings = io::Settings::from_file(options.file, scenarios::settings_tables(),
+                                                options.overrides);
+  scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  RunDirectory directory = RunDirectory::create(
+      options.directory.value_or("runs" / options.file.stem()), settings);
+
+  if (auto* flow = std::get_if<scenarios::Flow>(&problem))
+    return run_flow(settings, std::move(*flow), std::move(directory), arguments);
+  return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments);
+}
+
+}  // namespace riesel::app

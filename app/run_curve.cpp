@@ -1,0 +1,110 @@
+#include "app/run_curve.hpp"
+
+#include "app/exit_status.hpp"
+#include "app/print_summary.hpp"
+#include "engine/hash.hpp"
+#include "io/durable_file.hpp"
+#include "io/run_file.hpp"
+#include "io/summary.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <span>
+
+namespace riesel::app {
+
+namespace {
+
+/// Mean over the impacts that went away from the wall; the others are counted.
+io::CurvePoint average(const scenarios::ImpactCurve::Point& point,
+                       std::span<const ImpactResult> results) {
+  io::CurvePoint mean{.v_x = point.v_x, .v_y = point.v_y};
+  int away = 0;
+  for (const ImpactResult& r : results) {
+    if (r.end == ImpactEnd::passed) ++mean.passed;
+    if (r.end == ImpactEnd::stuck) ++mean.stuck;
+    if (r.end != ImpactEnd::away) continue;
+    ++away;
+    mean.dv_x += r.dv_x;
+    mean.dv_y += r.dv_y;
+    mean.contacts += r.contacts;
+    mean.contact_time += r.contact_time;
+    mean.max_overlap += r.max_overlap;
+  }
+  for (double* value : {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time, &mean.max_overlap})
+    *value /= std::max(away, 1);
+  return mean;
+}
+
+void write_curve(io::RunFile& file, const std::vector<io::CurvePoint>& curve) {
+  std::vector<std::vector<double>> rows;
+  for (const io::CurvePoint& p : curve)
+    rows.push_back({p.v_x, p.v_y, p.dv_x, p.dv_y, p.contacts, p.contact_time, p.max_overlap,
+                    static_cast<double>(p.passed), static_cast<double>(p.stuck)});
+  file.write_curve({{"v_x", "m/s", "Velocity towards the wall before the impact."},
+                    {"v_y", "m/s", "Axial velocity before the impact."},
+                    {"dv_x", "m/s", "Velocity away from the wall after the impact plus v_x."},
+                    {"dv_y", "m/s", "Loss of axial velocity."},
+                    {"contacts", "1", "Number of contacts begun."},
+                    {"contact_time", "s", "Sum of the durations of the contacts."},
+                    {"max_overlap", "m", "Largest overlap."},
+                    {"passed", "1", "Starts that went through the wall; not in the means."},
+                    {"stuck", "1", "Starts that were given up; not in the means."}},
+                   rows);
+}
+
+std::uint64_t hash_of(const std::vector<ImpactResult>& results) {
+  Hash hash;
+  for (const ImpactResult& r : results) {
+    for (const double value : {r.dv_x, r.dv_y, r.contacts, r.contact_time, r.max_overlap})
+      hash.add(value);
+    hash.add(r.steps);
+  }
+  return hash.value();
+}
+
+}  // namespace
+
+int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
+              const RunDirectory& directory, const Arguments& arguments) {
+  using Clock = std::chrono::steady_clock;
+  const auto wanted = settings.integer_or_auto("run.threads");
+  const int threads = wanted ? static_cast<int>(*wanted) : omp_get_max_threads();
+  io::RunFile file = io::RunFile::create(
+      directory.file(io::run_file_name),
+      io::collect_provenance({.arguments = arguments,
+                              .seed = settings.integer("seed"),
+                              .threads = threads,
+                              .source = settings.source_text(),
+                              .settings = settings.effective_yaml()}),
+      {});
+
+  const auto start = Clock::now();
+  const std::vector<ImpactResult> results = follow_all(curve.setup, curve.impacts, threads);
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+
+  io::CurveSummary summary;
+  for (const auto& point : curve.points)
+    summary.curve.push_back(
+        average(point, std::span(results).subspan(point.first_impact, point.impacts)));
+  const std::int64_t steps =
+      std::accumulate(results.begin(), results.end(), std::int64_t{0},
+                      [](std::int64_t sum, const ImpactResult& r) { return sum + r.steps; });
+  summary.run = {.scenario = settings.scenario(),
+                 .grains = 1,
+                 .steps = steps,
+                 .state_hash = hash_of(results),
+                 .wall_seconds = seconds,
+                 .particle_steps_per_second = static_cast<double>(steps) / seconds,
+                 .threads = threads};
+  write_curve(file, summary.curve);
+  file.flush();
+  io::write_durably(directory.file(io::summary_name), io::to_json(summary));
+  print_summary(summary, directory.path());
+  return exit_done;
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,33 @@
+#include "app/run_directory.hpp"
+
+#include "app/commands.hpp"
+#include "io/durable_file.hpp"
+#include "io/file_error.hpp"
+#include "io/run_file.hpp"
+#include "io/summary.hpp"
+
+namespace riesel::app {
+
+namespace fs = std::filesystem;
+
+RunDirectory::RunDirectory(const fs::path& path, const io::Settings& settings)
+    : path_(path), lock_(std::make_unique<io::DirectoryLock>(path)) {
+  io::write_durably(file(io::effective_settings_name), settings.effective_yaml());
+}
+
+RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
+  if (fs::exists(path / io::run_file_name))
+    throw UnusableInput(path.string()
+                        + ": holds a run already; choose another directory with --out, or go on with "
+                          "that run by 'riesel resume'");
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw io::system_failure(path, "cannot be made", error.value());
+  return {path, settings};
+}
+
+RunDirectory RunDirectory::reopen(const fs::path& path, const io::Settings& settings) {
+  return {path, settings};
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,35 @@
+// The directory of a run: what is in it, and that no two processes write to it.
+#pragma once
+
+#include "io/directory_lock.hpp"
+#include "io/settings.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace riesel::app {
+
+/// How the program was called, for the provenance.
+using Arguments = std::vector<std::string>;
+
+class RunDirectory {
+ public:
+  /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run in it already,
+  /// io::FileError if it cannot be written.
+  static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
+  /// The directory of a run that goes on.
+  static RunDirectory reopen(const std::filesystem::path& path, const io::Settings& settings);
+
+  std::filesystem::path file(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  RunDirectory(const std::filesystem::path& path, const io::Settings& settings);
+
+  std::filesystem::path path_;
+  std::unique_ptr<io::DirectoryLock> lock_;
+};
+
+}  // namespace riesel::app

@@ -1,0 +1,209 @@
+#include "app/run_flow.hpp"
+
+#include "app/exit_status.hpp"
+#include "app/flow_summary.hpp"
+#include "app/interrupt.hpp"
+#include "app/print_summary.hpp"
+#include "app/progress.hpp"
+#include "app/series.hpp"
+#include "engine/simulation.hpp"
+#include "io/durable_file.hpp"
+#include "io/run_file.hpp"
+#include "io/summary.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace riesel::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+int threads_for(const io::Settings& settings, std::size_t grains) {
+  const auto wanted = settings.integer_or_auto("run.threads");
+  return wanted ? static_cast<int>(*wanted) : useful_threads(grains);
+}
+
+/// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the same rhythm.
+struct Schedule {
+  Schedule(const io::Settings& settings, double time_step)
+      : last_step(std::llround(std::ceil(settings.number("run.duration") / time_step - 1e-9))),
+        steps_per_row(std::max<std::int64_t>(
+            1, std::llround(settings.number("output.interval") / time_step))),
+        seconds_between_checkpoints(settings.number("output.checkpoint_interval")) {}
+
+  std::int64_t next_row(std::int64_t step) const {
+    return (step / steps_per_row + 1) * steps_per_row;
+  }
+
+  std::int64_t last_step;
+  std::int64_t steps_per_row;
+  double seconds_between_checkpoints;  // on the clock
+};
+
+/// What a run that goes on has behind it.
+struct Past {
+  std::string source;  // the user's settings file, verbatim
+  std::int64_t rows = 0;
+  double wall_seconds = 0.0;
+};
+
+class FlowRun {
+ public:
+  FlowRun(const io::Settings& settings, const ContactModel& model, State state,
+          RunDirectory directory, const Arguments& arguments, const Past& past)
+      : settings_(settings), past_(past), directory_(std::move(directory)),
+        schedule_(settings, state.time_step), threads_(threads_for(settings, state.grains.size())),
+        simulation_(std::move(state), model, threads_),
+        file_(open(arguments)), first_step_(simulation_.state().step) {}
+
+  int run() {
+    start_ = last_checkpoint_ = Clock::now();
+    if (file_.rows() == 0) add_row();
+    try {
+      while (simulation_.state().step < schedule_.last_step && interrupting_signal() == 0) advance();
+    } catch (const RunFailure& failure) {
+      return fail(failure);
+    }
+    progress_.finish();
+    save();
+    return interrupting_signal() != 0 ? tell_interruption() : tell_result();
+  }
+
+ private:
+  io::RunFile open(const Arguments& arguments) const {
+    const io::Provenance provenance = io::collect_provenance(
+        {.arguments = arguments,
+         .seed = settings_.integer("seed"),
+         .threads = threads_,
+         .source = past_.source,
+         .settings = settings_.effective_yaml()});
+    const auto path = directory_.file(io::run_file_name);
+    return past_.rows == 0 ? io::RunFile::create(path, provenance, series_columns())
+                     : io::RunFile::reopen(path, provenance, series_columns(), past_.rows);
+  }
+
+  /// To the next row, or a part of the way in a large system, so that signals and the clock are heeded in time.
+  void advance() {
+    constexpr double particle_steps = 2e7;  // about a quarter of a second
+    const State& state = simulation_.state();
+    const auto patience = static_cast<std::int64_t>(
+        std::ceil(particle_steps / static_cast<double>(state.grains.size())));
+    const std::int64_t goal = std::min(schedule_.next_row(state.step), schedule_.last_step);
+    simulation_.advance(std::min(goal - state.step, patience));
+    if (state.step % schedule_.steps_per_row == 0) add_row();
+    if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
+    progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
+                   fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s", state.time(), last_.mean_vy));
+  }
+
+  void add_row() {
+    last_ = observe(simulation_.state());
+    file_.append(series_row(last_));
+    if (last_.outside > 0.0)
+      throw RunFailure(fmt::format(
+          "{:.0f} grains have gone through a wall at t = {:.6g} s: the contacts are too soft for "
+          "these velocities; raise contact.stiffness",
+          last_.outside, last_.time));
+  }
+
+  /// The series first: the checkpoint counts its rows.
+  void save() {
+    file_.write_final_state(simulation_.state());
+    file_.flush();
+    io::write_checkpoint(directory_.file(io::checkpoint_name),
+                         {.state = simulation_.state(),
+                          .settings = settings_.effective_yaml(),
+                          .source = past_.source,
+                          .rows = file_.rows(),
+                          .wall_seconds = wall_seconds()});
+    last_checkpoint_ = Clock::now();
+  }
+
+  double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
+
+  io::RunSummary run_summary() const {
+    const State& state = simulation_.state();
+    const auto grains = static_cast<double>(state.grains.size());
+    return {.scenario = settings_.scenario(),
+            .grains = static_cast<std::int64_t>(state.grains.size()),
+            .steps = state.step,
+            .state_hash = state_hash(state),
+            .wall_seconds = wall_seconds(),
+            .particle_steps_per_second = grains
+                                         * static_cast<double>(state.step - first_step_)
+                                         / seconds_since(start_),
+            .threads = threads_};
+  }
+
+  int tell_result() {
+    last_ = observe(simulation_.state());
+    io::FlowSummary s =
+        summarise(file_, simulation_.state(), simulation_.model(), last_,
+                  static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step);
+    s.run = run_summary();
+    io::write_durably(directory_.file(io::summary_name), io::to_json(s));
+    print_summary(s, directory_.path());
+    return exit_done;
+  }
+
+  int tell_interruption() const {
+    fmt::print(stderr, "interrupted at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
+               simulation_.state().time(), directory_.path().string());
+    return 128 + interrupting_signal();
+  }
+
+  /// Keeps what there is: the state may tell why.
+  int fail(const RunFailure& failure) {
+    progress_.finish();
+    file_.write_final_state(simulation_.state());
+    file_.flush();
+    fmt::print(stderr, "riesel: the run failed: {}\nthe state of that moment is in {}\n",
+               failure.what(), directory_.file(io::run_file_name).string());
+    return exit_failed;
+  }
+
+  const io::Settings settings_;
+  const Past past_;
+  RunDirectory directory_;
+  const Schedule schedule_;
+  const int threads_;
+  Simulation simulation_;
+  io::RunFile file_;
+  Observables last_;
+  Progress progress_;
+  const std::int64_t first_step_;
+  Clock::time_point start_, last_checkpoint_;
+};
+
+}  // namespace
+
+int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory directory,
+             const Arguments& arguments) {
+  const Past nothing{.source = settings.source_text()};
+  return FlowRun(settings, flow.model, std::move(flow.state), std::move(directory), arguments,
+                 nothing)
+      .run();
+}
+
+int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDirectory directory,
+                const Arguments& arguments) {
+  const Past past{.source = checkpoint.source,
+                  .rows = checkpoint.rows,
+                  .wall_seconds = checkpoint.wall_seconds};
+  return FlowRun(settings, scenarios::contact_model(settings), std::move(checkpoint.state),
+                 std::move(directory), arguments, past)
+      .run();
+}
+
+}  // namespace riesel::app

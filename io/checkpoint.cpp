@@ -1,0 +1,209 @@
+#include "io/checkpoint.hpp"
+
+#include "io/build_info.hpp"
+#include "io/checkpoint_seal.hpp"
+#include "io/durable_file.hpp"
+#include "io/file_error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/state_check.hpp"
+#include "io/state_columns.hpp"
+#include "io/state_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+namespace riesel::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t format_version = 1;
+
+// --- one part of the checkpoint after the other, written and read ---
+
+void write(Hdf5Group group, const Grains& grains, const Box& box) {
+  group.set_attribute("quantum_x", box.quantum_x());
+  group.set_attribute("quantum_y", box.quantum_y());
+  const auto slots = slots_by_id(grains);
+  for_each_array(grains, [&](const char* name, const char* unit, const auto& array) {
+    using T = typename std::remove_cvref_t<decltype(array)>::value_type;
+    std::vector<T> ordered(slots.size());
+    for (std::size_t i = 0; i < slots.size(); ++i) ordered[i] = array[slots[i]];
+    write_column<T>(group, name, unit, ordered);
+  });
+}
+
+Grains read_grains(const Hdf5Group& group, std::size_t most_bytes) {
+  Grains grains;
+  for_each_array(grains, [&](const char* name, const char*, auto& array) {
+    read_column(group, name, most_bytes, array);
+  });
+  return grains;
+}
+
+template <Hdf5Number T>
+void write_value(Hdf5Object& object, const std::string& name, T value) {
+  object.set_attribute(name, value);
+}
+
+void write_value(Hdf5Object& object, const std::string& name, const ExactSum& sum) {
+  object.set_attribute(name + "_high", sum.high());
+  object.set_attribute(name + "_low", sum.low());
+}
+
+template <Hdf5Number T>
+void read_value(const Hdf5Object& object, const std::string& name, T& value) {
+  value = object.attribute<T>(name);
+}
+
+void read_value(const Hdf5Object& object, const std::string& name, ExactSum& sum) {
+  sum = ExactSum::from_halves(object.attribute<std::int64_t>(name + "_high"),
+                              object.attribute<std::uint64_t>(name + "_low"));
+}
+
+void write(Hdf5Group group, const ContactTally& tally) {
+  for_each_value(tally,
+                 [&](const char* name, const auto& value) { write_value(group, name, value); });
+}
+
+ContactTally read_tally(const Hdf5Group& group) {
+  ContactTally tally;
+  for_each_value(tally, [&](const char* name, auto& value) { read_value(group, name, value); });
+  return tally;
+}
+
+void write(Hdf5Group root, const State& state) {
+  for_each_scalar(state, [&](const char* name, auto value) { write_value(root, name, value); });
+  write(root.create_group("grains"), state.grains, state.box);
+  auto walls = root.create_group("walls");
+  write_records(walls, state.walls);
+  auto contacts = root.create_group("contacts");
+  write_records(contacts, state.contacts);
+  auto tally = root.create_group("tally");
+  write(tally.create_group("grains"), state.tally.grains);
+  write(tally.create_group("walls"), state.tally.walls);
+}
+
+State read_state(const Hdf5Group& root, std::size_t most_bytes) {
+  State state;
+  for_each_scalar(state, [&](const char* name, auto& value) { read_value(root, name, value); });
+  state.grains = read_grains(root.group("grains"), most_bytes);
+  state.walls = read_records<WallLattice>(root.group("walls"), most_bytes);
+  state.contacts = read_records<Contact>(root.group("contacts"), most_bytes);
+  const auto tally = root.group("tally");
+  state.tally.grains = read_tally(tally.group("grains"));
+  state.tally.walls = read_tally(tally.group("walls"));
+  return state;
+}
+
+void write(Hdf5Group root, const Checkpoint& checkpoint) {
+  root.set_attribute("format", "riesel checkpoint");
+  root.set_attribute("format_version", format_version);
+  root.set_attribute("riesel_version", build_info().version);
+  root.set_attribute("rows", checkpoint.rows);
+  root.set_attribute("wall_seconds", checkpoint.wall_seconds);
+  root.write_text("settings", checkpoint.settings);
+  root.write_text("source", checkpoint.source);
+  write(std::move(root), checkpoint.state);
+}
+
+Checkpoint read_contents(const Hdf5Group& root, std::size_t most_bytes) {
+  return {.state = read_state(root, most_bytes),
+          .settings = root.read_text("settings", most_bytes),
+          .source = root.read_text("source", most_bytes),
+          .rows = root.attribute<std::int64_t>("rows"),
+          .wall_seconds = root.attribute<double>("wall_seconds")};
+}
+
+// --- what can be wrong with it ---
+
+std::string flaw_of(const Checkpoint& checkpoint) {
+  if (checkpoint.rows < 0) return "the number of rows is negative";
+  if (!(std::isfinite(checkpoint.wall_seconds) && checkpoint.wall_seconds >= 0.0)) {
+    return "the time taken is negative";
+  }
+  return riesel::io::flaw_of(checkpoint.state);
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+[[noreturn]] void throw_damaged(const fs::path& path, const std::string& flaw) {
+  const auto previous = previous_generation(path);
+  throw FileError(path, "is damaged (" + flaw + ")",
+                  is_there(previous) ? "use " + previous.string() : "start the run again");
+}
+
+void check_version(const Hdf5Group& root, const fs::path& path) {
+  const auto version = root.attribute<std::int64_t>("format_version");
+  if (version == format_version) return;
+  throw FileError(path,
+                  fmt::format("has version {} of the format, and this is riesel {}, which knows "
+                              "version {}",
+                              version, build_info().version, format_version),
+                  "use riesel " + root.text_attribute("riesel_version"));
+}
+
+/// Reads a file whose seal is whole.
+Checkpoint read_sealed(const fs::path& path) {
+  const auto size = fs::file_size(path);
+  const auto root = Hdf5File::open(path).root();
+  check_version(root, path);
+  return read_contents(root, size);
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
+  if (const auto flaw = flaw_of(checkpoint); !flaw.empty()) {
+    throw FileError(path, "is not replaced by a state that no run can go on from (" + flaw + ")",
+                    "look into the run: it has diverged");
+  }
+  auto file = Hdf5File::create(seal_size);
+  write(file.root(), checkpoint);
+  const auto image = file.image();
+  seal(image);
+  write_durably(path, std::string_view(image.data(), image.size()), Previous::keep);
+}
+
+Checkpoint read_checkpoint(const fs::path& path) {
+  auto flaw = flaw_of_seal(path);
+  if (!flaw.empty()) throw_damaged(path, flaw);
+  try {
+    auto checkpoint = read_sealed(path);
+    flaw = flaw_of(checkpoint);
+    if (flaw.empty()) return checkpoint;
+  } catch (const Hdf5Error& error) {
+    flaw = error.what();
+  }
+  throw_damaged(path, flaw);
+}
+
+FoundCheckpoint find_checkpoint(const fs::path& path) {
+  std::error_code ignored;
+  const auto newest = fs::is_directory(path, ignored) ? path / checkpoint_name : path;
+  const auto previous = previous_generation(newest);
+  try {
+    return {.checkpoint = read_checkpoint(newest), .path = newest, .note = {}};
+  } catch (const FileError& error) {
+    if (!is_there(previous)) throw;
+    const auto note = newest.string() + ": " + error.problem();
+    try {
+      return {.checkpoint = read_checkpoint(previous), .path = previous, .note = note};
+    } catch (const FileError& older) {
+      throw FileError(newest, error.problem() + "; " + previous.string() + ": " + older.problem(),
+                      "start the run again");
+    }
+  }
+}
+
+}  // namespace riesel::io

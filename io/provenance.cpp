@@ -1,0 +1,95 @@
+#include "io/provenance.hpp"
+
+#include "io/build_info.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+
+namespace riesel::io {
+namespace {
+
+constexpr auto unknown = "unknown";
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  if (H5get_libversion(&major, &minor, &release) < 0) return unknown;
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("model name")) continue;
+    const auto value = line.find(": ");
+    return value == std::string::npos ? unknown : line.substr(value + 2);
+  }
+  return unknown;
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : unknown;
+}
+
+std::string date() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+/// As a shell takes it.
+std::string in_quotes(const std::string& argument) {
+  constexpr auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
+  std::string quoted = "'";
+  for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string command_line(const std::vector<std::string>& arguments) {
+  std::string line;
+  for (const auto& argument : arguments) line += (line.empty() ? "" : " ") + in_quotes(argument);
+  return line;
+}
+
+void add_build(Provenance& provenance) {
+  const auto& build = build_info();
+  provenance.emplace_back("riesel_version", build.version);
+  provenance.emplace_back("git_commit", build.git_commit);
+  provenance.emplace_back("git_dirty", build.git_dirty ? "true" : "false");
+  provenance.emplace_back("compiler", build.compiler);
+  provenance.emplace_back("flags", build.flags);
+  provenance.emplace_back("build_type", build.build_type);
+  provenance.emplace_back("hdf5_version", hdf5_version());
+  provenance.emplace_back("yaml_cpp_version", RIESEL_YAML_CPP_VERSION);
+  provenance.emplace_back("eigen_version", RIESEL_EIGEN_VERSION);
+}
+
+void add_machine(Provenance& provenance) {
+  provenance.emplace_back("cpu", cpu_model());
+  provenance.emplace_back("host", host_name());
+  if (const char* job = std::getenv("SLURM_JOB_ID")) provenance.emplace_back("slurm_job_id", job);
+}
+
+void add_origin(Provenance& provenance, const RunOrigin& origin) {
+  provenance.emplace_back("command", command_line(origin.arguments));
+  provenance.emplace_back("threads", std::to_string(origin.threads));
+  provenance.emplace_back("seed", std::to_string(origin.seed));
+  provenance.emplace_back("source", origin.source);
+  provenance.emplace_back("settings", origin.settings);
+}
+
+}  // namespace
+
+Provenance collect_provenance(const RunOrigin& origin) {
+  Provenance provenance{{"date", date()}};
+  add_build(provenance);
+  add_machine(provenance);
+  add_origin(provenance, origin);
+  return provenance;
+}
+
+}  // namespace riesel::io

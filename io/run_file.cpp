@@ -1,0 +1,223 @@
+#include "io/run_file.hpp"
+
+#include "io/durable_file.hpp"
+#include "io/file_error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/state_columns.hpp"
+#include "io/state_layout.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace riesel::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t format_version = 1;
+constexpr std::size_t buffered_rows = 1024;
+
+std::string names_of(const std::vector<Column>& columns) {
+  std::vector<std::string_view> names;
+  for (const auto& column : columns) names.emplace_back(column.name);
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+void write_provenance(Hdf5Group group, const Provenance& provenance) {
+  for (const auto& [name, value] : provenance) group.write_text(name, value);
+}
+
+void describe(Hdf5Data& data, const Column& column) {
+  data.set_attribute("unit", column.unit);
+  data.set_attribute("doc", column.doc);
+}
+
+void check_row(std::size_t size, std::size_t columns) {
+  if (size == columns) return;
+  throw std::invalid_argument(fmt::format("a row of {} values for {} columns", size, columns));
+}
+
+Hdf5Group replace_group(Hdf5Group parent, const std::string& name) {
+  if (parent.has(name)) parent.remove(name);
+  return parent.create_group(name);
+}
+
+void write_grains(Hdf5Group& group, const State& state) {
+  const auto slots = slots_by_id(state.grains);
+  std::vector<double> position, velocity, radius, mass;
+  std::vector<std::int32_t> id;
+  for (const auto slot : slots) {
+    const Grain grain = grain_at(state, slot);
+    position.insert(position.end(), {grain.x, grain.y});
+    velocity.insert(velocity.end(), {grain.vx, grain.vy});
+    radius.push_back(grain.radius);
+    mass.push_back(grain.mass);
+    id.push_back(state.grains.id[slot]);
+  }
+  write_column<double>(group, "position", "m", position, 2);
+  write_column<double>(group, "velocity", "m/s", velocity, 2);
+  write_column<double>(group, "radius", "m", radius);
+  write_column<double>(group, "mass", "kg", mass);
+  write_column<std::int32_t>(group, "id", "1", id);
+}
+
+void write_walls(Hdf5Group group, const State& state) {
+  write_records(group, state.walls);
+  std::vector<double> spacing;
+  for (const auto& wall : state.walls) spacing.push_back(wall.spacing(state.box));
+  write_column<double>(group, "spacing", "m", spacing);
+}
+
+}  // namespace
+
+/// The file in memory, and the rows that are not yet in there.
+class RunFile::Contents {
+public:
+  Contents(fs::path path, Hdf5File file, std::vector<Column> columns)
+      : path_(std::move(path)),
+        file_(std::move(file)),
+        columns_(std::move(columns)),
+        buffers_(columns_.size()) {}
+
+  const fs::path& path() const { return path_; }
+  Hdf5Group root() const { return file_.root(); }
+  std::int64_t rows() const { return rows_; }
+
+  void create_series() {
+    auto group = root().create_group("series");
+    group.set_attribute("columns", names_of(columns_));
+    for (const auto& column : columns_) {
+      series_.push_back(group.create_data<double>(column.name, {.growing = true}));
+      describe(series_.back(), column);
+    }
+  }
+
+  void open_series(std::int64_t rows) {
+    const auto group = root().group("series");
+    if (const auto found = group.text_attribute("columns"); found != names_of(columns_)) {
+      throw Hdf5Error(fmt::format("its series are {} instead of {}", found, names_of(columns_)));
+    }
+    for (const auto& column : columns_) {
+      series_.push_back(group.data(column.name));
+      const auto found = series_.back().shape().rows;
+      if (found < static_cast<std::size_t>(rows)) {
+        throw Hdf5Error(fmt::format("it has {} rows of {} and the checkpoint counts {}", found,
+                                    column.name, rows));
+      }
+      series_.back().shrink(static_cast<std::size_t>(rows));
+    }
+    rows_ = rows;
+  }
+
+  void append(std::span<const double> row) {
+    check_row(row.size(), columns_.size());
+    for (std::size_t i = 0; i < row.size(); ++i) buffers_[i].push_back(row[i]);
+    ++rows_;
+    if (!buffers_.empty() && buffers_.front().size() == buffered_rows) empty_buffers();
+  }
+
+  std::vector<double> series(const std::string& name) {
+    empty_buffers();
+    std::vector<double> values(static_cast<std::size_t>(rows_));
+    root().group("series").data(name).read(std::span(values));
+    return values;
+  }
+
+  void flush() {
+    empty_buffers();
+    const auto image = file_.image();
+    write_durably(path_, std::string_view(image.data(), image.size()));
+  }
+
+private:
+  void empty_buffers() {
+    for (std::size_t i = 0; i < buffers_.size(); ++i) {
+      series_[i].append(std::span<const double>(buffers_[i]));
+      buffers_[i].clear();
+    }
+  }
+
+  fs::path path_;
+  Hdf5File file_;
+  std::vector<Column> columns_;
+  std::vector<Hdf5Data> series_;
+  std::vector<std::vector<double>> buffers_;
+  std::int64_t rows_ = 0;
+};
+
+RunFile::RunFile(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+RunFile::~RunFile() = default;
+RunFile::RunFile(RunFile&&) noexcept = default;
+RunFile& RunFile::operator=(RunFile&&) noexcept = default;
+
+RunFile RunFile::create(const fs::path& path, const Provenance& provenance,
+                        const std::vector<Column>& series) {
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(path, ignored))) {
+    throw FileError(path, "exists already", "choose another directory, or resume that run");
+  }
+  RunFile file(std::make_unique<Contents>(path, Hdf5File::create(), series));
+  auto root = file.contents_->root();
+  root.set_attribute("format", "riesel run");
+  root.set_attribute("format_version", format_version);
+  write_provenance(root.create_group("provenance"), provenance);
+  file.contents_->create_series();
+  file.flush();
+  return file;
+}
+
+RunFile RunFile::reopen(const fs::path& path, const Provenance& provenance,
+                        const std::vector<Column>& series, std::int64_t rows) {
+  try {
+    RunFile file(std::make_unique<Contents>(path, Hdf5File::open(path), series));
+    file.contents_->open_series(rows);
+    auto group = file.contents_->root().group("provenance");
+    int resume = 1;
+    while (group.has(fmt::format("resume_{}", resume))) ++resume;
+    write_provenance(group.create_group(fmt::format("resume_{}", resume)), provenance);
+    return file;
+  } catch (const Hdf5Error& error) {
+    throw FileError(path, fmt::format("does not fit the checkpoint ({})", error.what()),
+                    "restore the file that belongs to it, or start the run again");
+  }
+}
+
+void RunFile::append(std::span<const double> row) { contents_->append(row); }
+
+std::int64_t RunFile::rows() const { return contents_->rows(); }
+
+std::vector<double> RunFile::series(const std::string& name) const {
+  return contents_->series(name);
+}
+
+void RunFile::write_final_state(const State& state) {
+  auto group = replace_group(contents_->root(), "final");
+  for_each_scalar(state, [&](const char* name, auto value) { group.set_attribute(name, value); });
+  group.set_attribute("time", state.time());
+  write_grains(group, state);
+  write_walls(group.create_group("walls"), state);
+  auto contacts = group.create_group("contacts");
+  write_records(contacts, state.contacts);
+}
+
+void RunFile::write_curve(const std::vector<Column>& columns,
+                          const std::vector<std::vector<double>>& rows) {
+  for (const auto& row : rows) check_row(row.size(), columns.size());
+  auto group = replace_group(contents_->root(), "curve");
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    std::vector<double> values;
+    for (const auto& row : rows) values.push_back(row[i]);
+    auto data = write_column<double>(group, columns[i].name, columns[i].unit, values);
+    data.set_attribute("doc", columns[i].doc);
+  }
+}
+
+void RunFile::flush() { contents_->flush(); }
+
+}  // namespace riesel::io

@@ -1,0 +1,119 @@
+#include "io/state_check.hpp"
+
+#include "io/state_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace riesel::io {
+namespace {
+
+bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
+
+bool is_index(std::int64_t index, std::size_t size) {
+  return index >= 0 && static_cast<std::uint64_t>(index) < size;
+}
+
+std::string flaw_of_scalars(const State& state) {
+  if (!is_positive(state.box.width)) return "the width of the box is not positive";
+  if (!is_positive(state.box.length)) return "the length of the box is not positive";
+  if (!is_positive(state.time_step)) return "the time step is not positive";
+  if (!std::isfinite(state.gravity)) return "gravity is not finite";
+  if (!std::isfinite(state.origin.kinetic) || !std::isfinite(state.origin.momentum_y)) {
+    return "the energy or momentum at the start is not finite";
+  }
+  if (state.step < 0) return "the number of steps is negative";
+  return {};
+}
+
+std::string flaw_of_walls(const State& state) {
+  for (std::size_t i = 0; i < state.walls.size(); ++i) {
+    const auto& wall = state.walls[i];
+    if (!std::isfinite(wall.line)) return fmt::format("the line of wall {} is not finite", i);
+    if (!is_positive(wall.radius)) return fmt::format("the radius of wall {} is not positive", i);
+    if (wall.count < 1 || wall.count > std::numeric_limits<std::int32_t>::max()) {
+      return fmt::format("wall {} has {} grains", i, wall.count);
+    }
+  }
+  return {};
+}
+
+std::string flaw_of_grains(const Grains& grains) {
+  bool equal_sizes = true;
+  for_each_array(grains, [&](const char*, const char*, const auto& array) {
+    equal_sizes = equal_sizes && array.size() == grains.size();
+  });
+  if (!equal_sizes) return "not all grains have all values";
+
+  std::vector<bool> seen(grains.size());
+  for (const auto id : grains.id) {
+    if (!is_index(id, grains.size())) return fmt::format("the id {} is out of range", id);
+    if (seen[static_cast<std::size_t>(id)]) return fmt::format("two grains have the id {}", id);
+    seen[static_cast<std::size_t>(id)] = true;
+  }
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const auto is_wrong = [&](const char* what) {
+      return fmt::format("the {} of grain {} is not positive", what, grains.id[i]);
+    };
+    if (!is_positive(grains.radius[i])) return is_wrong("radius");
+    if (!is_positive(grains.mass[i])) return is_wrong("mass");
+  }
+  return {};
+}
+
+bool names_bodies_of(const State& state, const ContactName& name) {
+  const auto n = state.grains.size();
+  if (!is_index(name.grain, n)) return false;
+  if (name.wall == no_wall) return is_index(name.partner, n) && name.grain < name.partner;
+  if (!is_index(name.wall, state.walls.size())) return false;
+  const auto& wall = state.walls[static_cast<std::size_t>(name.wall)];
+  return is_index(name.partner, static_cast<std::size_t>(wall.count));
+}
+
+bool is_finite(const Contact& contact) {
+  bool finite = true;
+  for_each_member<Contact>([&](const char*, const char*, auto member) {
+    if (!std::isfinite(static_cast<double>(member(contact)))) finite = false;
+  });
+  return finite;
+}
+
+std::string flaw_of_contacts(const State& state) {
+  const ContactName* last = nullptr;
+  for (const auto& contact : state.contacts) {
+    const auto& name = contact.name;
+    const auto text = [&] {
+      return fmt::format("the contact (wall {}, grain {}, partner {})", name.wall, name.grain,
+                         name.partner);
+    };
+    if (!names_bodies_of(state, name)) return text() + " is between bodies that do not exist";
+    if (last != nullptr && !(*last < name)) return text() + " is out of order";
+    if (!is_finite(contact)) return text() + " has a value that is not finite";
+    last = &name;
+  }
+  return {};
+}
+
+std::string flaw_of_tally(const ContactTally& tally) {
+  if (tally.begun < 0 || tally.ended < 0) return "a count of contacts is negative";
+  if (!std::isfinite(tally.max_overlap)) return "the greatest overlap is not finite";
+  return {};
+}
+
+}  // namespace
+
+std::string flaw_of(const State& state) {
+  auto flaw = flaw_of_scalars(state);
+  if (flaw.empty()) flaw = flaw_of_walls(state);
+  if (flaw.empty()) flaw = flaw_of_grains(state.grains);
+  if (flaw.empty()) flaw = flaw_of_contacts(state);
+  if (flaw.empty()) flaw = flaw_of_tally(state.tally.grains);
+  if (flaw.empty()) flaw = flaw_of_tally(state.tally.walls);
+  return flaw;
+}
+
+}  // namespace riesel::io

@@ -1,0 +1,14 @@
+// What must be true of every State, whoever wrote it: the invariants of engine/state.hpp.
+#pragma once
+
+#include "engine/state.hpp"
+
+#include <string>
+
+namespace riesel::io {
+
+/// What is wrong with the state first of all, as in "the mass of grain 17 is not positive"; empty
+/// if nothing is.
+std::string flaw_of(const State& state);
+
+}  // namespace riesel::io

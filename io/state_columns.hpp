@@ -1,0 +1,75 @@
+// The lists of a State in HDF5: one data set per member, which every reader understands.
+#pragma once
+
+#include "engine/state.hpp"
+#include "io/hdf5_object.hpp"
+#include "io/state_layout.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace riesel::io {
+
+/// The slots of the grains in the order of their ids.
+std::vector<std::size_t> slots_by_id(const Grains& grains);
+
+/// Writes numbers with their unit, `components` of them in a row.
+template <Hdf5Number T>
+Hdf5Data write_column(Hdf5Group& group, const std::string& name, const std::string& unit,
+                      std::span<const T> values, std::size_t components = 1) {
+  auto data =
+      group.create_data<T>(name, {.rows = values.size() / components, .columns = components});
+  data.write(values);
+  data.set_attribute("unit", unit);
+  return data;
+}
+
+/// Reads what write_column() wrote, into a vector. Throws Hdf5Error; in particular if the column
+/// claims to be longer than `most_bytes`.
+template <class Vector>
+void read_column(const Hdf5Group& group, const std::string& name, std::size_t most_bytes,
+                 Vector& values) {
+  using T = typename Vector::value_type;
+  const auto data = group.data(name);
+  const auto shape = data.shape();
+  if (shape.columns != 1 || shape.rows > most_bytes / sizeof(T)) {
+    throw Hdf5Error("cannot read the data set " + name + ": its size is impossible");
+  }
+  values.resize(shape.rows);
+  data.read(std::span<T>(values));
+}
+
+/// Writes each member of all records (contacts or walls) as a column.
+template <class Record>
+void write_records(Hdf5Group& group, const std::vector<Record>& records) {
+  for_each_member<Record>([&](const char* name, const char* unit, auto member) {
+    using T = std::remove_cvref_t<decltype(member(records.front()))>;
+    std::vector<T> values(records.size());
+    for (std::size_t i = 0; i < records.size(); ++i) values[i] = member(records[i]);
+    write_column<T>(group, name, unit, values);
+  });
+}
+
+/// Reads what write_records() wrote. Throws Hdf5Error as read_column().
+template <class Record>
+std::vector<Record> read_records(const Hdf5Group& group, std::size_t most_bytes) {
+  std::vector<Record> records;
+  bool first = true;
+  for_each_member<Record>([&](const char* name, const char*, auto member) {
+    std::vector<std::remove_cvref_t<decltype(member(records.front()))>> values;
+    read_column(group, name, most_bytes, values);
+    if (first) records.resize(values.size());
+    first = false;
+    if (values.size() != records.size()) {
+      throw Hdf5Error(std::string("the data set ") + name + " is not as long as the others");
+    }
+    for (std::size_t i = 0; i < records.size(); ++i) member(records[i]) = values[i];
+  });
+  return records;
+}
+
+}  // namespace riesel::io

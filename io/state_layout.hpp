@@ -1,0 +1,112 @@
+// The names and units under which the parts of a State stand in files: one list for whoever writes
+// and whoever reads, so that the two cannot drift apart.
+//
+// A member that is added to one of these structures must be added here. The compiler says so: the
+// structured bindings and the sizes no longer match.
+#pragma once
+
+#include "engine/state.hpp"
+
+#include <concepts>
+#include <cstdint>
+
+namespace riesel::io {
+
+/// Calls visit(name, unit, array) for each array of the grains (const or not).
+template <class AnyGrains, class Visit>
+void for_each_array(AnyGrains& grains, Visit visit) {
+  auto& [x, y, ux, uy, kick_x, kick_y, radius, mass, id] = grains;
+  visit("x", "quantum_x", x);
+  visit("y", "quantum_y", y);
+  visit("ux", "quantum_x / step", ux);
+  visit("uy", "quantum_y / step", uy);
+  visit("kick_x", "quantum_x / step^2", kick_x);
+  visit("kick_y", "quantum_y / step^2", kick_y);
+  visit("radius", "m", radius);
+  visit("mass", "kg", mass);
+  visit("id", "1", id);
+}
+
+/// Calls visit(name, unit, member) for each member of a contact; member(contact) is the member.
+template <std::same_as<Contact> Record, class Visit>
+void for_each_member(Visit visit) {
+  static_assert(sizeof(Contact) == 16 + 12 * sizeof(double));
+  visit(
+      "wall", "1", [](auto& c) -> auto& { return c.name.wall; });
+  visit(
+      "grain", "1", [](auto& c) -> auto& { return c.name.grain; });
+  visit(
+      "partner", "1", [](auto& c) -> auto& { return c.name.partner; });
+  visit(
+      "begin", "s", [](auto& c) -> auto& { return c.begin; });
+  visit(
+      "end", "s", [](auto& c) -> auto& { return c.end; });
+  visit(
+      "entry_rate", "m/s", [](auto& c) -> auto& { return c.entry_rate; });
+  visit(
+      "entry_slip", "m/s", [](auto& c) -> auto& { return c.entry_slip; });
+  visit(
+      "overlap", "m", [](auto& c) -> auto& { return c.overlap; });
+  visit(
+      "max_overlap", "m", [](auto& c) -> auto& { return c.max_overlap; });
+  visit(
+      "slip_path", "m", [](auto& c) -> auto& { return c.slip_path; });
+  visit(
+      "elastic_energy", "J", [](auto& c) -> auto& { return c.elastic_energy; });
+  visit(
+      "normal_loss", "J", [](auto& c) -> auto& { return c.normal_loss; });
+  visit(
+      "friction_loss", "J", [](auto& c) -> auto& { return c.friction_loss; });
+  visit(
+      "impulse_y", "kg m/s", [](auto& c) -> auto& { return c.impulse_y; });
+  visit(
+      "impulse_y_times_step", "kg m/s", [](auto& c) -> auto& { return c.impulse_y_times_step; });
+}
+
+/// Calls visit(name, unit, member) for each member of a wall; member(wall) is the member.
+template <std::same_as<WallLattice> Record, class Visit>
+void for_each_member(Visit visit) {
+  static_assert(sizeof(WallLattice) == 2 * sizeof(double) + sizeof(std::int64_t));
+  visit(
+      "line", "m", [](auto& wall) -> auto& { return wall.line; });
+  visit(
+      "radius", "m", [](auto& wall) -> auto& { return wall.radius; });
+  visit(
+      "count", "1", [](auto& wall) -> auto& { return wall.count; });
+}
+
+/// Calls visit(name, value) for each number and each exact sum of a tally (const or not), in SI
+/// units.
+template <class AnyTally, class Visit>
+void for_each_value(AnyTally& tally, Visit visit) {
+  auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, impulse_y,
+         impulse_y_times_step] = tally;
+  visit("begun", begun);
+  visit("ended", ended);
+  visit("max_overlap", max_overlap);
+  visit("duration", duration);
+  visit("slip_path", slip_path);
+  visit("normal_loss", normal_loss);
+  visit("friction_loss", friction_loss);
+  visit("impulse_y", impulse_y);
+  visit("impulse_y_times_step", impulse_y_times_step);
+}
+
+/// Calls visit(name, value) for each number that stands alone in a State (const or not), in SI
+/// units. The bindings name the rest, too, which for_each_array() and the others are for.
+template <class AnyState, class Visit>
+void for_each_scalar(AnyState& state, Visit visit) {
+  auto& [box, walls, gravity, time_step, step, grains, contacts, tally, origin] = state;
+  auto& [width, length] = box;
+  auto& [grain_tally, wall_tally] = tally;
+  auto& [kinetic, momentum_y] = origin;
+  visit("box_width", width);
+  visit("box_length", length);
+  visit("gravity", gravity);
+  visit("time_step", time_step);
+  visit("step", step);
+  visit("origin_kinetic", kinetic);
+  visit("origin_momentum_y", momentum_y);
+}
+
+}  // namespace riesel::io

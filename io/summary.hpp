@@ -1,0 +1,77 @@
+// summary.json: the result of a run in one small file, for people and scripts. SI units.
+//
+// The names of its members are a contract, described in docs/files.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+/// What every summary tells.
+struct RunSummary {
+  std::string scenario;
+  std::int64_t grains = 0;
+  std::int64_t steps = 0;
+  std::uint64_t state_hash = 0;  ///< written as 16 hexadecimal digits
+  double wall_seconds = 0.0;
+  double particle_steps_per_second = 0.0;
+  int threads = 1;
+};
+
+/// A number and its standard error.
+struct Measured {
+  double value = 0.0, error = 0.0;
+};
+
+/// Means are over the samples after the transient.
+struct FlowSummary {
+  RunSummary run;
+  double time = 0.0;           ///< s, simulated
+  double transient_end = 0.0;  ///< s
+  std::string state;           ///< steady, accelerating, drifting or too_short
+  Measured mean_axial_velocity;
+  double independent_samples = 0.0;
+  double granular_temperature = 0.0;  ///< (m/s)^2
+
+  /// Eq. (9): in a steady state n_dot dv_y = gravity.
+  struct Balance {
+    double n_dot = 0.0;       ///< 1/s, wall contacts per grain
+    double dv_y = 0.0;        ///< m/s, mean axial velocity lost per wall contact
+    double n_dot_dv_y = 0.0;  ///< m/s^2
+    double gravity = 0.0;     ///< m/s^2
+  } balance;
+
+  /// J; since the start, but kinetic and elastic energy are those at the end.
+  struct Energy {
+    double initial = 0.0, kinetic = 0.0, elastic = 0.0, gravity_work = 0.0, normal_loss = 0.0,
+           friction_loss = 0.0, residual = 0.0;
+  } energy;
+
+  struct Validity {
+    double max_overlap_ratio = 0.0;  ///< largest overlap of the run over the mean grain diameter
+    double v_crit = 0.0;             ///< m/s, above which a typical wall contact is cut short
+  } validity;
+};
+
+struct CurvePoint {
+  double v_x = 0.0, v_y = 0.0, dv_x = 0.0, dv_y = 0.0;  ///< m/s
+  double contacts = 0.0, contact_time = 0.0, max_overlap = 0.0;
+  int passed = 0;  ///< how many starts went through the wall; not in the means
+  int stuck = 0;   ///< how many were given up; not in the means
+};
+
+struct CurveSummary {
+  RunSummary run;
+  std::vector<CurvePoint> curve;
+};
+
+/// The text of summary.json.
+std::string to_json(const FlowSummary& summary);
+std::string to_json(const CurveSummary& summary);
+
+inline constexpr auto summary_name = "summary.json";
+inline constexpr auto effective_settings_name = "effective.yaml";
+
+}  // namespace riesel::io

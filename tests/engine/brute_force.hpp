@@ -1,0 +1,152 @@
+// A second engine for tests: velocity Verlet in doubles that tries all pairs in every step.
+//
+// It has no cells, no candidates, no fixed point, no falling frame and no slots, and it forgets nothing: what
+// the engine does to be fast must not show in the comparison. Only the formula of a single contact in
+// a single step (touch) is the engine's own; that one is held against independent numbers in
+// tests/physics.
+#pragma once
+
+#include "engine/contact_force.hpp"
+#include "engine/state.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <variant>
+#include <vector>
+
+namespace brute_force {
+
+using namespace riesel;
+using Eigen::Vector2d;
+
+struct Body {
+  Vector2d position;            ///< m
+  Vector2d half_step_velocity;  ///< m/s
+  Vector2d acceleration;        ///< m/s^2
+  double radius, mass;
+};
+
+/// What was seen of one contact from its first to its last step.
+struct Life {
+  std::int64_t first_step, last_step;
+  double max_overlap = 0.0;  ///< m
+  double slip_path = 0.0;    ///< m
+};
+
+class Stepper {
+ public:
+  /// Starts from a state at step 0.
+  Stepper(const State& state, const ContactModel& model)
+      : box_(state.box), walls_(state.walls), gravity_(0.0, state.gravity), dt_(state.time_step),
+        model_(model), bodies_(state.grains.size()) {
+    for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+      const Grain g = grain_at(state, slot);
+      Body& body = bodies_[static_cast<std::size_t>(state.grains.id[slot])];
+      body = {.position = {g.x, g.y},
+              .half_step_velocity = Vector2d(g.vx, g.vy) - 0.5 * dt_ * gravity_,
+              .acceleration = gravity_,
+              .radius = g.radius,
+              .mass = g.mass};
+    }
+  }
+
+  void step() {
+    ++step_;
+    for (Body& body : bodies_) {
+      body.half_step_velocity += dt_ * body.acceleration;
+      body.position += dt_ * body.half_step_velocity;
+    }
+    std::vector<Vector2d> accelerations(bodies_.size(), gravity_);
+    std::map<ContactName, Life> now;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
+        const Body &a = bodies_[i], &b = bodies_[j];
+        const auto t = try_touch(a, b, a.mass * b.mass / (a.mass + b.mass), name(-1, i, j), now);
+        accelerations[i] += t / a.mass;
+        accelerations[j] -= t / b.mass;
+      }
+      for (std::size_t w = 0; w < walls_.size(); ++w)
+        for (std::int64_t k = 0; k < walls_[w].count; ++k)
+          accelerations[i] += try_touch(bodies_[i], wall_grain(walls_[w], k), bodies_[i].mass,
+                                        name(static_cast<int>(w), i, static_cast<std::size_t>(k)),
+                                        now)
+                              / bodies_[i].mass;
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].acceleration = accelerations[i];
+    for (const auto& [who, life] : touching_)
+      if (!now.contains(who)) ended_.push_back({who, life});
+    touching_ = std::move(now);
+  }
+
+  const Body& body(std::size_t id) const { return bodies_[id]; }
+  const std::map<ContactName, Life>& touching() const { return touching_; }
+  const std::vector<std::pair<ContactName, Life>>& ended() const { return ended_; }
+
+  /// m, between a grain here and in `state`, the largest over all grains.
+  double distance_to(const State& state) const {
+    double largest = 0.0;
+    for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+      const Grain g = grain_at(state, slot);
+      const Body& body = bodies_[static_cast<std::size_t>(state.grains.id[slot])];
+      largest = std::max({largest, std::abs(g.x - body.position.x()),
+                          std::abs(std::remainder(g.y - body.position.y(), box_.length))});
+    }
+    return largest;
+  }
+
+ private:
+  static ContactName name(int wall, std::size_t grain, std::size_t partner) {
+    return {wall, static_cast<std::int32_t>(grain), static_cast<std::int32_t>(partner)};
+  }
+
+  Body wall_grain(const WallLattice& wall, std::int64_t k) const {
+    const double y = static_cast<double>(k) * box_.length / static_cast<double>(wall.count);
+    return {.position = {wall.line, y},
+            .half_step_velocity = Vector2d::Zero(),
+            .acceleration = Vector2d::Zero(),
+            .radius = wall.radius,
+            .mass = 0.0};
+  }
+
+  /// The force on `a`, and an entry in `now` if the two overlap.
+  Vector2d try_touch(const Body& a, const Body& b, double reduced_mass, const ContactName& who,
+                     std::map<ContactName, Life>& now) {
+    Vector2d separation = b.position - a.position;
+    separation.y() = std::remainder(separation.y(), box_.length);
+    const double reach = a.radius + b.radius;
+    if (separation.norm() >= reach) return Vector2d::Zero();
+
+    const Vector2d half_step = b.half_step_velocity - a.half_step_velocity;
+    const Vector2d velocity = half_step + 0.5 * dt_ * (b.acceleration - a.acceleration);
+    const Touch t = std::visit(
+        [&](const auto& normal, const auto& slip) {
+          return touch({separation, velocity, half_step, reach, reduced_mass}, normal, slip,
+                       model_.friction, model_.attraction, dt_);
+        },
+        model_.normal, model_.slip);
+
+    const auto before = touching_.find(who);
+    Life life = before != touching_.end() ? before->second : Life{step_, step_};
+    life.last_step = step_;
+    life.max_overlap = std::max(life.max_overlap, reach - separation.norm());
+    const Vector2d along_s(-separation.y(), separation.x());
+    life.slip_path += dt_ * std::abs(velocity.dot(along_s)) / separation.norm();
+    now[who] = life;
+    return t.force;
+  }
+
+  Box box_;
+  std::vector<WallLattice> walls_;
+  Vector2d gravity_;
+  double dt_;
+  ContactModel model_;
+  std::vector<Body> bodies_;  // by id
+  std::int64_t step_ = 0;
+  std::map<ContactName, Life> touching_;
+  std::vector<std::pair<ContactName, Life>> ended_;
+};
+
+}  // namespace brute_force

@@ -1,0 +1,158 @@
+// Small systems to try the engine on, made of the grains of the paper's own numbers.
+#pragma once
+
+#include "engine/contact_law.hpp"
+#include "engine/simulation.hpp"
+#include "engine/state.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace systems {
+
+using namespace riesel;
+
+inline constexpr double radius = 0.5e-3;        // m
+inline constexpr double wall_radius = 0.33e-3;  // m
+inline constexpr double mass = 1e-6;            // kg
+inline constexpr double stiffness = 2000.0;     // N/m
+inline constexpr double damping = 1e4;          // 1/s, e_N = 0.70 at the wall
+inline constexpr double friction = 0.5;
+inline constexpr double time_step = 1e-6;  // s, t_col / 50 of two free grains
+
+inline ContactModel paper_model() {
+  return {LinearLaw{stiffness, damping}, CappedSlip{}, friction, Attraction::keep};
+}
+
+inline ContactModel frictionless(double gamma_n) {
+  return {LinearLaw{stiffness, gamma_n}, CappedSlip{}, 0.0, Attraction::keep};
+}
+
+/// Random numbers that are the same with every standard library.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : bits_(seed) {}
+
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
+  }
+  std::int64_t below(std::int64_t n) {
+    return static_cast<std::int64_t>(bits_() % static_cast<std::uint64_t>(n));
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+inline State empty_box(double width, double length) {
+  State state;
+  state.box = {.width = width, .length = length};
+  state.time_step = time_step;
+  return state;
+}
+
+/// Walls at x = 0 and x = width, `count` grains each.
+inline void add_walls(State& state, std::int64_t count) {
+  for (const double line : {0.0, state.box.width})
+    state.walls.push_back({.line = line, .radius = wall_radius, .count = count});
+}
+
+/// A grain of the paper's size.
+inline Grain grain(double x, double y, double vx, double vy) {
+  return {.x = x, .y = y, .vx = vx, .vy = vy, .radius = radius, .mass = mass};
+}
+
+/// Whether a grain there would overlap one of `state` or stand in a wall.
+inline bool room_for(const State& state, const Grain& newcomer) {
+  for (const WallLattice& wall : state.walls)
+    if (std::abs(newcomer.x - wall.line) < newcomer.radius + wall.radius) return false;
+  for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
+    const Grain other = grain_at(state, slot);
+    const double y = std::remainder(newcomer.y - other.y, state.box.length);
+    if (std::hypot(newcomer.x - other.x, y) < newcomer.radius + other.radius) return false;
+  }
+  return true;
+}
+
+/// Where grains are thrown to, and how fast.
+struct Throw {
+  double left, right;              ///< m, range of x
+  double low, high;                ///< m, range of y
+  double speed;                    ///< m/s, bound on the random part of each velocity component
+  double common_vy = 0.0;          ///< m/s
+  double polydispersity = 0.0;     ///< relative half width of the radii; mass ~ r^2
+  double smallest = radius;        ///< m, the mean radius
+};
+
+/// Adds grains at random places where they touch nothing.
+inline void throw_grains(State& state, std::size_t count, const Throw& where, Dice& dice) {
+  while (count > 0) {
+    const double size = dice.between(1.0 - where.polydispersity, 1.0 + where.polydispersity);
+    const double r = where.smallest * size;
+    const Grain g{.x = dice.between(where.left, where.right),
+                  .y = dice.between(where.low, where.high),
+                  .vx = dice.between(-where.speed, where.speed),
+                  .vy = where.common_vy + dice.between(-where.speed, where.speed),
+                  .radius = r,
+                  .mass = mass * r * r / (radius * radius)};
+    if (!room_for(state, g)) continue;
+    add_grain(state, g);
+    --count;
+  }
+}
+
+/// A crowded piece of the corrugated tube, in which every grain soon touches others and the walls.
+inline State small_tube(std::uint64_t seed, std::size_t grains = 40) {
+  State state = empty_box(8e-3, 9.6e-3);
+  state.gravity = 10.0;
+  add_walls(state, 8);
+  Dice dice(seed);
+  throw_grains(state, grains,
+               {.left = 0.0,
+                .right = state.box.width,
+                .low = 0.0,
+                .high = state.box.length,
+                .speed = 3.0,
+                .common_vy = 2.0,
+                .polydispersity = 0.1},
+               dice);
+  return state;
+}
+
+/// The same grains in other slots.
+inline State shuffled(State state, std::uint64_t seed) {
+  Dice dice(seed);
+  Grains& g = state.grains;
+  for (auto i = static_cast<std::int64_t>(g.size()) - 1; i > 0; --i) {
+    const auto a = static_cast<std::size_t>(i);
+    const auto b = static_cast<std::size_t>(dice.below(i + 1));
+    for (auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})
+      std::swap((*component)[a], (*component)[b]);
+    std::swap(g.radius[a], g.radius[b]);
+    std::swap(g.mass[a], g.mass[b]);
+    std::swap(g.id[a], g.id[b]);
+  }
+  return state;
+}
+
+/// The grain with this id, wherever the store keeps it.
+inline Grain grain_of_id(const State& state, std::int32_t id) {
+  std::size_t slot = 0;
+  while (state.grains.id[slot] != id) ++slot;
+  return grain_at(state, slot);
+}
+
+/// `state` after `steps` steps.
+inline State advanced(const State& state, const ContactModel& model, std::int64_t steps,
+                      int threads = 1) {
+  Simulation simulation(state, model, threads);
+  simulation.advance(steps);
+  return simulation.state();
+}
+
+}  // namespace systems

@@ -1,0 +1,173 @@
+// The verdict on runs whose fate is known: falls, approaches, decays, walks, and honest steady
+// states.
+
+#include "engine/steady_state.hpp"
+
+#include "tests/catch.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using riesel::SteadyState;
+using riesel::SteadyVerdict;
+using Series = std::vector<double>;
+
+/// `signal` of the fraction of the run that has passed, with AR(1) noise of correlation `phi`.
+Series noisy(std::size_t n, double noise, double phi, unsigned seed,
+             const std::function<double(double)>& signal) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  Series series(n);
+  double x = normal(generator);
+  for (std::size_t i = 0; i < n; ++i) {
+    series[i] = signal(static_cast<double>(i) / static_cast<double>(n)) + noise * x;
+    x = phi * x + std::sqrt(1.0 - phi * phi) * normal(generator);
+  }
+  return series;
+}
+
+/// 1 - exp(-t/T), seen for `times` T.
+std::function<double(double)> approach(double times) {
+  return [times](double passed) { return 1.0 - std::exp(-times * passed); };
+}
+
+double constant(double) { return 1.0; }
+double free_fall(double passed) { return passed; }
+
+constexpr unsigned runs = 100;
+
+/// Verdicts on `runs` noisy runs of 2000 samples, of which 19 make one independent.
+std::map<SteadyVerdict, int> verdicts(const std::function<double(double)>& signal) {
+  std::map<SteadyVerdict, int> count;
+  for (unsigned seed = 0; seed < runs; ++seed) {
+    ++count[riesel::assess_steady_state(noisy(2000, 0.05, 0.9, seed, signal)).verdict];
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("verdicts are written by name", "[steady_state]") {
+  CHECK(riesel::name(SteadyVerdict::steady) == "steady");
+  CHECK(riesel::name(SteadyVerdict::accelerating) == "accelerating");
+  CHECK(riesel::name(SteadyVerdict::drifting) == "drifting");
+  CHECK(riesel::name(SteadyVerdict::too_short) == "too_short");
+}
+
+TEST_CASE("a constant velocity is steady without error", "[steady_state]") {
+  const SteadyState state = riesel::assess_steady_state(Series(100, 0.7), 0.01);
+  CHECK(state.verdict == SteadyVerdict::steady);
+  CHECK(state.transient_end == 0);
+  CHECK(state.mean == 0.7);
+  CHECK(state.error == 0.0);
+  CHECK(state.trend == 0.0);
+  CHECK(state.independent_samples == 100.0);
+  CHECK(riesel::assess_steady_state(Series(100, 0.0)).verdict == SteadyVerdict::steady);
+}
+
+TEST_CASE("an approach without noise that has arrived is steady", "[steady_state]") {
+  const SteadyState state = riesel::assess_steady_state(noisy(1000, 0.0, 0.0, 0, approach(200)));
+  CHECK(state.verdict == SteadyVerdict::steady);
+  CHECK(std::abs(state.mean - 1.0) < 1e-12);
+}
+
+TEST_CASE("short series are too short", "[steady_state]") {
+  const std::size_t n = GENERATE(0U, 1U, 5U, 9U, 19U);
+  CHECK(riesel::assess_steady_state(Series(n, 1.0)).verdict == SteadyVerdict::too_short);
+  const SteadyState falling = riesel::assess_steady_state(noisy(n, 0.0, 0.0, 0, free_fall));
+  CHECK(falling.verdict == SteadyVerdict::too_short);
+  CHECK(std::isfinite(falling.mean));
+  CHECK(std::isfinite(falling.error));
+}
+
+TEST_CASE("a velocity that is not finite is refused", "[steady_state]") {
+  Series series(100, 1.0);
+  series[99] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(riesel::assess_steady_state(series), std::invalid_argument);
+  CHECK_THROWS_AS(riesel::assess_steady_state(Series{series[99]}), std::invalid_argument);
+}
+
+TEST_CASE("free fall accelerates", "[steady_state]") {
+  const SteadyState exact = riesel::assess_steady_state(noisy(1000, 0.0, 0.0, 0, free_fall));
+  CHECK(exact.verdict == SteadyVerdict::accelerating);
+  CHECK(std::abs(exact.trend - 0.001) < 1e-12);
+  CHECK(verdicts(free_fall)[SteadyVerdict::accelerating] >= 97);
+}
+
+TEST_CASE("at high speed a runaway is told by gravity", "[steady_state]") {
+  // From 40 to 41 m/s: a small part of the mean, but a third of what free fall would have gained.
+  const Series series = noisy(2000, 0.02, 0.9, 1, [](double s) { return 40.0 + s; });
+  CHECK(riesel::assess_steady_state(series).verdict == SteadyVerdict::drifting);
+  CHECK(riesel::assess_steady_state(series, 3.0 / 2000).verdict == SteadyVerdict::accelerating);
+  CHECK(riesel::assess_steady_state(series, 30.0 / 2000).verdict == SteadyVerdict::drifting);
+}
+
+TEST_CASE("slowing down is a drift, however fast", "[steady_state]") {
+  const auto decay = [](double s) { return 1.0 + 2.0 * std::exp(-2.0 * s); };
+  auto count = verdicts(decay);
+  CHECK(count[SteadyVerdict::drifting] >= 80);
+  CHECK(count[SteadyVerdict::accelerating] == 0);
+  CHECK(count[SteadyVerdict::steady] <= 1);
+}
+
+TEST_CASE("an approach that is under way is not steady", "[steady_state]") {
+  const double times = GENERATE(1.0, 2.0, 3.0);
+  auto count = verdicts(approach(times));
+  CHECK(count[SteadyVerdict::accelerating] + count[SteadyVerdict::drifting] >= 90);
+  CHECK(count[SteadyVerdict::steady] == 0);
+}
+
+TEST_CASE("an approach that ends midway is rather too short than wrong", "[steady_state]") {
+  CHECK(verdicts(approach(5))[SteadyVerdict::steady] <= 3);
+}
+
+TEST_CASE("an approach that has arrived is steady, and its mean is right", "[steady_state]") {
+  int steady = 0;
+  int covered = 0;
+  for (unsigned seed = 0; seed < runs; ++seed) {
+    const SteadyState state =
+        riesel::assess_steady_state(noisy(2000, 0.05, 0.9, seed, approach(10)));
+    if (state.verdict != SteadyVerdict::steady) continue;
+    ++steady;
+    covered += std::abs(state.mean - 1.0) <= 2.0 * state.error;
+    CHECK(state.transient_end >= 400);  // two T, at which the bias is still 14 %
+  }
+  CHECK(steady >= 75);
+  CHECK(covered >= steady * 85 / 100);
+}
+
+TEST_CASE("a stationary series is steady", "[steady_state]") {
+  auto count = verdicts(constant);
+  CHECK(count[SteadyVerdict::steady] >= 94);
+  CHECK(count[SteadyVerdict::accelerating] == 0);
+}
+
+TEST_CASE("memory as long as the run is too short", "[steady_state]") {
+  int too_short = 0;
+  for (unsigned seed = 0; seed < runs; ++seed) {
+    const Series series = noisy(1000, 0.05, 0.99, seed, constant);  // five independent samples
+    too_short += riesel::assess_steady_state(series).verdict == SteadyVerdict::too_short;
+  }
+  CHECK(too_short >= 90);
+}
+
+TEST_CASE("a random walk is not steady", "[steady_state]") {
+  std::mt19937_64 generator(11);
+  std::normal_distribution<double> normal;
+  int steady = 0;
+  for (unsigned run = 0; run < runs; ++run) {
+    Series walk(2000);
+    double x = 100.0;
+    for (double& sample : walk) sample = x += normal(generator);
+    steady += riesel::assess_steady_state(walk).verdict == SteadyVerdict::steady;
+  }
+  CHECK(steady <= 3);
+}
