@@ -81,7 +81,8 @@ build() {
 fingerprint() { sha256sum "$riesel" "$run_input"; }
 
 # Runs once per program and input: a result that is there is shown, an interrupted run is continued,
-# and a directory that belongs to another program or input is left alone.
+# and a directory that belongs to another program or input is left alone. Beside a directory lie its
+# fingerprint and what the run printed at its end.
 run_scenario() {
   local out=$run_output number=1
   while [[ -e "$out" && "$(cat "$out.sha256" 2>/dev/null)" != "$(fingerprint)" ]]; do
@@ -89,19 +90,19 @@ run_scenario() {
     out=$run_output-$number
   done
 
-  mkdir -p "$(dirname "$run_output")"
+  mkdir -p "$(dirname "$out")"
   if [[ ! -e "$out" ]]; then
     say "Running $run_input into $out"
     fingerprint >"$out.sha256"
-    "$riesel" run "$run_input" --out "$out"
+    "$riesel" run "$run_input" --out "$out" >"$out.txt"
   elif [[ ! -e "$out/summary.json" ]]; then
     say "Continuing the interrupted run in $out"
-    "$riesel" resume "$out" || die "could not continue; to start again: rm -r $out"
+    "$riesel" resume "$out" >"$out.txt" || die "could not continue; to start again: rm -r $out"
   else
-    say "$out holds the result of this program and this input already"
+    say "Nothing to do: $out is the result of this program and this input"
   fi
-  say "Summary ($out/summary.json)"
-  cat "$out/summary.json"
+  say "Summary"
+  cat "$out.txt"
 }
 
 cpp_files() { find engine io scenarios app tests bench -name '*.[ch]pp' | sort; }

@@ -31,9 +31,8 @@ SteadyVerdict verdict_on(const MeanEstimate& mean, const TrendEstimate& trend, d
 }  // namespace
 
 // MSER weighs the bias of what it keeps against the noise, so that at its cut the bias is as large
-// as the error bar. To cut as much again takes the bias of an exponential approach to its square. A
-// cut too long for that shows a run that has not arrived, where the most is seen of a trend
-// without.
+// as the error bar. To cut as much again takes the bias of an exponential approach to its square.
+// Where there is no room for that the run has not arrived, and its trend shows best after one cut.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain) {
   const std::size_t cut = transient_length(velocities);

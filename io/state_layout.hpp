@@ -98,7 +98,7 @@ template <class AnyState, class Visit>
 void for_each_scalar(AnyState& state, Visit visit) {
   auto& [box, walls, gravity, time_step, step, grains, contacts, tally, origin] = state;
   auto& [width, length] = box;
-  auto& [grain_tally, wall_tally] = tally;
+  static_assert(sizeof(tally) == 2 * sizeof(ContactTally));
   auto& [kinetic, momentum_y] = origin;
   visit("box_width", width);
   visit("box_length", length);

@@ -1,9 +1,10 @@
-// The engine against a stepper that tries all pairs in every step: the same contacts in the same steps,
-// and the same paths, whatever the arrangement.
+// The engine against a stepper that tries all pairs in every step: the same contacts in the same
+// steps, and the same paths, whatever the arrangement.
 //
-// Tolerance: both do the same arithmetic but round differently, by about 1e-19 m per step. A collision
-// magnifies a difference by about (free path / radius) ~ 10, so after the few collisions that a grain has in these
-// runs 1e-9 m is generous; a single contact missed or found a step late shows as 1e-6 m.
+// Tolerance: both do the same arithmetic but round differently, by about 1e-19 m per step. A
+// collision magnifies a difference by about (free path / radius) ~ 10, so after the few collisions
+// that a grain has in these runs 1e-9 m is generous; a single contact missed or found a step late
+// shows as 1e-6 m.
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/brute_force.hpp"
@@ -73,8 +74,8 @@ TEST_CASE("every law of the contact goes as by brute force") {
 TEST_CASE("a cluster in a large box goes as by brute force") {
   State state = empty_box(40e-3, 40e-3);
   Dice dice(5);
-  throw_grains(state, 30, {.left = 18e-3, .right = 25e-3, .low = 18e-3, .high = 25e-3, .speed = 3.0},
-               dice);
+  throw_grains(state, 30,
+               {.left = 18e-3, .right = 25e-3, .low = 18e-3, .high = 25e-3, .speed = 3.0}, dice);
   throw_grains(state, 5, {.left = 0.0, .right = 40e-3, .low = 0.0, .high = 40e-3, .speed = 3.0},
                dice);
   CHECK(agree(state, 500).pairs_begun > 10);
@@ -89,8 +90,8 @@ TEST_CASE("a cluster astride the seam goes as by brute force") {
 }
 
 TEST_CASE("boxes of one, two and three rows of cells go as by brute force") {
-  // A row is at least 1.2 mm, and the shortest period allowed is two rows; hence one row needs grains of
-  // which a giant stretches the cells.
+  // A row is at least 1.2 mm, and the shortest period allowed is two rows; hence one row needs
+  // grains of which a giant stretches the cells.
   SECTION("two") { CHECK(agree(gas(12e-3, 2.5e-3, 14, 3.0, 7), 500).pairs_begun > 5); }
   SECTION("three") { CHECK(agree(gas(12e-3, 3.7e-3, 20, 3.0, 8), 500).pairs_begun > 5); }
   SECTION("four") { CHECK(agree(gas(12e-3, 4.9e-3, 26, 3.0, 9), 500).pairs_begun > 5); }
@@ -106,10 +107,9 @@ TEST_CASE("grains of very different size go as by brute force") {
   add_grain(state, {.x = 6e-3, .y = 15e-3, .vx = 0, .vy = 1, .radius = 2.5e-3, .mass = 25e-6});
   Dice dice(11);
   throw_grains(state, 25, {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0}, dice);
-  throw_grains(state, 60,
-               {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0,
-                .smallest = 0.1e-3},
-               dice);
+  throw_grains(
+      state, 60,
+      {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0, .smallest = 0.1e-3}, dice);
   CHECK(agree(state, 400).pairs_begun > 20);
 }
 
@@ -135,10 +135,10 @@ TEST_CASE("grains that all fall at 50 m/s go as by brute force") {
   State state = empty_box(8e-3, 10e-3);
   state.gravity = 10.0;
   Dice dice(14);
-  throw_grains(state, 35,
-               {.left = 0.0, .right = 8e-3, .low = 0.0, .high = 10e-3, .speed = 2.0,
-                .common_vy = 50.0},
-               dice);
+  throw_grains(
+      state, 35,
+      {.left = 0.0, .right = 8e-3, .low = 0.0, .high = 10e-3, .speed = 2.0, .common_vy = 50.0},
+      dice);
   CHECK(agree(state, 500).pairs_begun > 10);
 }
 

@@ -1,0 +1,233 @@
+// What tests of files need: a directory of their own, the bytes of files, another process, and a
+// state in which every member is something special.
+#pragma once
+
+#include "engine/state.hpp"
+#include "tests/catch.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace file_fixture {
+
+namespace fs = std::filesystem;
+
+/// An empty directory that goes with its contents.
+class ScratchDirectory {
+public:
+  ScratchDirectory() {
+    auto name = (fs::temp_directory_path() / "riesel-test-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+
+  const fs::path& path() const { return path_; }
+  fs::path operator/(const char* name) const { return path_ / name; }
+
+  /// The names of all files, in alphabetical order.
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+private:
+  fs::path path_;
+};
+
+inline std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  REQUIRE(file.is_open());
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void overwrite(const fs::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  REQUIRE(file.good());
+}
+
+/// Calls action() in another process, and returns what it returned, 0 ... 255; an exception counts
+/// as 99, a signal as 128 and its number.
+template <class Action>
+int in_other_process(Action action) {
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    try {
+      _exit(action());
+    } catch (...) {
+      _exit(99);
+    }
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// The message of the Error that action() throws; empty if it throws none.
+template <class Error, class Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+inline riesel::Contact contact(riesel::ContactName name, double first) {
+  riesel::Contact contact{.name = name};
+  double value = first;
+  for (auto* member :
+       {&contact.begin, &contact.end, &contact.entry_rate, &contact.entry_slip, &contact.overlap,
+        &contact.max_overlap, &contact.slip_path, &contact.elastic_energy, &contact.normal_loss,
+        &contact.friction_loss, &contact.impulse_y, &contact.impulse_y_times_step}) {
+    *member = value;
+    value = value * -1.3 + 0.1;
+  }
+  return contact;
+}
+
+inline riesel::ContactTally tally(double scale) {
+  riesel::ContactTally tally;
+  tally.begun = 7;
+  tally.ended = 5;
+  tally.max_overlap = 3e-5 * scale;
+  double value = scale;
+  for (auto* sum : {&tally.duration, &tally.slip_path, &tally.normal_loss, &tally.friction_loss,
+                    &tally.impulse_y, &tally.impulse_y_times_step}) {
+    sum->add(value);
+    value *= -1.7e-4;
+  }
+  return tally;
+}
+
+/// A state of `n` >= 4 grains, in the order of their ids, with numbers that a careless format would
+/// lose: the extremes of the integers, denormals, negative zeros, numbers with no short decimals.
+inline riesel::State special_state(std::size_t n = 4) {
+  constexpr auto least = std::numeric_limits<riesel::Fixed>::min();
+  constexpr auto most = std::numeric_limits<riesel::Fixed>::max();
+  constexpr auto denormal = std::numeric_limits<double>::denorm_min();
+  riesel::State state;
+  state.box = {.width = 0.1 / 3.0, .length = 0.1};
+  state.walls = {{.line = -0.0, .radius = 3.3e-4, .count = 83},
+                 {.line = 0.02, .radius = 1e-4, .count = 1}};
+  state.gravity = -0.0;
+  state.time_step = 1e-6 / 3.0;
+  state.step = most;
+  auto& grains = state.grains;
+  grains.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto k = static_cast<std::uint64_t>(i + 1) * 0x9e3779b97f4a7c15U;
+    grains.x[i] = static_cast<riesel::Fixed>(k);
+    grains.y[i] = static_cast<riesel::Fixed>(k * k);
+    grains.ux[i] = static_cast<riesel::Fixed>(k * 3);
+    grains.uy[i] = static_cast<riesel::Fixed>(k * 5);
+    grains.kick_x[i] = static_cast<riesel::Fixed>(k * 7);
+    grains.kick_y[i] = static_cast<riesel::Fixed>(k * 11);
+    grains.radius[i] = 5e-4 + 1e-6 / (3.0 + static_cast<double>(i));
+    grains.mass[i] = 1e-6 / (7.0 + static_cast<double>(i));
+    grains.id[i] = static_cast<std::int32_t>(i);
+  }
+  grains.x[0] = grains.kick_x[1] = least;
+  grains.y[1] = grains.uy[0] = most;
+  grains.radius[2] = denormal;
+  grains.mass[3] = std::numeric_limits<double>::max();
+  state.contacts = {contact({riesel::no_wall, 0, 3}, 0.1), contact({riesel::no_wall, 1, 2}, -0.0),
+                    contact({0, 0, 82}, denormal), contact({1, 2, 0}, 1e300)};
+  state.tally = {.grains = tally(-2.5), .walls = tally(1e10 / 3.0)};
+  state.origin = {.kinetic = 1.0 / 7.0, .momentum_y = -0.0};
+  return state;
+}
+
+/// The same state with the grains stored the other way round.
+inline riesel::State reversed(riesel::State state) {
+  auto& g = state.grains;
+  for (auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) {
+    std::reverse(array->begin(), array->end());
+  }
+  std::reverse(g.radius.begin(), g.radius.end());
+  std::reverse(g.mass.begin(), g.mass.end());
+  std::reverse(g.id.begin(), g.id.end());
+  return state;
+}
+
+/// All of a state, bit by bit.
+class Bits {
+public:
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void add(T value) { bits_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  void add(const riesel::ExactSum& sum) {
+    add(sum.high());
+    add(sum.low());
+  }
+  template <class Vector>
+  void add_all(const Vector& values) {
+    add(values.size());
+    for (const auto value : values) add(value);
+  }
+  void add(const riesel::ContactTally& t) {
+    add(t.begun);
+    add(t.ended);
+    add(t.max_overlap);
+    for (const auto* sum : {&t.duration, &t.slip_path, &t.normal_loss, &t.friction_loss,
+                            &t.impulse_y, &t.impulse_y_times_step}) {
+      add(*sum);
+    }
+  }
+  void add(const riesel::Contact& c) {
+    add_all(std::vector{c.name.wall, c.name.grain, c.name.partner});
+    add_all(std::vector{c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
+                        c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_y,
+                        c.impulse_y_times_step});
+  }
+  const std::string& value() const { return bits_; }
+
+private:
+  std::string bits_;
+};
+
+inline std::string bits_of(const riesel::State& state) {
+  Bits bits;
+  bits.add_all(std::vector{state.box.width, state.box.length, state.gravity, state.time_step,
+                           state.origin.kinetic, state.origin.momentum_y});
+  bits.add(state.step);
+  for (const auto& wall : state.walls) {
+    bits.add_all(std::vector{wall.line, wall.radius});
+    bits.add(wall.count);
+  }
+  const auto& g = state.grains;
+  for (const auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) bits.add_all(*array);
+  bits.add_all(g.radius);
+  bits.add_all(g.mass);
+  bits.add_all(g.id);
+  for (const auto& contact : state.contacts) bits.add(contact);
+  bits.add(state.tally.grains);
+  bits.add(state.tally.walls);
+  return bits.value();
+}
+
+}  // namespace file_fixture

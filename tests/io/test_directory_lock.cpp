@@ -1,0 +1,53 @@
+// The lock of a run's directory, between processes.
+#include "io/directory_lock.hpp"
+#include "io/file_error.hpp"
+#include "tests/io/file_fixture.hpp"
+
+#include <csignal>
+
+using namespace riesel::io;
+using namespace file_fixture;
+
+namespace {
+
+std::string error_of_locking(const fs::path& directory) {
+  return message_of<FileError>([&] { const DirectoryLock lock(directory); });
+}
+
+}  // namespace
+
+TEST_CASE("A directory is locked by one process at a time, and the other one is named") {
+  const ScratchDirectory directory;
+  {
+    const DirectoryLock lock(directory.path());
+    const auto expected =
+        directory.path().string() + ": is in use by process " + std::to_string(getpid()) + " on ";
+    CHECK(in_other_process(
+              [&] { return error_of_locking(directory.path()).starts_with(expected) ? 0 : 1; })
+          == 0);
+  }
+  CHECK(in_other_process([&] { return error_of_locking(directory.path()).empty() ? 0 : 1; }) == 0);
+}
+
+TEST_CASE("A second lock of a directory in the same process is refused, too") {
+  const ScratchDirectory directory;
+  const DirectoryLock lock(directory.path());
+  CHECK_FALSE(error_of_locking(directory.path()).empty());
+}
+
+TEST_CASE("The lock of a killed process is gone") {
+  const ScratchDirectory directory;
+  CHECK(in_other_process([&] {
+          const DirectoryLock lock(directory.path());
+          return kill(getpid(), SIGKILL);
+        })
+        == 128 + SIGKILL);
+  CHECK(error_of_locking(directory.path()).empty());
+}
+
+TEST_CASE("A missing directory cannot be locked") {
+  const ScratchDirectory directory;
+  CHECK(error_of_locking(directory / "missing")
+        == (directory / "missing").string()
+               + ": the directory cannot be locked: No such file or directory; check the path");
+}
