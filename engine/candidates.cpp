@@ -56,23 +56,31 @@ Candidates::Candidates(State& state, int threads)
   give_back(state, state.contacts);
 }
 
-void Candidates::maintain(State& state, Slice& mine, std::int64_t step) {
-  mine.budget -= std::sqrt(largest(slices_, &Slice::fastest2));
-  if (mine.budget >= 0.0) return;  // all threads agree: budgets and speeds are the same for all
+void Candidates::note_speeds(const State& state, Slice& mine) const {
+  for (const Kick& kick : mine.received)
+    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, kick.slot));
+}
 
+bool Candidates::spend_step(Slice& mine) const {
+  mine.budget -= std::sqrt(largest(slices_, &Slice::fastest2));
+  return mine.budget >= 0.0;
+}
+
+bool Candidates::look_again(State& state, Slice& mine, std::int64_t step) {
 #pragma omp barrier
   measure_motion(state, mine, step);
 #pragma omp barrier
   const double left = 0.5 * skin_ - largest(slices_, &Slice::farthest);
   if (left > smallest_useful_budget * 0.5 * skin_) {
     mine.budget = left;
-  } else {
-#pragma omp single
-    lasting_ = contacts();
-    renew(state, mine, step);
-#pragma omp single
-    give_back(state, lasting_);
+    return false;
   }
+#pragma omp single
+  lasting_ = contacts();
+  renew(state, mine, step);
+#pragma omp single
+  give_back(state, lasting_);
+  return true;
 }
 
 void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
@@ -172,7 +180,7 @@ void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t st
         static_cast<float>(coarse_difference(coarse_.x[i], coarse_when_sorted_.x[i])) * units_.x;
     const float dy = static_cast<float>(coarse_difference(y, drift)) * units_.y;
     farthest2 = std::max(farthest2, dx * dx + dy * dy);
-    note_speed(state, mine, i);
+    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, i));
   }
   const double resolution = 2.0 * (static_cast<double>(units_.x) + static_cast<double>(units_.y));
   mine.farthest = std::sqrt(static_cast<double>(farthest2)) * (1.0 + 1e-6) + resolution;

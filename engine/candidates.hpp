@@ -29,14 +29,17 @@ class Candidates {
   CoarsePositions& coarse() { return coarse_; }
   CoarseUnits units() const { return units_; }
 
-  /// After all grains have moved by one step to step `step`: makes sure that the candidates hold. To be called by all
-  /// threads of a team after a barrier; what it changes is complete when it returns.
-  void maintain(State& state, Slice& mine, std::int64_t step);
+  /// Spends one step's motion of the budget. True if the candidates hold for sure; else look_again() must be called
+  /// before they are used. All threads of a team, called after a barrier, get the same answer.
+  bool spend_step(Slice& mine) const;
 
-  /// Grain `slot` of `mine` has a new velocity: keeps the bound on the speeds.
-  void note_speed(const State& state, Slice& mine, std::size_t slot) const {
-    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, slot));
-  }
+  /// Looks at the true displacements, and sorts anew if they are too large: then true. The state and the coarse
+  /// positions must be those of step `step`. To be called by all threads of a team; what it changes is complete when it
+  /// returns.
+  bool look_again(State& state, Slice& mine, std::int64_t step);
+
+  /// The grains of `mine` that received kicks have new velocities: keeps the bound on the speeds.
+  void note_speeds(const State& state, Slice& mine) const;
 
   /// Contacts of all slices, ordered by name.
   std::vector<Contact> contacts() const;

@@ -1,6 +1,7 @@
 #include "engine/contact_loop.hpp"
 
 #include "engine/contact_force.hpp"
+#include "engine/encounter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,67 +19,6 @@ struct Participants {
   std::uint32_t second;  // slot, or `fixed`
 };
 constexpr std::uint32_t fixed = UINT32_MAX;  // the second body is a wall grain
-
-/// The numbers of the current step that turn quanta into SI units and back.
-class StepUnits {
- public:
-  explicit StepUnits(const State& state)
-      : dt(state.time_step), time(state.time()), step(static_cast<double>(state.step)),
-        fall_(fall_per_step(state)), fallen_(wrapped_product(fall_, state.step)),
-        metres_(state.box.quantum_x(), state.box.quantum_y()), velocity_(metres_ / dt),
-        kick_(dt * dt / metres_.array()) {}
-
-  const double dt, time, step;
-
-  Vector2d metres(Fixed x, Fixed y) const { return scaled(x, y, metres_); }
-  /// m/s, from displacements per step
-  Vector2d velocity(Fixed ux, Fixed uy) const { return scaled(ux, uy, velocity_); }
-  /// displacement per step along y, from one in the falling frame
-  Fixed falling(Fixed uy) const { return wrapped_sum(uy, fallen_); }
-  Fixed fall() const { return fall_; }
-  /// quanta per step^2, from m/s^2
-  Vector2d kick(const Vector2d& acceleration) const { return acceleration.cwiseProduct(kick_); }
-
- private:
-  static Vector2d scaled(Fixed x, Fixed y, const Vector2d& unit) {
-    return {static_cast<double>(x) * unit.x(), static_cast<double>(y) * unit.y()};
-  }
-
-  Fixed fall_, fallen_;
-  Vector2d metres_, velocity_, kick_;
-};
-
-/// Two free grains as they meet in this step; `reach` and so on as in Encounter.
-Encounter encounter(const Grains& g, std::uint32_t i, std::uint32_t j, const StepUnits& units) {
-  const Vector2d half_step =
-      units.velocity(wrapped_difference(g.ux[j], g.ux[i]), wrapped_difference(g.uy[j], g.uy[i]));
-  const Vector2d last_kick = units.velocity(wrapped_difference(g.kick_x[j], g.kick_x[i]),
-                                            wrapped_difference(g.kick_y[j], g.kick_y[i]));
-  return {
-      .separation =
-          units.metres(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i])),
-      .velocity = half_step + 0.5 * last_kick,
-      .half_step_velocity = half_step,
-      .reach = g.radius[i] + g.radius[j],
-      .reduced_mass = g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j]),
-  };
-}
-
-/// A free grain and a fixed wall grain at (line, y).
-Encounter encounter(const Grains& g, std::uint32_t i, Fixed line, Fixed y, double wall_radius,
-                    const StepUnits& units) {
-  const Vector2d half_step = -units.velocity(g.ux[i], units.falling(g.uy[i]));
-  const Vector2d last_kick =
-      -units.velocity(g.kick_x[i], wrapped_sum(g.kick_y[i], units.fall()));
-  return {
-      .separation =
-          units.metres(wrapped_difference(line, g.x[i]), wrapped_difference(y, g.y[i])),
-      .velocity = half_step + 0.5 * last_kick,
-      .half_step_velocity = half_step,
-      .reach = g.radius[i] + wall_radius,
-      .reduced_mass = g.mass[i],
-  };
-}
 
 /// Carries the life of a contact on by one step.
 void live(Contact& c, bool begins, const ContactName& name, const Touch& t, double impulse_y,
@@ -125,23 +65,15 @@ class Resolver {
 
   void walls() {
     slice_.wall_contacts.begin_step();
-    for (std::size_t place = 0; place < slice_.near_walls.size(); ++place)
-      wall(slice_.near_walls[place], place);
+    for (const std::uint32_t place : slice_.wall_hits) wall(slice_.near_walls[place], place);
     slice_.wall_contacts.end_step(slice_.tally);
   }
 
  private:
-  static bool overlapping(const Encounter& e) {
-    return e.separation.squaredNorm() < e.reach * e.reach;
-  }
-
   void wall(const NearWall& near, std::size_t place) {
     const WallLattice& lattice = state_.walls[static_cast<std::size_t>(near.wall)];
     const Fixed line = state_.box.fixed_x(lattice.line);
-    const double dx = state_.box.metres_x(wrapped_difference(line, grains_.x[near.slot]));
     const double reach = grains_.radius[near.slot] + lattice.radius;
-    if (std::abs(dx) >= reach) return;
-
     for_each_wall_grain_within(
         lattice, state_.box, grains_.y[near.slot], reach, [&](std::int64_t k, Fixed y) {
           const Encounter e = encounter(grains_, near.slot, line, y, lattice.radius, units_);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace riesel {
@@ -42,16 +43,8 @@ constexpr std::size_t block = 64;  // pairs tested at a time: their results make
   }
 }
 
-}  // namespace
-
-float CoarseUnits::generous_square(double reach) const {
-  // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7 relative.
-  const double generous = (reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y)));
-  return static_cast<float>(generous * generous * (1.0 + 1e-6));
-}
-
-RIESEL_VECTOR_KERNEL void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
-                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
+RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
+                                     CoarseUnits units, std::vector<std::uint32_t>& hits) {
   hits.clear();
   alignas(cache_line) std::uint8_t result[block];
   for (std::size_t p = 0; p < pairs.size(); p += block) {
@@ -61,6 +54,31 @@ RIESEL_VECTOR_KERNEL void find_overlapping(const CandidatePairs& pairs, const Co
                positions.y.data(), units, count, result);
     collect(result, count, p, hits);
   }
+}
+
+void find_at_walls(Slice& slice, const State& state) {
+  slice.wall_hits.clear();
+  for (std::size_t place = 0; place < slice.near_walls.size(); ++place) {
+    const NearWall& near = slice.near_walls[place];
+    const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
+    const double distance = std::abs(state.box.metres_x(state.grains.x[near.slot]) - wall.line);
+    if (distance < state.grains.radius[near.slot] + wall.radius)
+      slice.wall_hits.push_back(static_cast<std::uint32_t>(place));
+  }
+}
+
+}  // namespace
+
+float CoarseUnits::generous_square(double reach) const {
+  // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7 relative.
+  const double generous = (reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y)));
+  return static_cast<float>(generous * generous * (1.0 + 1e-6));
+}
+
+void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
+                      CoarseUnits units) {
+  find_pairs(slice.pairs, positions, units, slice.hits);
+  find_at_walls(slice, state);
 }
 
 }  // namespace riesel

@@ -8,9 +8,9 @@
 #include "engine/aligned.hpp"
 #include "engine/box.hpp"
 #include "engine/slice.hpp"
+#include "engine/state.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace riesel {
 
@@ -30,8 +30,8 @@ struct CoarseUnits {
   float generous_square(double reach) const;
 };
 
-/// Writes to `hits` the indices of the pairs that may overlap, in increasing order.
-void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
-                      CoarseUnits units, std::vector<std::uint32_t>& hits);
+/// Writes to slice.hits and slice.wall_hits the indices of the candidates that may overlap, in increasing order.
+void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
+                      CoarseUnits units);
 
 }  // namespace riesel

@@ -1,6 +1,8 @@
 #include "engine/simulation.hpp"
 
 #include "engine/contact_loop.hpp"
+#include "engine/flights.hpp"
+#include "engine/kicks.hpp"
 #include "engine/observables.hpp"
 #include "engine/vector_kernel.hpp"
 
@@ -57,62 +59,63 @@ int useful_threads(std::size_t grains) {
   return static_cast<int>(std::clamp<std::size_t>(grains / grains_per_thread, 1, most));
 }
 
-Simulation::Simulation(State state, const ContactModel& model, int threads)
+Simulation::Simulation(State state, const ContactModel& model, int threads, Stepping stepping)
     : state_(ready(std::move(state))), model_(model), fall_(fall_per_step(state_)),
-      candidates_(state_, threads) {}
+      candidates_(state_, threads) {
+  if (stepping == Stepping::windows)
+    flights_ = std::make_unique<Flights>(state_, model_, candidates_);
+}
+
+Simulation::~Simulation() = default;
 
 /// One step of all grains, by all threads together, each with its slice: the leapfrog form of velocity Verlet.
 void Simulation::step(Slice& mine, std::int64_t step) {
   drift(mine, step);
 #pragma omp barrier
-  candidates_.maintain(state_, mine, step);
-  find_overlapping(mine.pairs, candidates_.coarse(), candidates_.units(), mine.hits);
+  if (!candidates_.spend_step(mine)) candidates_.look_again(state_, mine, step);
+  find_overlapping(mine, state_, candidates_.coarse(), candidates_.units());
   resolve_contacts(mine, state_, model_);
 #pragma omp barrier
-  kick(mine);
+  receive_kicks(state_.grains, candidates_.slices(), mine);
+  candidates_.note_speeds(state_, mine);
 }
 
 void Simulation::advance(std::int64_t steps) {
   const std::int64_t last = state_.step + steps;
+  if (flights_)
+    advance_by_flights(last);
+  else
+    advance_plainly(last);
+  collect();
+  fail_if_in_trouble();
+}
+
+void Simulation::advance_plainly(std::int64_t last) {
 #pragma omp parallel num_threads(threads())
   {
     Slice& mine = candidates_.slices()[static_cast<std::size_t>(omp_get_thread_num())];
     for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
       step(mine, next);
   }
-  collect();
-  fail_if_in_trouble();
+}
+
+void Simulation::advance_by_flights(std::int64_t last) {
+  for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
+    flights_->step(next);
+  flights_->land_all(state_.step);
 }
 
 /// Velocities take up the last kicks, positions move on to step `step`.
 void Simulation::drift(Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
   CoarsePositions& coarse = candidates_.coarse();
-  for (const Kick& kick : mine.received) {
-    g.ux[kick.slot] = wrapped_sum(g.ux[kick.slot], kick.x);
-    g.uy[kick.slot] = wrapped_sum(g.uy[kick.slot], kick.y);
-  }
+  take_up_kicks(g, mine);
   const std::size_t count = mine.end - mine.begin;
   fly(count, 0, &g.ux[mine.begin], &g.x[mine.begin], &coarse.x[mine.begin]);
   fly(count, wrapped_product(fall_, step), &g.uy[mine.begin], &g.y[mine.begin],
       &coarse.y[mine.begin]);
 #pragma omp master
   state_.step = step;
-}
-
-/// Gives the own grains the kicks of this step's contacts.
-void Simulation::kick(Slice& mine) {
-  Grains& g = state_.grains;
-  for (const Kick& old : mine.received) g.kick_x[old.slot] = g.kick_y[old.slot] = 0;
-  mine.received.clear();
-  for (const Slice& giver : candidates_.slices())
-    for (const Kick& kick : giver.kicks) {
-      if (kick.slot < mine.begin || kick.slot >= mine.end) continue;
-      g.kick_x[kick.slot] = wrapped_sum(g.kick_x[kick.slot], kick.x);
-      g.kick_y[kick.slot] = wrapped_sum(g.kick_y[kick.slot], kick.y);
-      mine.received.push_back(kick);
-    }
-  for (const Kick& kick : mine.received) candidates_.note_speed(state_, mine, kick.slot);
 }
 
 bool Simulation::in_trouble() const {

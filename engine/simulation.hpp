@@ -6,10 +6,13 @@
 #include "engine/state.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
 namespace riesel {
+
+class Flights;
 
 /// The run cannot go on; what() says where, when and why.
 class RunFailure : public std::runtime_error {
@@ -19,11 +22,21 @@ class RunFailure : public std::runtime_error {
 /// Threads that pay for this many grains on this machine, when the user leaves the choice to us.
 int useful_threads(std::size_t grains);
 
+/// How grains in free flight are moved. The results are the same, bit by bit.
+enum class Stepping {
+  plain,   ///< all grains in each step
+  windows  ///< grains that touch nothing cross many steps at once; on one thread
+};
+
 class Simulation {
  public:
   /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its invariants do not
   /// hold or the box is too small for the nearest image to be unique.
-  Simulation(State state, const ContactModel& model, int threads);
+  Simulation(State state, const ContactModel& model, int threads,
+             Stepping stepping = Stepping::plain);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+  ~Simulation();
 
   /// Does `steps` steps. The result does not depend on the number of threads, nor on how the steps are shared
   /// between calls. Throws RunFailure when a force is not finite or a grain is lost.
@@ -35,8 +48,9 @@ class Simulation {
 
  private:
   void step(Slice& mine, std::int64_t step);
+  void advance_plainly(std::int64_t last);
+  void advance_by_flights(std::int64_t last);
   void drift(Slice& mine, std::int64_t step);
-  void kick(Slice& mine);
   bool in_trouble() const;
   void collect();
   void fail_if_in_trouble() const;
@@ -45,6 +59,7 @@ class Simulation {
   ContactModel model_;
   Fixed fall_;  // per step
   Candidates candidates_;
+  std::unique_ptr<Flights> flights_;  // when stepping by windows
 };
 
 }  // namespace riesel

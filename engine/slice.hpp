@@ -53,7 +53,8 @@ struct Slice {
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere
   std::vector<NearWall> near_walls;
 
-  std::vector<std::uint32_t> hits;  ///< indices of pairs that may overlap in this step
+  std::vector<std::uint32_t> hits;       ///< indices of pairs that may overlap in this step
+  std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
   ContactBook pair_contacts;
   ContactBook wall_contacts;
   std::vector<Kick> kicks;     ///< of this step, by contacts of the slice on grains of any slice

@@ -18,8 +18,9 @@ enum class SteadyVerdict {
   too_short      ///< no trend to be seen, but too few independent samples or too long a transient
 };
 
-/// What the series of velocities says. Everything but the first two lines holds for the samples
-/// after the transient; velocities in the unit of the samples, times in sample intervals.
+/// What the series of velocities says. Velocities in the unit of the samples, times in sample
+/// intervals. The mean and what belongs to it are of the samples after the transient; the trend is
+/// of those too, but of no less than the second half of the series.
 struct SteadyState {
   SteadyVerdict verdict;
   std::size_t transient_end;    ///< index of the first sample after the transient
@@ -31,14 +32,14 @@ struct SteadyState {
   double trend_error;           ///< 68 %
 };
 
-/// A significant growth is a runaway if what it gains within the samples after the transient is
-/// this part of their mean, or if it is this part of free fall.
+/// A significant growth is a runaway if what it gains in the time over which it is seen is this
+/// part of the mean, or if it is this part of free fall.
 inline constexpr double runaway_fraction = 0.1;
 
 /// Judges a series of velocities (positive downstream), sampled at even intervals. `free_fall_gain`
 /// is what a grain in free fall gains per sample interval, g times the interval, in the unit of the
 /// samples. The transient is twice what MSER-5 cuts; a run of which MSER-5 cuts more than two
-/// fifths has not arrived, cannot be steady, and is judged from the single cut on. The rest is
+/// fifths has not arrived: it cannot be steady, and a single cut is its transient. The rest is
 /// judged by the estimates of time_series.hpp. About one in a hundred stationary series is called
 /// accelerating or drifting (measured: docs/statistics.md). std::invalid_argument for a sample that
 /// is not finite.

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kind = "riesel checkpoint\n";
-constexpr std::size_t block_size = std::size_t{1} << 20;  // bytes read at once
+constexpr std::size_t block_size = 65536;  // bytes read at once
 
 /// The seal of a file of `size` bytes, itself included.
 std::string seal_text(std::uint64_t size, const Hash& checksum) {

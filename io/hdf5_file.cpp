@@ -2,20 +2,19 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
+#include <string>
+
 namespace riesel::io {
 namespace {
 
 constexpr std::size_t memory_increment = std::size_t{1} << 20;  // bytes
 
-/// Files live in memory and never reach the disk by themselves. A file that is read is not locked:
-/// files are replaced, not changed, and some network file systems know no locks.
-Hdf5Handle access_properties() {
-  const std::string what = "set up access to files";
-  Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
-  check_hdf5(H5Pset_fapl_core(properties.id(), memory_increment, false), what);
-  check_hdf5(H5Pset_libver_bounds(properties.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), what);
-  check_hdf5(H5Pset_file_locking(properties.id(), false, true), what);
-  return properties;
+/// Under which HDF5 keeps a file that is in memory only. It takes files of the same name for one
+/// and the same, hence the number; and nothing on the disk can have such a name.
+std::string name_in_memory() {
+  static std::uint64_t number = 0;
+  return "/dev/null/" + std::to_string(++number);
 }
 
 std::size_t user_block_of(const Hdf5Handle& file) {
@@ -35,15 +34,20 @@ Hdf5File Hdf5File::create(std::size_t user_block) {
   const std::string what = "create a file in memory";
   const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
   check_hdf5(H5Pset_userblock(properties.id(), user_block), what);
-  const auto access = access_properties();
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+  check_hdf5(H5Pset_fapl_core(access.id(), memory_increment, false), what);
+  check_hdf5(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), what);
+  const auto name = name_in_memory();
   return Hdf5File(
-      {H5Fcreate("in memory", H5F_ACC_TRUNC, properties.id(), access.id()), H5Fclose, what});
+      {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, properties.id(), access.id()), H5Fclose, what});
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   silence_hdf5();
-  const auto access = access_properties();
-  return Hdf5File({H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, "open the file"});
+  const std::string what = "open the file";
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+  check_hdf5(H5Pset_file_locking(access.id(), false, true), what);
+  return Hdf5File({H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, what});
 }
 
 Hdf5Group Hdf5File::root() const {

@@ -1,4 +1,4 @@
-// HDF5 files, always as a whole in memory: created there, or read into it at once.
+// HDF5 files: made in memory, or read from the disk.
 //
 // HDF5 writes in place, and where that fails (a full disk) the library cannot even close the file
 // properly. So it never writes: the finished image of the file goes to write_durably(), which knows
@@ -19,14 +19,14 @@ public:
   /// alone: 0, or a power of two from 512 on.
   static Hdf5File create(std::size_t user_block = 0);
 
-  /// Reads the file into memory. What is changed there does not change the file. HDF5's parser is
-  /// not safe with damaged files. Throws Hdf5Error.
+  /// Opens a file for reading. It is not locked: files are replaced, not changed, and some network
+  /// file systems know no locks. HDF5's parser is not safe with damaged files. Throws Hdf5Error.
   static Hdf5File open(const std::filesystem::path& path);
 
   Hdf5Group root() const;
 
-  /// The bytes of the file as it is now; valid until the next call of HDF5. The user block, if any,
-  /// is in front and may be written.
+  /// The bytes of a file in memory as it is now; valid until the next call of HDF5. The user block,
+  /// if any, is in front and may be written.
   std::span<char> image();
 
 private:

@@ -216,11 +216,6 @@ void Hdf5Data::append(std::span<const T> values) {
       what);
 }
 
-void Hdf5Data::shrink(std::size_t rows) {
-  const Extent extent = {rows, shape().columns};
-  check_hdf5(H5Dset_extent(id(), extent.data()), "shorten the data set " + path());
-}
-
 bool Hdf5Group::has(const std::string& name) const {
   const htri_t exists = H5Lexists(id(), name.c_str(), H5P_DEFAULT);
   check_hdf5(exists, "look for " + path_of(name));
@@ -229,6 +224,11 @@ bool Hdf5Group::has(const std::string& name) const {
 
 void Hdf5Group::remove(const std::string& name) {
   check_hdf5(H5Ldelete(id(), name.c_str(), H5P_DEFAULT), "remove " + path_of(name));
+}
+
+void Hdf5Group::copy(const Hdf5Group& from, const std::string& name) {
+  check_hdf5(H5Ocopy(from.id(), name.c_str(), id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+             "copy " + from.path_of(name));
 }
 
 Hdf5Group Hdf5Group::create_group(const std::string& name) {

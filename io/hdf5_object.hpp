@@ -63,10 +63,9 @@ public:
   template <Hdf5Number T>
   void read(std::span<T> values) const;
 
-  /// Of a growing data set: adds rows after the last, or forgets the last ones.
+  /// Adds rows after the last one of a growing data set.
   template <Hdf5Number T>
   void append(std::span<const T> values);
-  void shrink(std::size_t rows);
 
 private:
   friend class Hdf5Group;
@@ -77,6 +76,7 @@ class Hdf5Group : public Hdf5Object {
 public:
   bool has(const std::string& name) const;
   void remove(const std::string& name);
+  void copy(const Hdf5Group& from, const std::string& name);  ///< with all that is in it
 
   Hdf5Group create_group(const std::string& name);
   Hdf5Group group(const std::string& name) const;

@@ -33,6 +33,18 @@ void write_provenance(Hdf5Group group, const Provenance& provenance) {
   for (const auto& [name, value] : provenance) group.write_text(name, value);
 }
 
+void record_resume(Hdf5Group group, const Provenance& provenance) {
+  int number = 1;
+  while (group.has(fmt::format("resume_{}", number))) ++number;
+  write_provenance(group.create_group(fmt::format("resume_{}", number)), provenance);
+}
+
+std::vector<double> values_of(const Hdf5Data& data) {
+  std::vector<double> values(data.shape().rows);
+  data.read(std::span(values));
+  return values;
+}
+
 void describe(Hdf5Data& data, const Column& column) {
   data.set_attribute("unit", column.unit);
   data.set_attribute("doc", column.doc);
@@ -79,40 +91,31 @@ void write_walls(Hdf5Group group, const State& state) {
 /// The file in memory, and the rows that are not yet in there.
 class RunFile::Contents {
 public:
-  Contents(fs::path path, Hdf5File file, std::vector<Column> columns)
-      : path_(std::move(path)),
-        file_(std::move(file)),
-        columns_(std::move(columns)),
-        buffers_(columns_.size()) {}
+  Contents(fs::path path, std::vector<Column> columns)
+      : path_(std::move(path)), columns_(std::move(columns)), buffers_(columns_.size()) {
+    root().set_attribute("format", "riesel run");
+    root().set_attribute("format_version", format_version);
+    create_series();
+  }
 
-  const fs::path& path() const { return path_; }
   Hdf5Group root() const { return file_.root(); }
   std::int64_t rows() const { return rows_; }
 
-  void create_series() {
-    auto group = root().create_group("series");
-    group.set_attribute("columns", names_of(columns_));
-    for (const auto& column : columns_) {
-      series_.push_back(group.create_data<double>(column.name, {.growing = true}));
-      describe(series_.back(), column);
-    }
-  }
-
-  void open_series(std::int64_t rows) {
-    const auto group = root().group("series");
-    if (const auto found = group.text_attribute("columns"); found != names_of(columns_)) {
+  /// Takes the first rows over from the series of another file.
+  void take_rows(const Hdf5Group& from, std::int64_t rows) {
+    if (const auto found = from.text_attribute("columns"); found != names_of(columns_)) {
       throw Hdf5Error(fmt::format("its series are {} instead of {}", found, names_of(columns_)));
     }
-    for (const auto& column : columns_) {
-      series_.push_back(group.data(column.name));
-      const auto found = series_.back().shape().rows;
-      if (found < static_cast<std::size_t>(rows)) {
-        throw Hdf5Error(fmt::format("it has {} rows of {} and the checkpoint counts {}", found,
-                                    column.name, rows));
-      }
-      series_.back().shrink(static_cast<std::size_t>(rows));
-    }
     rows_ = rows;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      auto values = values_of(from.data(columns_[i].name));
+      const auto wanted = static_cast<std::size_t>(rows);
+      if (values.size() < wanted) {
+        throw Hdf5Error(fmt::format("it has {} rows of {} and the checkpoint counts {}",
+                                    values.size(), columns_[i].name, rows));
+      }
+      series_[i].append(std::span<const double>(values).first(wanted));
+    }
   }
 
   void append(std::span<const double> row) {
@@ -124,9 +127,7 @@ public:
 
   std::vector<double> series(const std::string& name) {
     empty_buffers();
-    std::vector<double> values(static_cast<std::size_t>(rows_));
-    root().group("series").data(name).read(std::span(values));
-    return values;
+    return values_of(root().group("series").data(name));
   }
 
   void flush() {
@@ -136,6 +137,15 @@ public:
   }
 
 private:
+  void create_series() {
+    auto group = root().create_group("series");
+    group.set_attribute("columns", names_of(columns_));
+    for (const auto& column : columns_) {
+      series_.push_back(group.create_data<double>(column.name, {.growing = true}));
+      describe(series_.back(), column);
+    }
+  }
+
   void empty_buffers() {
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
       series_[i].append(std::span<const double>(buffers_[i]));
@@ -144,14 +154,15 @@ private:
   }
 
   fs::path path_;
-  Hdf5File file_;
+  Hdf5File file_ = Hdf5File::create();
   std::vector<Column> columns_;
   std::vector<Hdf5Data> series_;
   std::vector<std::vector<double>> buffers_;
   std::int64_t rows_ = 0;
 };
 
-RunFile::RunFile(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+RunFile::RunFile(const fs::path& path, const std::vector<Column>& series)
+    : contents_(std::make_unique<Contents>(path, series)) {}
 RunFile::~RunFile() = default;
 RunFile::RunFile(RunFile&&) noexcept = default;
 RunFile& RunFile::operator=(RunFile&&) noexcept = default;
@@ -162,12 +173,8 @@ RunFile RunFile::create(const fs::path& path, const Provenance& provenance,
   if (fs::exists(fs::symlink_status(path, ignored))) {
     throw FileError(path, "exists already", "choose another directory, or resume that run");
   }
-  RunFile file(std::make_unique<Contents>(path, Hdf5File::create(), series));
-  auto root = file.contents_->root();
-  root.set_attribute("format", "riesel run");
-  root.set_attribute("format_version", format_version);
-  write_provenance(root.create_group("provenance"), provenance);
-  file.contents_->create_series();
+  RunFile file(path, series);
+  write_provenance(file.contents_->root().create_group("provenance"), provenance);
   file.flush();
   return file;
 }
@@ -175,12 +182,12 @@ RunFile RunFile::create(const fs::path& path, const Provenance& provenance,
 RunFile RunFile::reopen(const fs::path& path, const Provenance& provenance,
                         const std::vector<Column>& series, std::int64_t rows) {
   try {
-    RunFile file(std::make_unique<Contents>(path, Hdf5File::open(path), series));
-    file.contents_->open_series(rows);
-    auto group = file.contents_->root().group("provenance");
-    int resume = 1;
-    while (group.has(fmt::format("resume_{}", resume))) ++resume;
-    write_provenance(group.create_group(fmt::format("resume_{}", resume)), provenance);
+    const auto old = Hdf5File::open(path).root();
+    RunFile file(path, series);
+    file.contents_->take_rows(old.group("series"), rows);
+    auto root = file.contents_->root();
+    root.copy(old, "provenance");
+    record_resume(root.group("provenance"), provenance);
     return file;
   } catch (const Hdf5Error& error) {
     throw FileError(path, fmt::format("does not fit the checkpoint ({})", error.what()),

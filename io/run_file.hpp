@@ -38,10 +38,10 @@ public:
   static RunFile create(const std::filesystem::path& path, const Provenance& provenance,
                         const std::vector<Column>& series);
 
-  /// Opens the file for a run that goes on from a checkpoint: forgets all rows but the first
-  /// `rows`, and keeps `provenance` in /provenance/resume_1, /provenance/resume_2, ... The file on
-  /// the disk is not changed before the next flush. Throws FileError; in particular if there are
-  /// fewer rows, or other columns.
+  /// Goes on with the file of a run that is resumed from a checkpoint: takes over its first `rows`
+  /// rows and its provenance, and adds the new provenance in /provenance/resume_1, resume_2, ...
+  /// The file on the disk is not replaced before the next flush. Throws FileError; in particular if
+  /// it has fewer rows, or other columns.
   static RunFile reopen(const std::filesystem::path& path, const Provenance& provenance,
                         const std::vector<Column>& series, std::int64_t rows);
 
@@ -77,7 +77,7 @@ public:
 
 private:
   class Contents;
-  explicit RunFile(std::unique_ptr<Contents> contents);
+  RunFile(const std::filesystem::path& path, const std::vector<Column>& series);
 
   std::unique_ptr<Contents> contents_;
 };

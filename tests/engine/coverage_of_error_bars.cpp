@@ -1,13 +1,9 @@
 // How often the error bars of the engine cover the truth, how often a stationary series is called
 // unsteady, and how often an unsteady one is caught: the tables of docs/statistics.md.
 //
-// Thousands of series per line take minutes, so this is no unit test. By hand, from the root:
-//
-//   g++ -std=c++20 -O2 -I. tests/engine/coverage_of_error_bars.cpp engine/steady_state.cpp
-//       engine/time_series.cpp -o coverage && ./coverage 4000
-//
-// The argument is the number of series per line; with 4000 of them a rate of 68 % is known to 0.7
-// %, one of 1 % to 0.16 %.
+// Thousands of series per line take minutes, so this is no unit test but a program to be run by
+// hand. Its argument is the number of series per line; with 4000 of them, as in the manual, a rate
+// of 68 % is known to 0.7 %, and one of 1 % to 0.16 %.
 
 #include "engine/steady_state.hpp"
 #include "engine/time_series.hpp"

@@ -55,8 +55,8 @@ State gas(double width, double length, std::size_t grains, double speed, std::ui
 }  // namespace
 
 TEST_CASE("a crowded tube of unequal grains goes as by brute force") {
-  const std::uint64_t seed = GENERATE(1, 2, 3);
-  const Events events = agree(small_tube(seed), 600);
+  const std::uint64_t seed = GENERATE(as<std::uint64_t>{}, 1, 2, 3);
+  const Events events = agree(small_tube(seed), 800);
   CHECK(events.pairs_begun > 20);
   CHECK(events.walls_begun > 5);
 }
@@ -98,7 +98,11 @@ TEST_CASE("boxes of one, two and three rows of cells go as by brute force") {
 }
 
 TEST_CASE("a single column of cells goes as by brute force") {
-  CHECK(agree(gas(1.1e-3, 40e-3, 25, 3.0, 10), 500).pairs_begun > 5);
+  State state = empty_box(10e-3, 40e-3);
+  Dice dice(10);
+  throw_grains(state, 25, {.left = 5e-3, .right = 6e-3, .low = 0.0, .high = 40e-3, .speed = 3.0},
+               dice);
+  CHECK(agree(state, 500).pairs_begun > 5);
 }
 
 TEST_CASE("grains of very different size go as by brute force") {
@@ -126,8 +130,13 @@ TEST_CASE("fast intruders go as by brute force") {
   CAPTURE(speed);
   State state = small_tube(12, 30);
   Dice dice(13);
-  throw_grains(state, 3, {.left = 1e-3, .right = 7e-3, .low = 0.0, .high = 9.6e-3, .speed = speed},
-               dice);
+  for (int i = 0; i < 3;) {
+    const double across = dice.between(-10.0, 10.0), along = i % 2 == 0 ? speed : -speed;
+    const Grain intruder = grain(dice.between(1e-3, 7e-3), dice.between(0.0, 9.6e-3), across, along);
+    if (!room_for(state, intruder)) continue;
+    add_grain(state, intruder);
+    ++i;
+  }
   CHECK(agree(state, 300).pairs_begun > 5);
 }
 
@@ -140,6 +149,37 @@ TEST_CASE("grains that all fall at 50 m/s go as by brute force") {
       {.left = 0.0, .right = 8e-3, .low = 0.0, .high = 10e-3, .speed = 2.0, .common_vy = 50.0},
       dice);
   CHECK(agree(state, 500).pairs_begun > 10);
+}
+
+TEST_CASE("a grain so fast that it jumps out of a contact goes as by brute force") {
+  // It grazes and is beyond the reach of the candidates one step later.
+  State state = empty_box(20e-3, 19.8e-3);
+  state.time_step = 3e-6;
+  SECTION("of a free grain") {
+    add_grain(state, grain(5e-3, 10e-3, 100.0, 0.0));
+    add_grain(state, grain(10e-3, 10.95e-3, 0.0, 0.0));
+    CHECK(agree(state, 40).pairs_begun == 1);
+  }
+  SECTION("of a wall") {
+    state.walls = {{.line = 0.0, .radius = wall_radius, .count = 1}};
+    add_grain(state, grain(2.5e-3, 0.7e-3, -100.0, 0.0));
+    CHECK(agree(state, 40).walls_begun == 1);
+  }
+}
+
+TEST_CASE("a grain just released by a contact is not thought slower than it is") {
+  // The attraction at the end of a contact slows grain 1 down in the very step in which the displacements
+  // are looked at; grain 2 comes up to it at nearly the same speed, from just beyond the candidates' reach.
+  State state = empty_box(20e-3, 10e-3);
+  state.time_step = 4.75e-6;
+  const double speed = 10.507087135894453, gap = 0.00012030780962861139;
+  const double oncoming = 2.9983974696576841, distance = 0.00018905884476350012;
+  add_grain(state, {5e-3, 5e-3, 0.0, 0.0, radius, 100.0 * mass});
+  add_grain(state, grain(6e-3 + gap, 5e-3, -speed, 0.0));
+  add_grain(state, grain(7e-3 + distance + oncoming * (gap / speed + 2.4e-4), 5e-3, -oncoming, 0.0));
+  ContactModel model = frictionless(damping);
+  model.normal = LinearLaw{200.0, damping};
+  CHECK(agree(state, 100, model).pairs_begun == 2);
 }
 
 TEST_CASE("several threads go as by brute force") {

@@ -132,6 +132,19 @@ TEST_CASE("A run file goes on from the rows that the checkpoint counts") {
   const auto origin = Hdf5File::open(path).root().group("provenance");
   CHECK(origin.read_text("host", 100) == "here");
   CHECK(origin.group("resume_1").read_text("host", 100) == "there");
+  CHECK_FALSE(Hdf5File::open(path).root().has("final"));
+}
+
+TEST_CASE("Two run files can be open at the same time") {
+  const ScratchDirectory directory;
+  auto a = RunFile::create(directory / "a.h5", provenance, columns);
+  auto b = RunFile::create(directory / "b.h5", provenance, columns);
+  append_rows(a, 0, 10);
+  append_rows(b, 0, 20);
+  a.flush();
+  b.flush();
+  check_rows(directory / "a.h5", 10);
+  check_rows(directory / "b.h5", 20);
 }
 
 TEST_CASE("Each resume of a run file is recorded") {

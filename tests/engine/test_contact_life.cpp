@@ -1,0 +1,177 @@
+// The life of a contact: begin, end, partners, largest overlap and slip path, against a log of events by
+// brute force; and that nothing the engine does between two steps cuts it in two.
+#include "engine/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/brute_force.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace systems;
+
+namespace {
+
+/// Ended contacts as they were in their last step, in the order in which they ended.
+std::vector<Contact> watch(const State& start, std::int64_t steps) {
+  Simulation simulation(start, paper_model(), 1);
+  std::vector<Contact> ended, before;
+  for (std::int64_t step = 1; step <= steps; ++step) {
+    simulation.advance(1);
+    const std::vector<Contact>& now = simulation.state().contacts;
+    for (const Contact& contact : before)
+      if (std::none_of(now.begin(), now.end(),
+                       [&](const Contact& c) { return c.name == contact.name; }))
+        ended.push_back(contact);
+    before = now;
+  }
+  return ended;
+}
+
+brute_force::Stepper reference(const State& start, std::int64_t steps) {
+  brute_force::Stepper stepper(start, paper_model());
+  for (std::int64_t step = 1; step <= steps; ++step) stepper.step();
+  return stepper;
+}
+
+/// Two grains in a long, soft contact, and a fast third one that makes the engine sort again and again.
+State disturbed_contact() {
+  State state = empty_box(20e-3, 20e-3);
+  add_grain(state, grain(5e-3, 5e-3, 0.1, 0.0));
+  add_grain(state, grain(6.001e-3, 5e-3, -0.1, 0.0));
+  add_grain(state, grain(10e-3, 15e-3, 30.0, 0.3));
+  return state;
+}
+
+ContactModel soft() {
+  ContactModel model = paper_model();
+  model.normal = LinearLaw{20.0, 100.0};  // t_col = 0.5 ms
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("each contact lives as in the log of events") {
+  // Both see the same steps; sums differ by rounding.
+  const State start = small_tube(21);
+  const std::int64_t steps = 800;
+  const std::vector<Contact> lives = watch(start, steps);
+  const brute_force::Stepper log = reference(start, steps);
+  REQUIRE(lives.size() == log.ended().size());
+  REQUIRE(lives.size() > 20);
+  for (std::size_t i = 0; i < lives.size(); ++i) {
+    const Contact& contact = lives[i];
+    const auto& [name, life] = log.ended()[i];
+    REQUIRE(contact.name == name);
+    const double dt = start.time_step;
+    // It began after the last step without it, and ended before the first without it.
+    CHECK(contact.begin > dt * (static_cast<double>(life.first_step) - 1.0 - 1e-6));
+    CHECK(contact.begin <= dt * static_cast<double>(life.first_step));
+    CHECK(contact.end >= dt * static_cast<double>(life.last_step));
+    CHECK(contact.end < dt * (static_cast<double>(life.last_step) + 1.0 + 1e-6));
+    CHECK(std::abs(contact.max_overlap / life.max_overlap - 1.0) < 1e-6);
+    CHECK(std::abs(contact.slip_path / life.slip_path - 1.0) < 1e-6);
+    CHECK(contact.entry_rate > 0.0);
+  }
+}
+
+TEST_CASE("the tally is the sum over the lives") {
+  const State start = small_tube(22);
+  const std::int64_t steps = 800;
+  const std::vector<Contact> lives = watch(start, steps);
+  const State end = advanced(start, paper_model(), steps);
+
+  ContactTally grains, walls;
+  for (const Contact& contact : lives) {
+    ContactTally& kind = contact.name.wall == no_wall ? grains : walls;
+    kind.add(contact);
+    ++kind.ended;
+  }
+  for (const auto& [sum, tally] :
+       {std::pair{&grains, &end.tally.grains}, std::pair{&walls, &end.tally.walls}}) {
+    CHECK(sum->ended > 0);
+    CHECK(tally->ended == sum->ended);
+    CHECK(tally->duration == sum->duration);
+    CHECK(tally->slip_path == sum->slip_path);
+    CHECK(tally->normal_loss == sum->normal_loss);
+    CHECK(tally->friction_loss == sum->friction_loss);
+    CHECK(tally->impulse_y == sum->impulse_y);
+    CHECK(tally->max_overlap == sum->max_overlap);
+  }
+  const auto lasting = static_cast<std::int64_t>(end.contacts.size());
+  CHECK(end.tally.grains.begun + end.tally.walls.begun - grains.ended - walls.ended == lasting);
+}
+
+TEST_CASE("begin and end are resolved within the step") {
+  // Head-on at constant velocity until the first touch: the extrapolation is exact up to the force of one step.
+  const double phase = GENERATE(0.1, 0.5, 0.9);
+  State state = empty_box(20e-3, 20e-3);
+  const double v = 1.0, met = (7.0 + phase) * time_step;
+  add_grain(state, grain(5e-3, 5e-3, v, 0.0));
+  add_grain(state, grain(6e-3 + v * met, 5e-3, 0.0, 0.0));
+  const State after = advanced(state, paper_model(), 10);
+  REQUIRE(after.contacts.size() == 1);
+  CHECK(std::abs(after.contacts[0].begin - met) < 1e-2 * time_step);
+  CHECK(std::abs(after.contacts[0].entry_rate / v - 1.0) < 3e-2);  // a kick of a step late
+  CHECK(std::abs(after.contacts[0].entry_slip) < 1e-12);
+}
+
+TEST_CASE("sorting in the middle of a contact does not end it") {
+  Simulation simulation(disturbed_contact(), soft(), 1);
+  simulation.advance(100);
+  REQUIRE(simulation.state().contacts.size() == 1);
+  const double begin = simulation.state().contacts[0].begin;
+  double overlap = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    simulation.advance(10);
+    REQUIRE(simulation.state().contacts.size() == 1);
+    CHECK(simulation.state().contacts[0].begin == begin);
+    CHECK(simulation.state().contacts[0].max_overlap >= overlap);
+    overlap = simulation.state().contacts[0].max_overlap;
+  }
+  simulation.advance(400);
+  CHECK(simulation.state().contacts.empty());
+  CHECK(simulation.state().tally.grains.begun == 1);
+  CHECK(simulation.state().tally.grains.ended == 1);
+}
+
+TEST_CASE("a contact that is met again is a new contact") {
+  // A grain bounces between two walls: the same wall grains, again and again.
+  State state = empty_box(3e-3, 20e-3);
+  add_walls(state, 1);
+  add_grain(state, grain(1.5e-3, 0.0, 5.0, 0.0));
+  const State after = advanced(state, frictionless(0.0), 3000);
+  // free path 3 - 2 * 0.83 = 1.34 mm: 0.27 ms and 0.07 ms of contact per crossing
+  CHECK(after.tally.walls.begun >= 8);
+  CHECK(after.tally.walls.begun - after.tally.walls.ended
+        == static_cast<std::int64_t>(after.contacts.size()));
+}
+
+TEST_CASE("contacts are listed in the order of their names, each once") {
+  State state = small_tube(23, 60);
+  Simulation simulation(state, soft(), 1);
+  for (int i = 0; i < 30; ++i) {
+    simulation.advance(20);
+    const std::vector<Contact>& contacts = simulation.state().contacts;
+    const auto not_before = [](const Contact& a, const Contact& b) { return a.name >= b.name; };
+    CHECK(std::adjacent_find(contacts.begin(), contacts.end(), not_before) == contacts.end());
+    for (const Contact& contact : contacts) {
+      if (contact.name.wall == no_wall) CHECK(contact.name.grain < contact.name.partner);
+      CHECK(contact.overlap > 0.0);
+      CHECK(contact.overlap <= contact.max_overlap);
+    }
+  }
+  CHECK(simulation.state().contacts.size() > 5);
+}
+
+TEST_CASE("a grain between two others knows both of them") {
+  State state = empty_box(20e-3, 20e-3);
+  add_grain(state, grain(5e-3, 5e-3, 1.0, 0.0));
+  add_grain(state, grain(6.01e-3, 5e-3, 0.0, 0.0));
+  add_grain(state, grain(7.02e-3, 5e-3, -1.0, 0.0));
+  const State after = advanced(state, paper_model(), 20);
+  REQUIRE(after.contacts.size() == 2);
+  CHECK(after.contacts[0].name == ContactName{no_wall, 0, 1});
+  CHECK(after.contacts[1].name == ContactName{no_wall, 1, 2});
+}

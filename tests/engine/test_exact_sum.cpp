@@ -1,0 +1,80 @@
+// Sums that come out the same in any order, and are as accurate as their terms.
+#include "engine/exact_sum.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using riesel::ExactSum;
+using systems::Dice;
+
+namespace {
+
+/// Terms of both signs over 15 decades, as energies of grains have them.
+std::vector<double> terms(std::size_t n) {
+  Dice dice(1);
+  std::vector<double> values(n);
+  for (double& value : values)
+    value = std::pow(10.0, dice.between(-14.0, 1.0)) * (dice.below(2) == 0 ? 1.0 : -1.0);
+  return values;
+}
+
+ExactSum sum_of(const std::vector<double>& values) {
+  ExactSum sum;
+  for (const double value : values) sum.add(value);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a sum does not depend on the order of its terms") {
+  std::vector<double> values = terms(1000);
+  const ExactSum sum = sum_of(values);
+  std::reverse(values.begin(), values.end());
+  CHECK(sum_of(values) == sum);
+  std::sort(values.begin(), values.end());
+  CHECK(sum_of(values) == sum);
+}
+
+TEST_CASE("a sum does not depend on how its terms are shared") {
+  const std::vector<double> values = terms(999);
+  ExactSum shares[3], total;
+  for (std::size_t i = 0; i < values.size(); ++i) shares[i % 3].add(values[i]);
+  for (const ExactSum& share : shares) total.add(share);
+  CHECK(total == sum_of(values));
+}
+
+TEST_CASE("a sum loses less than its resolution per term") {
+  // against long double, which carries 64 bits: 1000 terms below 10 give 1e-15 at most
+  const std::vector<double> values = terms(1000);
+  long double reference = 0.0L;
+  for (const double value : values) reference += static_cast<long double>(value);
+  CHECK(std::abs(sum_of(values).value() - static_cast<double>(reference)) < 1e-14);
+  CHECK(sum_of({1e-20, 1e10, -1e10}).value() == Approx(1e-20).epsilon(1e-7));
+}
+
+TEST_CASE("terms that cancel leave nothing") {
+  std::vector<double> values = terms(500);
+  for (std::size_t i = 0, n = values.size(); i < n; ++i) values.push_back(-values[i]);
+  CHECK(sum_of(values) == ExactSum{});
+  CHECK(sum_of(values).value() == 0.0);
+}
+
+TEST_CASE("a sum added many times over is that many sums") {
+  const ExactSum once = sum_of(terms(10));
+  ExactSum seven, product;
+  for (int i = 0; i < 7; ++i) seven.add(once);
+  product.add(once, 7);
+  CHECK(product == seven);
+  product.add(once, -7);
+  CHECK(product == ExactSum{});
+}
+
+TEST_CASE("the two halves hold all of a sum") {
+  for (const double value : {0.0, 1e-27, -1e-27, 1.0, -1.0, 3e10, -3e10, 0.1}) {
+    const ExactSum sum = sum_of({value, value});
+    CHECK(ExactSum::from_halves(sum.high(), sum.low()) == sum);
+  }
+}

@@ -1,0 +1,144 @@
+// What must not go on: states that are none, grains that get lost, forces that are no numbers.
+#include "engine/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <limits>
+#include <string>
+
+using namespace systems;
+using Catch::Matchers::Contains;
+
+namespace {
+
+State two_grains() {
+  State state = empty_box(10e-3, 10e-3);
+  add_grain(state, grain(3e-3, 3e-3, 0.0, 0.0));
+  add_grain(state, grain(6e-3, 6e-3, 0.0, 0.0));
+  return state;
+}
+
+void check_refused(const State& state) {
+  CHECK_THROWS_AS(Simulation(state, paper_model(), 1), std::invalid_argument);
+}
+
+/// What advance() throws, or "no failure".
+std::string failure(const State& state, std::int64_t steps, int threads = 1) {
+  try {
+    advanced(state, paper_model(), steps, threads);
+  } catch (const RunFailure& failure) {
+    return failure.what();
+  }
+  return "no failure";
+}
+
+}  // namespace
+
+TEST_CASE("a valid state is accepted") { CHECK_NOTHROW(Simulation(two_grains(), paper_model(), 1)); }
+
+TEST_CASE("a state whose invariants do not hold is refused") {
+  State state = two_grains();
+  SECTION("without grains") { state.grains.resize(0); }
+  SECTION("a radius of zero") { state.grains.radius[1] = 0.0; }
+  SECTION("a negative radius") { state.grains.radius[1] = -radius; }
+  SECTION("a radius that is no number") {
+    state.grains.radius[1] = std::numeric_limits<double>::quiet_NaN();
+  }
+  SECTION("a mass of zero") { state.grains.mass[0] = 0.0; }
+  SECTION("a negative mass") { state.grains.mass[0] = -mass; }
+  SECTION("an id twice") { state.grains.id[1] = 0; }
+  SECTION("an id too large") { state.grains.id[1] = 2; }
+  SECTION("a negative id") { state.grains.id[1] = -1; }
+  SECTION("a time step of zero") { state.time_step = 0.0; }
+  SECTION("a negative time step") { state.time_step = -1e-6; }
+  SECTION("a time step that is no number") {
+    state.time_step = std::numeric_limits<double>::quiet_NaN();
+  }
+  check_refused(state);
+}
+
+TEST_CASE("a period in which the nearest image is not unique is refused") {
+  // 2 (diameter + skin), with a skin of a fifth of the mean diameter
+  State state = empty_box(10e-3, 2.39e-3);
+  add_grain(state, grain(3e-3, 0.0, 0.0, 0.0));
+  check_refused(state);
+  state.box.length = 2.41e-3;
+  CHECK_NOTHROW(Simulation(state, paper_model(), 1));
+}
+
+TEST_CASE("a contact between grains that are far apart is refused") {
+  State state = two_grains();
+  state.step = 1;
+  state.contacts.push_back({.name = {no_wall, 0, 1}});
+  check_refused(state);
+}
+
+TEST_CASE("a contact with a wall that is not near is refused") {
+  State state = two_grains();
+  add_walls(state, 10);
+  state.step = 1;
+  state.contacts.push_back({.name = {0, 0, 0}});
+  check_refused(state);
+}
+
+TEST_CASE("a grain that leaves through a missing wall is reported lost") {
+  State state = two_grains();
+  state.grains.ux[1] = state.box.fixed_x(20.0 * state.time_step);  // 20 m/s
+  // From 6 mm it takes 0.7 ms to x = 2 width; it may go unnoticed for half a skin.
+  CHECK(failure(state, 690) == "no failure");
+  CHECK_THAT(failure(state, 720), Contains("grain 1") && Contains("left"));
+}
+
+TEST_CASE("a grain that leaves to the left is reported lost") {
+  State state = two_grains();
+  state.grains.ux[0] = state.box.fixed_x(-20.0 * state.time_step);
+  CHECK_THAT(failure(state, 700), Contains("grain 0") && Contains("left"));
+}
+
+TEST_CASE("a grain that starts beyond the space is reported lost") {
+  State state = two_grains();
+  add_grain(state, grain(35e-3, 3e-3, 0.0, 0.0));
+  add_grain(state, grain(-35e-3, 3e-3, 0.0, 0.0));
+  CHECK_THAT(failure(state, 1), Contains("left"));
+}
+
+TEST_CASE("grains outside the walls but within the space go on") {
+  State state = two_grains();
+  add_walls(state, 10);
+  add_grain(state, grain(-2e-3, 3e-3, 0.0, 1.0));
+  add_grain(state, grain(12e-3, 3e-3, 0.0, 1.0));
+  CHECK(failure(state, 100) == "no failure");
+}
+
+TEST_CASE("two grains in the very same place are reported, not turned into numbers") {
+  State state = two_grains();
+  add_grain(state, grain(6e-3, 6e-3, 0.0, 0.0));
+  const int threads = GENERATE(1, 2);
+  CHECK_THAT(failure(state, 10, threads),
+             Contains("grain 1 and grain 2") && Contains("not finite") && Contains("step 1"));
+}
+
+TEST_CASE("a grain in the very place of a wall grain is reported") {
+  State state = two_grains();
+  add_walls(state, 10);
+  add_grain(state, grain(0.0, 0.0, 0.0, 0.0));
+  CHECK_THAT(failure(state, 10), Contains("grain 2 and grain 0 of wall 0"));
+}
+
+TEST_CASE("a force beyond all bounds is reported") {
+  State state = two_grains();
+  add_grain(state, grain(6.5e-3, 6e-3, 0.0, 0.0));
+  ContactModel model = paper_model();
+  model.normal = LinearLaw{GENERATE(1e300, std::numeric_limits<double>::infinity()), 0.0};
+  Simulation simulation(state, model, 1);
+  CHECK_THROWS_AS(simulation.advance(10), RunFailure);
+}
+
+TEST_CASE("a failed run stays failed") {
+  State state = two_grains();
+  add_grain(state, grain(6e-3, 6e-3, 0.0, 0.0));
+  Simulation simulation(state, paper_model(), 1);
+  CHECK_THROWS_AS(simulation.advance(5), RunFailure);
+  CHECK_THROWS_AS(simulation.advance(5), RunFailure);
+  CHECK(simulation.state().step == 1);
+}

@@ -1,0 +1,101 @@
+// The hash is that of all that the future depends on: every part of it counts, the order of the slots
+// does not.
+#include "engine/state.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <functional>
+#include <vector>
+
+using namespace systems;
+
+namespace {
+
+/// A state in the middle of things.
+const State& state() {
+  static const State some = [] {
+    State tube = small_tube(41);
+    State later = advanced(tube, paper_model(), 300);
+    REQUIRE_FALSE(later.contacts.empty());
+    REQUIRE(later.tally.walls.ended > 0);
+    return later;
+  }();
+  return some;
+}
+
+bool noticed(const std::function<void(State&)>& change) {
+  State changed = state();
+  change(changed);
+  return state_hash(changed) != state_hash(state());
+}
+
+}  // namespace
+
+TEST_CASE("the hash does not depend on the order of the slots") {
+  CHECK(state_hash(shuffled(state(), 1)) == state_hash(state()));
+}
+
+TEST_CASE("the hash notices every part of the motion") {
+  CHECK(noticed([](State& s) { ++s.grains.x[3]; }));
+  CHECK(noticed([](State& s) { ++s.grains.y[3]; }));
+  CHECK(noticed([](State& s) { ++s.grains.ux[3]; }));
+  CHECK(noticed([](State& s) { ++s.grains.uy[3]; }));
+  CHECK(noticed([](State& s) { ++s.grains.kick_x[3]; }));
+  CHECK(noticed([](State& s) { ++s.grains.kick_y[3]; }));
+  CHECK(noticed([](State& s) { s.grains.radius[3] *= 1.0 + 1e-15; }));
+  CHECK(noticed([](State& s) { s.grains.mass[3] *= 1.0 + 1e-15; }));
+  CHECK(noticed([](State& s) { std::swap(s.grains.id[3], s.grains.id[4]); }));
+  CHECK(noticed([](State& s) { ++s.step; }));
+  CHECK(noticed([](State& s) { s.time_step *= 2.0; }));
+  CHECK(noticed([](State& s) { s.gravity = 9.81; }));
+  CHECK(noticed([](State& s) { s.box.width *= 2.0; }));
+  CHECK(noticed([](State& s) { s.box.length *= 2.0; }));
+}
+
+TEST_CASE("the hash notices the life of a contact") {
+  CHECK(noticed([](State& s) { s.contacts.pop_back(); }));
+  CHECK(noticed([](State& s) { ++s.contacts[0].name.partner; }));
+  CHECK(noticed([](State& s) { s.contacts[0].begin -= 1e-9; }));
+  CHECK(noticed([](State& s) { s.contacts[0].max_overlap *= 2.0; }));
+  CHECK(noticed([](State& s) { s.contacts[0].slip_path *= 2.0; }));
+  CHECK(noticed([](State& s) { s.contacts[0].normal_loss += 1e-20; }));
+  CHECK(noticed([](State& s) { s.contacts[0].friction_loss += 1e-20; }));
+}
+
+TEST_CASE("the hash notices every sum of the tally") {
+  CHECK(noticed([](State& s) { ++s.tally.walls.begun; }));
+  CHECK(noticed([](State& s) { ++s.tally.walls.ended; }));
+  CHECK(noticed([](State& s) { s.tally.grains.max_overlap *= 2.0; }));
+  CHECK(noticed([](State& s) { s.tally.walls.duration.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.tally.walls.slip_path.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.tally.walls.normal_loss.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.tally.walls.friction_loss.add(1e-20); }));
+}
+
+TEST_CASE("the hash notices the impulses that the balance of energy needs") {
+  CHECK(noticed([](State& s) { s.contacts[0].impulse_y += 1e-12; }));
+  CHECK(noticed([](State& s) { s.contacts[0].impulse_y_times_step += 1e-12; }));
+  CHECK(noticed([](State& s) { s.tally.walls.impulse_y.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.tally.walls.impulse_y_times_step.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.origin.kinetic *= 2.0; }));
+  CHECK(noticed([](State& s) { s.origin.momentum_y *= 2.0; }));
+}
+
+TEST_CASE("the hash notices the walls") {
+  CHECK(noticed([](State& s) { s.walls.pop_back(); }));
+  CHECK(noticed([](State& s) { s.walls[0].line += 1e-6; }));
+  CHECK(noticed([](State& s) { s.walls[0].radius *= 2.0; }));
+  CHECK(noticed([](State& s) { ++s.walls[0].count; }));
+}
+
+TEST_CASE("grains ordered by id are the same grains") {
+  const Grains ordered = ordered_by_id(state().grains);
+  REQUIRE(ordered.size() == state().grains.size());
+  for (std::size_t slot = 0; slot < ordered.size(); ++slot) {
+    const auto id = static_cast<std::size_t>(state().grains.id[slot]);
+    CHECK(ordered.id[id] == static_cast<std::int32_t>(id));
+    CHECK(ordered.x[id] == state().grains.x[slot]);
+    CHECK(ordered.kick_y[id] == state().grains.kick_y[slot]);
+    CHECK(ordered.mass[id] == state().grains.mass[slot]);
+  }
+}

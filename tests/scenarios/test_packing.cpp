@@ -1,0 +1,158 @@
+// The start of the tube: grains that touch nothing, as many and of such sizes as set.
+#include "tests/scenarios/scenario_fixture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+using namespace scenario_fixture;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+constexpr double rounding = 1e-15;  // m, of positions told in metres
+
+/// m, the least gap between two free grains, by brute force. Negative: they overlap.
+double least_gap_between_grains(const State& state) {
+  const std::vector<Grain> grains = grains_of(state);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Grain &a = grains[i], &b = grains[j];
+      const double along = std::remainder(a.y - b.y, state.box.length);
+      least = std::min(least, std::hypot(a.x - b.x, along) - a.radius - b.radius);
+    }
+  }
+  return least;
+}
+
+/// m, the same between free grains and wall grains.
+double least_gap_to_walls(const State& state) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Grain& grain : grains_of(state)) {
+    for (const WallLattice& wall : state.walls) {
+      for (std::int64_t k = 0; k < wall.count; ++k) {
+        const double wall_y = static_cast<double>(k) * wall.spacing(state.box);
+        const double along = std::remainder(grain.y - wall_y, state.box.length);
+        least =
+            std::min(least, std::hypot(grain.x - wall.line, along) - grain.radius - wall.radius);
+      }
+    }
+  }
+  return least;
+}
+
+double area_of_grains(const State& state) {
+  double area = 0.0;
+  for (const double radius : state.grains.radius) area += std::numbers::pi * radius * radius;
+  return area;
+}
+
+/// Of diameters relative to the mean that was set.
+struct Sizes {
+  double smallest, largest, mean, deviation, count;
+};
+
+Sizes relative_sizes(const State& state, double diameter) {
+  Sizes sizes = {.smallest = std::numeric_limits<double>::infinity(),
+                 .largest = 0.0,
+                 .mean = 0.0,
+                 .deviation = 0.0,
+                 .count = static_cast<double>(state.grains.size())};
+  double squares = 0.0;
+  for (const double radius : state.grains.radius) {
+    const double relative = 2.0 * radius / diameter;
+    sizes.smallest = std::min(sizes.smallest, relative);
+    sizes.largest = std::max(sizes.largest, relative);
+    sizes.mean += relative / sizes.count;
+    squares += relative * relative / sizes.count;
+  }
+  sizes.deviation = std::sqrt(squares - sizes.mean * sizes.mean);
+  return sizes;
+}
+
+/// A tube of about 1,700 grains whose diameters have a spread of 10 %.
+State many_sizes(const std::string& distribution) {
+  return tube({"tube.length=0.2", "grains.area_fraction=0.35", "grains.polydispersity=0.1",
+               "grains.size_distribution=" + distribution})
+      .state;
+}
+
+}  // namespace
+
+TEST_CASE("at the start no two grains overlap and none is in a wall, at any filling") {
+  const std::string fraction = GENERATE("0.05", "0.3", "0.55", "0.7", "0.8");
+  const std::string distribution = GENERATE("uniform", "truncated_normal");
+  const std::string seed = GENERATE("1", "2", "3");
+  CAPTURE(fraction, distribution, seed);
+  const State state = tube({"grains.area_fraction=" + fraction, "seed=" + seed,
+                            "grains.size_distribution=" + distribution})
+                          .state;
+
+  CHECK(least_gap_between_grains(state) > -rounding);
+  CHECK(least_gap_to_walls(state) > -rounding);
+
+  const double wanted = std::stod(fraction) * state.box.width * state.box.length;
+  const double largest = *std::max_element(state.grains.radius.begin(), state.grains.radius.end());
+  INFO("the number of grains is not the nearest to the area fraction");
+  CHECK_THAT(area_of_grains(state),
+             WithinAbs(wanted, 0.5 * std::numbers::pi * largest * largest * 1.05));
+}
+
+TEST_CASE("grains of very unequal size do not overlap at the start") {
+  const State state = tube({"grains.polydispersity=0.3", "grains.area_fraction=0.7"}).state;
+  CHECK(least_gap_between_grains(state) > -rounding);
+  CHECK(least_gap_to_walls(state) > -rounding);
+}
+
+TEST_CASE("grains in a tube barely wider than they are stand clear of its walls") {
+  const State state = tube({"tube.width=1.8 mm", "grains.area_fraction=0.3"}).state;
+  CHECK(state.grains.size() > 5);
+  CHECK(least_gap_between_grains(state) > -rounding);
+  CHECK(least_gap_to_walls(state) > -rounding);
+}
+
+TEST_CASE("a start of unequal wall and free grains has no overlaps") {
+  const State state = tube({"wall.grain_diameter=3 mm", "wall.spacing=1 mm"}).state;
+  CHECK(least_gap_between_grains(state) > -rounding);
+  CHECK(least_gap_to_walls(state) > -rounding);
+}
+
+TEST_CASE("uniform sizes lie within the spread and have the mean and deviation of their kind") {
+  const Sizes sizes = relative_sizes(many_sizes("uniform"), 1e-3);
+  const double deviation = 0.1 / std::sqrt(3.0);
+  CHECK(sizes.smallest >= 0.9);
+  CHECK(sizes.largest <= 1.1);
+  CHECK(sizes.smallest < 0.905);
+  CHECK(sizes.largest > 1.095);
+  CHECK_THAT(sizes.mean, WithinAbs(1.0, 4.0 * deviation / std::sqrt(sizes.count)));
+  CHECK_THAT(sizes.deviation, WithinAbs(deviation, 4.0 * deviation / std::sqrt(2.0 * sizes.count)));
+}
+
+TEST_CASE("truncated normal sizes end at three deviations") {
+  const Sizes sizes = relative_sizes(many_sizes("truncated_normal"), 1e-3);
+  const double deviation = 0.98658 * 0.1;  // of a normal distribution cut off at three
+  CHECK(sizes.smallest >= 0.7);
+  CHECK(sizes.largest <= 1.3);
+  CHECK(sizes.smallest < 0.78);
+  CHECK(sizes.largest > 1.22);
+  CHECK_THAT(sizes.mean, WithinAbs(1.0, 4.0 * deviation / std::sqrt(sizes.count)));
+  CHECK_THAT(sizes.deviation, WithinAbs(deviation, 4.0 * deviation / std::sqrt(2.0 * sizes.count)));
+}
+
+TEST_CASE("without a spread all grains are of the diameter and mass set") {
+  const State state = tube({"grains.polydispersity=0", "grains.diameter=0.8 mm"}).state;
+  for (std::size_t i = 0; i < state.grains.size(); ++i) {
+    CHECK_THAT(state.grains.radius[i], WithinAbs(0.4e-3, 1e-18));
+    CHECK_THAT(state.grains.mass[i], WithinAbs(1e-6, 1e-20));
+  }
+}
+
+TEST_CASE("masses go as the areas, and a grain of the mean diameter has the mass set") {
+  const State state = tube({"grains.mass=2 mg", "grains.polydispersity=0.2"}).state;
+  for (const Grain& grain : grains_of(state)) {
+    const double relative = grain.radius / 0.5e-3;
+    CHECK_THAT(grain.mass, WithinAbs(2e-6 * relative * relative, 1e-19));
+  }
+}
