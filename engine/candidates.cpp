@@ -190,7 +190,7 @@ std::vector<Contact> Candidates::contacts() const {
   std::vector<Contact> all;
   for (const Slice& slice : slices_)
     for (const ContactBook* book : {&slice.pair_contacts, &slice.wall_contacts})
-      for (const ContactBook::Entry& entry : book->entries()) all.push_back(entry.contact);
+      for (const ContactBook::Entry& entry : book->entries()) all.push_back(book->contact(entry));
   std::sort(all.begin(), all.end(),
             [](const Contact& a, const Contact& b) { return a.name < b.name; });
   return all;
@@ -201,24 +201,27 @@ void Candidates::give_back(const State& state, const std::vector<Contact>& conta
   for (std::size_t slot = 0; slot < slot_of.size(); ++slot)
     slot_of[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
 
-  std::vector<std::vector<ContactBook::Entry>> pairs(slices_.size()), walls(slices_.size());
+  using Keyed = std::pair<std::uint64_t, const Contact*>;
+  std::vector<std::vector<Keyed>> pairs(slices_.size()), walls(slices_.size());
   for (const Contact& contact : contacts) {
     const std::uint32_t grain = slot_of[static_cast<std::size_t>(contact.name.grain)];
     if (contact.name.wall != no_wall) {
       const std::size_t s = slice_of(grain);
-      walls[s].push_back({wall_key(slices_[s], grain, contact.name), contact});
+      walls[s].push_back({wall_key(slices_[s], grain, contact.name), &contact});
     } else {
       const std::uint32_t partner = slot_of[static_cast<std::size_t>(contact.name.partner)];
       const auto [s, key] = pair_key(grain, partner);
-      pairs[s].push_back({key, contact});
+      pairs[s].push_back({key, &contact});
     }
   }
-  const auto by_key = [](const auto& a, const auto& b) { return a.key < b.key; };
+  const auto enter = [](ContactBook& book, std::vector<Keyed>& keyed) {
+    std::sort(keyed.begin(), keyed.end());
+    book.clear();
+    for (const auto& [key, contact] : keyed) book.add(key, *contact);
+  };
   for (std::size_t s = 0; s < slices_.size(); ++s) {
-    std::sort(pairs[s].begin(), pairs[s].end(), by_key);
-    std::sort(walls[s].begin(), walls[s].end(), by_key);
-    slices_[s].pair_contacts.replace(std::move(pairs[s]));
-    slices_[s].wall_contacts.replace(std::move(walls[s]));
+    enter(slices_[s].pair_contacts, pairs[s]);
+    enter(slices_[s].wall_contacts, walls[s]);
   }
 }
 

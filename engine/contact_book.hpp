@@ -18,8 +18,8 @@ namespace riesel {
 class ContactBook {
  public:
   struct Entry {
-    std::uint64_t key;  ///< the place of the contact in the order of the search
-    Contact contact;
+    std::uint64_t key;    ///< the place of the contact in the order of the search
+    std::uint32_t place;  ///< of the contact, see contact()
   };
 
   void begin_step() {
@@ -30,33 +30,56 @@ class ContactBook {
 
   /// The contact with this key, and whether it has just begun. Keys must increase within a step.
   std::pair<Contact&, bool> meet(std::uint64_t key, Tally& tally) {
-    while (next_ < last_.size() && last_[next_].key < key) end(last_[next_++].contact, tally);
+    while (next_ < last_.size() && last_[next_].key < key) end(last_[next_++], tally);
     const bool goes_on = next_ < last_.size() && last_[next_].key == key;
-    if (goes_on)
-      now_.push_back(last_[next_++]);
-    else
-      now_.push_back({key, {}});
-    return {now_.back().contact, !goes_on};
+    const std::uint32_t place = goes_on ? last_[next_++].place : room();
+    now_.push_back({key, place});
+    return {contacts_[place], !goes_on};
   }
 
   void end_step(Tally& tally) {
-    while (next_ < last_.size()) end(last_[next_++].contact, tally);
+    while (next_ < last_.size()) end(last_[next_++], tally);
   }
 
+  /// The lasting contacts, ordered by key.
   const std::vector<Entry>& entries() const { return now_; }
+  const Contact& contact(const Entry& entry) const { return contacts_[entry.place]; }
 
-  /// Replaces all contacts; `entries` must be ordered by key.
-  void replace(std::vector<Entry> entries) { now_ = std::move(entries); }
+  void clear() {
+    now_.clear();
+    contacts_.clear();
+    free_.clear();
+  }
+  /// Keys must increase.
+  void add(std::uint64_t key, const Contact& contact) {
+    now_.push_back({key, static_cast<std::uint32_t>(contacts_.size())});
+    contacts_.push_back(contact);
+  }
 
  private:
-  static void end(const Contact& contact, Tally& tally) {
-    ContactTally& kind = tally.of(contact.name);
+  std::uint32_t room() {
+    if (free_.empty()) {
+      contacts_.emplace_back();
+      return static_cast<std::uint32_t>(contacts_.size() - 1);
+    }
+    const std::uint32_t place = free_.back();
+    free_.pop_back();
+    contacts_[place] = {};
+    return place;
+  }
+
+  void end(const Entry& entry, Tally& tally) {
+    const Contact& ended = contacts_[entry.place];
+    ContactTally& kind = tally.of(ended.name);
     ++kind.ended;
-    kind.add(contact);
+    kind.add(ended);
+    free_.push_back(entry.place);
   }
 
   std::vector<Entry> last_, now_;
   std::size_t next_ = 0;  // first entry of last_ not yet met in this step
+  std::vector<Contact> contacts_;
+  std::vector<std::uint32_t> free_;  // places in contacts_
 };
 
 }  // namespace riesel

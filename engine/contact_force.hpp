@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 
 namespace riesel {
@@ -39,18 +40,22 @@ struct Touch {
   double friction_power;  ///< W, dissipated by friction
 };
 
-/// How much of the last and of the next time step two bodies spend in the overlap: s, at most dt. Their relative path is
-/// extrapolated with the present velocity and normal acceleration (m/s^2, positive apart).
+/// How much of the last and of the next time step two bodies spend in the overlap: s, at most dt.
 struct Passage {
   double since, until;
 };
 
-inline Passage passage(const Encounter& e, double acceleration, double dt) {
+/// The relative path is extrapolated with the present velocity and normal acceleration (m/s^2, positive apart).
+inline Passage passage(const Encounter& e, double distance, double acceleration, double dt) {
   // |r + v s + a s^2 / 2|^2 = reach^2, to second order in s
   const double closing = -e.separation.dot(e.velocity);
-  const double curvature = e.velocity.squaredNorm() + e.separation.norm() * acceleration;
-  const double depth2 = e.reach * e.reach - e.separation.squaredNorm();
-  const double root = std::sqrt(closing * closing + curvature * depth2);
+  const double curvature = e.velocity.squaredNorm() + distance * acceleration;
+  const double depth2 = (e.reach - distance) * (e.reach + distance);
+  const double root2 = closing * closing + curvature * depth2;
+  const double fastest2 = std::max(root2, closing * closing);
+  if (depth2 * depth2 > 4.0 * dt * dt * fastest2) return {dt, dt};  // far from both ends: the usual case
+
+  const double root = std::sqrt(root2);
   // Written without a quotient that could be 0/0, negative or not a number: then the bodies stay in touch.
   return {depth2 < dt * (root + closing) ? depth2 / (root + closing) : dt,
           depth2 < dt * (root - closing) ? depth2 / (root - closing) : dt};
@@ -64,7 +69,7 @@ template <class Normal, class Slip>
 Touch touch(const Encounter& e, const Normal& normal, const Slip& slip_law, double mu,
             Attraction attraction, double dt) {
   const double distance = e.separation.norm();
-  const Eigen::Vector2d n = e.separation / distance;
+  const Eigen::Vector2d n = e.separation * (1.0 / distance);
   const Eigen::Vector2d s(-n.y(), n.x());
 
   Touch t;
@@ -74,7 +79,7 @@ Touch touch(const Encounter& e, const Normal& normal, const Slip& slip_law, doub
 
   const double elastic = normal.elastic(t.overlap);
   const double damping = normal.damping(t.overlap, t.rate, e.reduced_mass);
-  const Passage in_touch = passage(e, (elastic + damping) / e.reduced_mass, dt);
+  const Passage in_touch = passage(e, distance, (elastic + damping) / e.reduced_mass, dt);
   t.since = in_touch.since;
   t.until = in_touch.until;
   const double weight = (kick_time(t.since, dt) + kick_time(t.until, dt)) / dt;

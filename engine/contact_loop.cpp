@@ -95,7 +95,7 @@ class Resolver {
   }
 
   void kick(std::uint32_t slot, const Vector2d& force, const ContactName& name) {
-    const Vector2d kick = units_.kick(force / grains_.mass[slot]);
+    const Vector2d kick = units_.kick(force * (1.0 / grains_.mass[slot]));
     if (!usable(kick)) {
       slice_.trouble = name;
       return;

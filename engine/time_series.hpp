@@ -2,11 +2,10 @@
 // an error bar that keeps its word, and its trend.
 //
 // Successive samples of a flow remember each other, so the textbook error of a mean is far too
-// small. The usual cure is to sum the autocorrelation function up to a window. It overlooks a weak
-// but slow component beneath fast noise, which is just what a granular flow has. The errors here
-// come from the slowest motions themselves, eight cosines across the whole series, and take from
-// Student's distribution what is owed to so few. docs/statistics.md has the formulas and what was
-// measured.
+// small. The usual cure, to sum the autocorrelation function up to a window, overlooks a slow
+// component beneath fast noise. The errors here come from the slowest motions themselves, eight
+// cosines across the whole series, and take from Student's distribution what is owed to so few.
+// docs/statistics.md has the formulas and what was measured.
 //
 // The unit of time is the sample interval. Pure functions; std::invalid_argument for a sample that
 // is not finite.

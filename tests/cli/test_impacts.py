@@ -1,0 +1,85 @@
+"""The shipped impact scenarios from end to end."""
+
+import h5py
+
+from riesel_command import SHIPPED, CommandTest
+
+COMMON_NAMES = {"scenario", "version", "commit", "grains", "steps", "state_hash", "performance"}
+PERFORMANCE_NAMES = {"wall_seconds", "particle_steps_per_second", "threads"}
+POINT_NAMES = {"v_x", "v_y", "dv_x", "dv_y", "contacts", "contact_time", "max_overlap", "passed",
+               "stuck"}
+
+
+class Impacts:
+    """Of one scenario: the classes below say which."""
+
+    def run_shipped(self, out, threads=1):
+        return self.run_to_end(SHIPPED / f"{self.scenario}.yaml", out, threads=threads)
+
+    def test_the_summary_has_the_names_of_the_contract_and_finite_values(self):
+        summary = self.summary(self.run_shipped("out"))
+        self.assertEqual(set(summary), COMMON_NAMES | {"curve"})
+        self.assertEqual(set(summary["performance"]), PERFORMANCE_NAMES)
+        for point in summary["curve"]:
+            self.assertEqual(set(point), POINT_NAMES)
+        self.assert_finite(summary)
+        self.assertEqual(summary["scenario"], self.scenario)
+        self.assertGreater(summary["steps"], 0)
+
+    def test_the_curve_is_in_the_order_of_the_velocities(self):
+        curve = self.summary(self.run_shipped("out"))["curve"]
+        velocities = [(point["v_x"], point["v_y"]) for point in curve]
+        self.assertEqual(velocities, sorted(velocities))
+        self.assertEqual(sorted({v_x for v_x, _ in velocities}), self.normal_velocities)
+        self.assertEqual(len(velocities), 60 * len(self.normal_velocities))
+        for v_x in self.normal_velocities:
+            of_this = [v_y for x, v_y in velocities if x == v_x]
+            self.assertEqual((of_this[0], of_this[-1]), (0.1, 40.0))
+
+    def test_the_run_file_holds_the_same_curve_with_units(self):
+        out = self.run_shipped("out")
+        curve = self.summary(out)["curve"]
+        with h5py.File(out / "run.h5", "r") as file:
+            self.assertEqual(set(file["curve"]), POINT_NAMES)
+            for name, column in file["curve"].items():
+                self.assertEqual(list(column), [point[name] for point in curve], name)
+                self.assertIn("unit", column.attrs)
+
+    def test_the_result_depends_neither_on_threads_nor_on_the_way_the_settings_came(self):
+        one = self.run_shipped("one")
+        for threads in (2, 3, 4):
+            self.assert_same_result(one, self.run_shipped(f"threads-{threads}", threads))
+        again = self.run_to_end(one / "effective.yaml", "again")
+        self.assert_same_result(one, again)
+        self.assertEqual((one / "effective.yaml").read_bytes(),
+                         (again / "effective.yaml").read_bytes())
+
+
+class SingleWallGrain(Impacts, CommandTest):
+    scenario = "single_wall_grain"
+    normal_velocities = [0.0]
+
+
+class WallArray(Impacts, CommandTest):
+    scenario = "wall_array"
+    normal_velocities = [0.1, 0.3, 0.5]
+
+
+class Threads(CommandTest):
+
+    def test_the_number_of_threads_is_that_of_openmp_unless_set(self):
+        file = SHIPPED / "single_wall_grain.yaml"
+        for number in (1, 3):
+            out = f"out-{number}"
+            self.assert_done(self.riesel("run", file, "--out", out, OMP_NUM_THREADS=str(number)))
+            self.assertEqual(self.summary(self.home / out)["performance"]["threads"], number)
+        out = self.run_to_end(file, "set", threads=2)
+        self.assertEqual(self.summary(out)["performance"]["threads"], 2)
+
+
+class NoDirectoryGiven(CommandTest):
+
+    def test_results_go_to_a_directory_named_after_the_file(self):
+        self.write("graze.yaml", (SHIPPED / "single_wall_grain.yaml").read_text(encoding="utf-8"))
+        self.assert_done(self.riesel("run", "graze.yaml"))
+        self.assertTrue((self.home / "runs" / "graze" / "summary.json").is_file())

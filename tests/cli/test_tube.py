@@ -1,0 +1,142 @@
+"""A small tube from end to end."""
+
+import h5py
+import numpy as np
+
+from riesel_command import SMALL_TUBE, CommandTest, data_of
+
+SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
+                 "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
+                 "validity"}
+NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
+                "mean_axial_velocity": {"value", "error"},
+                "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},
+                "energy": {"residual"},
+                "validity": {"max_overlap_ratio", "v_crit"}}
+
+
+class Tube(CommandTest):
+
+    @classmethod
+    def setUpClass(cls):
+        """One run for all that only look at it."""
+        maker = CommandTest()
+        maker.setUp()
+        cls.addClassCleanup(maker.doCleanups)
+        cls.out = maker.run_small_tube("out")
+
+    def test_the_directory_holds_the_files_of_a_run(self):
+        names = {path.name for path in self.out.iterdir()}
+        self.assertEqual(names - {".lock"},
+                         {"effective.yaml", "run.h5", "checkpoint.h5", "summary.json"})
+
+    def test_the_summary_has_the_names_of_the_contract_and_finite_values(self):
+        summary = self.summary(self.out)
+        self.assertLessEqual(SUMMARY_NAMES, set(summary))
+        for name, within in NAMES_WITHIN.items():
+            self.assertLessEqual(within, set(summary[name]), name)
+        self.assert_finite(summary)
+        self.assertIn(summary["state"], {"steady", "accelerating", "drifting", "too_short"})
+        self.assertEqual(summary["balance"]["gravity"], 10.0)
+        self.assertEqual(summary["performance"]["threads"], 1)
+
+    def test_five_milliseconds_are_too_short_for_a_steady_mean(self):
+        self.assertEqual(self.summary(self.out)["state"], "too_short")
+
+    def test_the_series_have_units_and_a_row_for_each_interval(self):
+        with h5py.File(self.out / "run.h5", "r") as file:
+            for name, column in file["series"].items():
+                self.assertEqual(column.shape, (6,), name)
+                self.assertTrue(np.isfinite(column[()]).all(), name)
+                self.assertTrue(column.attrs["unit"], name)
+                self.assertTrue(column.attrs["doc"], name)
+            units = {name: file["series"][name].attrs["unit"] for name in ("time", "mean_vy")}
+            self.assertEqual(units, {"time": b"s", "mean_vy": b"m/s"})
+            np.testing.assert_allclose(file["series/time"], np.arange(6) * 1e-3, atol=1e-6)
+
+    def test_counts_and_losses_never_decrease(self):
+        with h5py.File(self.out / "run.h5", "r") as file:
+            for name in ("time", "grain_contacts", "wall_contacts", "normal_loss", "friction_loss",
+                         "max_overlap"):
+                self.assertTrue((np.diff(file["series"][name]) >= 0.0).all(), name)
+            self.assertGreater(file["series/grain_contacts"][-1], 0)
+            self.assertGreater(file["series/wall_contacts"][-1], 0)
+
+    def test_the_energy_balance_closes(self):
+        energy = self.summary(self.out)["energy"]
+        self.assertLess(abs(energy["residual"]), 1e-2 * energy["initial"])
+        balance = (energy["initial"] + energy["gravity_work"] - energy["kinetic"]
+                   - energy["elastic"] - energy["normal_loss"] - energy["friction_loss"])
+        self.assertAlmostEqual(balance, energy["residual"], delta=1e-12 * energy["initial"])
+
+    def test_the_final_state_has_all_grains_inside_the_tube(self):
+        summary = self.summary(self.out)
+        with h5py.File(self.out / "run.h5", "r") as file:
+            final = file["final"]
+            grains = summary["grains"]
+            self.assertEqual(final["position"].shape, (grains, 2))
+            self.assertEqual(final["velocity"].shape, (grains, 2))
+            self.assertEqual(list(final["id"]), list(range(grains)))
+            x, y = final["position"][()].T
+            self.assertTrue(((x > 0.0) & (x < 10e-3)).all())
+            self.assertTrue(((y >= 0.0) & (y < 10e-3)).all())
+            self.assertEqual(final.attrs["step"], summary["steps"])
+            self.assertEqual(final["position"].attrs["unit"], b"m")
+            area = np.pi * (final["radius"][()] ** 2).sum()
+            self.assertAlmostEqual(area / 1e-4, 0.3, delta=0.005)
+
+    def test_the_run_file_tells_where_the_numbers_come_from(self):
+        with h5py.File(self.out / "run.h5", "r") as file:
+            told = {name: item[()] for name, item in file["provenance"].items()}
+        self.assertEqual(told["source"].decode(), SMALL_TUBE)
+        self.assertEqual(told["settings"], (self.out / "effective.yaml").read_bytes())
+        self.assertIn(b"run", told["command"])
+        self.assertEqual(told["riesel_version"].decode(), self.summary(self.out)["version"])
+
+    def test_the_mean_velocity_is_that_of_the_series(self):
+        summary = self.summary(self.out)
+        with h5py.File(self.out / "run.h5", "r") as file:
+            time, velocity = file["series/time"][()], file["series/mean_vy"][()]
+        after = velocity[time >= summary["transient_end"] - 1e-12]
+        self.assertAlmostEqual(summary["mean_axial_velocity"]["value"], after.mean(), delta=1e-9)
+
+
+class SameBits(CommandTest):
+
+    def test_for_any_number_of_threads(self):
+        short = ["--set", "run.duration=0.4 ms", "--set", "output.interval=0.1 ms"]
+        one = self.run_small_tube("one", *short)
+        self.assertGreater(len(data_of(one, "/final/contacts")), 0)
+        self.assertLess(self.summary(one)["steps"], 500)
+        for threads in (2, 3, 4):
+            self.assert_same_result(
+                one, self.run_small_tube(f"threads-{threads}", *short, threads=threads))
+
+    def test_for_the_effective_settings(self):
+        one = self.run_small_tube("one")
+        again = self.run_to_end(one / "effective.yaml", "again")
+        self.assert_same_result(one, again)
+        self.assertEqual((one / "effective.yaml").read_bytes(),
+                         (again / "effective.yaml").read_bytes())
+
+    def test_but_not_for_another_seed(self):
+        one = self.run_small_tube("one", "--set", "run.duration=0.1 ms")
+        other = self.run_small_tube("other", "--set", "run.duration=0.1 ms", "--set", "seed=2")
+        self.assertNotEqual(self.state_hash(one), self.state_hash(other))
+
+
+class LostGrains(CommandTest):
+
+    def test_a_run_that_goes_wrong_fails_with_a_reason_and_keeps_what_it_has(self):
+        tube = self.write("tube.yaml", SMALL_TUBE)
+        for name, override in {"soft": "contact.stiffness=20", "hot": "start.random_velocity=1000"}.items():
+            with self.subTest(name):
+                result = self.riesel("run", tube, "--out", name, "--threads", 1,
+                                     "--set", override, "--set", "start.random_velocity=20 m/s")
+                self.assertEqual(result.returncode, 1, result)
+                self.assertEqual(result.stdout, "")
+                self.assertIn("riesel: the run failed: ", result.stderr)
+                self.assertIn("contact.stiffness", result.stderr)
+                self.assertIn(f"{name}/run.h5", result.stderr)
+                self.assertIn("/final/position", data_of(self.home / name))
+                self.assertFalse((self.home / name / "summary.json").exists())

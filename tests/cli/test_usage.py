@@ -1,0 +1,71 @@
+"""The command line itself: what is asked for in the wrong way, and what tells how to ask."""
+
+from riesel_command import BAD_INPUT, SHIPPED, CommandTest
+
+SUBCOMMANDS = ["run", "resume", "check", "scenarios"]
+
+
+class Usage(CommandTest):
+
+    def assert_usage_error(self, *arguments, mentions):
+        result = self.riesel(*arguments)
+        self.assertEqual(result.returncode, BAD_INPUT, result)
+        self.assertEqual(result.stdout, "")
+        self.assertIn(mentions, result.stderr)
+        self.assertIn("--help", result.stderr)
+        self.assert_nothing_written({})
+
+    def test_without_a_subcommand(self):
+        self.assert_usage_error(mentions="subcommand")
+
+    def test_an_unknown_subcommand_is_named(self):
+        self.assert_usage_error("simulate", mentions="simulate")
+
+    def test_an_unknown_option_is_named(self):
+        for arguments in (["--fast"], ["run", "--fast"], ["run", "--fast", "tube.yaml"]):
+            with self.subTest(arguments):
+                self.assert_usage_error(*arguments, mentions="--fast")
+
+    def test_a_missing_argument_is_named(self):
+        self.assert_usage_error("run", mentions="FILE")
+        self.assert_usage_error("check", mentions="FILE")
+        self.assert_usage_error("resume", mentions="DIR")
+
+    def test_an_option_without_its_value_is_named(self):
+        for option in ("--out", "--set", "--threads"):
+            with self.subTest(option):
+                self.assert_usage_error("run", "tube.yaml", option, mentions=option)
+
+    def test_two_files_are_one_too_many(self):
+        self.assert_usage_error("run", "one.yaml", "two.yaml", mentions="two.yaml")
+
+    def test_help_names_every_subcommand_and_its_options(self):
+        result = self.riesel("--help")
+        self.assert_done(result)
+        for subcommand in SUBCOMMANDS:
+            self.assertIn(f"  {subcommand} ", result.stdout)
+        for subcommand, options in {"run": ["FILE", "--out", "--set", "--threads"],
+                                    "resume": ["DIR", "--set", "--threads"],
+                                    "check": ["FILE", "--set", "--threads"],
+                                    "scenarios": []}.items():
+            with self.subTest(subcommand):
+                result = self.riesel(subcommand, "--help")
+                self.assert_done(result)
+                for option in options:
+                    self.assertIn(option, result.stdout)
+
+    def test_version_is_told(self):
+        result = self.riesel("--version")
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"\Ariesel \d+\.\d+\.\d+ \(.*\)\n\Z")
+
+    def test_every_scenario_is_listed_on_a_line_with_what_it_is(self):
+        result = self.riesel("scenarios")
+        self.assert_done(result)
+        lines = result.stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines],
+                         ["single_wall_grain", "wall_array", "periodic_tube"])
+        for line in lines:
+            self.assertRegex(line, r"\(Figs?\. \d")
+        self.assertEqual({line.split()[0] for line in lines},
+                         {path.stem for path in SHIPPED.glob("*.yaml")})
