@@ -42,4 +42,7 @@ int check(const CheckOptions& options);
 
 int list_scenarios();
 
+/// The reference page of the settings, in Markdown.
+int print_settings();
+
 }  // namespace riesel::app

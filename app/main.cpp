@@ -49,6 +49,8 @@ class CommandLine {
     program_.add_subcommand("scenarios", "List the scenarios")->callback([this] {
       command_ = app::list_scenarios;
     });
+    program_.add_subcommand("settings", "Print the reference of all settings, in Markdown")
+        ->callback([this] { command_ = app::print_settings; });
   }
 
   CLI::App& program() { return program_; }

@@ -29,9 +29,21 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+Stepping stepping(const io::Settings& settings) {
+  const std::string& choice = settings.text("run.stepping");
+  if (choice == "plain") return Stepping::plain;
+  if (choice == "windows") return Stepping::windows;
+  return Stepping::automatic;
+}
+
 int threads_for(const io::Settings& settings, std::size_t grains) {
   const auto wanted = settings.integer_or_auto("run.threads");
-  return wanted ? static_cast<int>(*wanted) : useful_threads(grains);
+  if (stepping(settings) != Stepping::windows)
+    return wanted ? static_cast<int>(*wanted) : useful_threads(grains);
+  if (wanted && *wanted > 1)
+    settings.reject("run.stepping", "windows are stepped on one thread",
+                    "set run.threads to 1, or run.stepping to auto");
+  return 1;
 }
 
 /// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the same rhythm.
@@ -64,7 +76,7 @@ class FlowRun {
           RunDirectory directory, const Arguments& arguments, const Past& past)
       : settings_(settings), past_(past), directory_(std::move(directory)),
         schedule_(settings, state.time_step), threads_(threads_for(settings, state.grains.size())),
-        simulation_(std::move(state), model, threads_),
+        simulation_(std::move(state), model, threads_, stepping(settings)),
         file_(open(arguments)), first_step_(simulation_.state().step) {}
 
   int run() {

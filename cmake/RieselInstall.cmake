@@ -12,9 +12,7 @@ set(riesel_scenarios_dir "${CMAKE_INSTALL_DATADIR}/riesel/scenarios")
 get_property(rooms GLOBAL PROPERTY RIESEL_LIBRARIES)
 list(TRANSFORM rooms PREPEND riesel_ OUTPUT_VARIABLE libraries)
 
-if(TARGET riesel)  # BOOTSTRAP
 install(TARGETS riesel RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-endif()
 install(TARGETS ${libraries} EXPORT riesel ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 get_property(private_headers GLOBAL PROPERTY RIESEL_PRIVATE_HEADERS)
 foreach(header IN LISTS private_headers)

@@ -74,23 +74,9 @@ function(riesel_house_rules target)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:riesel_warnings>)
 endfunction()
 
-# BOOTSTRAP, to be removed with its three calls when the rooms are written: a source that is there
-# but not listed is taken all the same, one that is listed but not there is left out.
-macro(riesel_bootstrap list folder)
-  file(GLOB found RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" CONFIGURE_DEPENDS "${folder}*.cpp")
-  list(REMOVE_ITEM found engine/coverage_of_error_bars.cpp)
-  list(FILTER ${list} INCLUDE REGEX "^/")
-  list(APPEND ${list} ${found})
-  if("${${list}}" STREQUAL "")
-    file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/empty.cpp" "")
-    set(${list} "${CMAKE_CURRENT_BINARY_DIR}/empty.cpp")
-  endif()
-endmacro()
-
 # PRIVATE_HEADERS need libraries that are PRIVATE, and are not installed.
 function(riesel_library room)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRIVATE_HEADERS;PUBLIC;PRIVATE")
-  riesel_bootstrap(arg_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/")
   set(target riesel_${room})
   riesel_room_include(${room} include_dir)
   add_library(${target} STATIC ${arg_SOURCES})
@@ -108,9 +94,6 @@ endfunction()
 
 function(riesel_program target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "ROOM" "SOURCES;LINK")
-  if(arg_ROOM STREQUAL "app")
-    riesel_bootstrap(arg_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/")
-  endif()
   riesel_room_include(${arg_ROOM} include_dir)
   add_executable(${target} ${arg_SOURCES})
   target_include_directories(${target} PRIVATE ${include_dir})

@@ -61,9 +61,9 @@ int useful_threads(std::size_t grains) {
 
 Simulation::Simulation(State state, const ContactModel& model, int threads, Stepping stepping)
     : state_(ready(std::move(state))), model_(model), fall_(fall_per_step(state_)),
-      candidates_(state_, threads) {
-  if (stepping == Stepping::windows)
-    flights_ = std::make_unique<Flights>(state_, model_, candidates_);
+      stepping_(stepping), candidates_(state_, threads) {
+  if (stepping == Stepping::windows && threads > 1)
+    throw std::invalid_argument("windows are stepped on one thread");
 }
 
 Simulation::~Simulation() = default;
@@ -82,7 +82,7 @@ void Simulation::step(Slice& mine, std::int64_t step) {
 
 void Simulation::advance(std::int64_t steps) {
   const std::int64_t last = state_.step + steps;
-  if (flights_)
+  if (flights_pay())
     advance_by_flights(last);
   else
     advance_plainly(last);
@@ -90,7 +90,17 @@ void Simulation::advance(std::int64_t steps) {
   fail_if_in_trouble();
 }
 
+/// Decided by the state. Few contacts: where more than this part of the grains touch, looking at all is cheaper.
+bool Simulation::flights_pay() const {
+  constexpr double most_contacts_per_grain = 0.05;
+  if (stepping_ != Stepping::automatic) return stepping_ == Stepping::windows;
+  return threads() == 1
+         && static_cast<double>(state_.contacts.size())
+                < most_contacts_per_grain * static_cast<double>(state_.grains.size());
+}
+
 void Simulation::advance_plainly(std::int64_t last) {
+  flights_.reset();
 #pragma omp parallel num_threads(threads())
   {
     Slice& mine = candidates_.slices()[static_cast<std::size_t>(omp_get_thread_num())];
@@ -100,6 +110,7 @@ void Simulation::advance_plainly(std::int64_t last) {
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {
+  if (!flights_) flights_ = std::make_unique<Flights>(state_, model_, candidates_);
   for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
     flights_->step(next);
   flights_->land_all(state_.step);

@@ -24,16 +24,17 @@ int useful_threads(std::size_t grains);
 
 /// How grains in free flight are moved. The results are the same, bit by bit.
 enum class Stepping {
-  plain,   ///< all grains in each step
-  windows  ///< grains that touch nothing cross many steps at once; on one thread
+  plain,    ///< all grains in each step
+  windows,  ///< grains that touch nothing cross many steps at once; on one thread only
+  automatic ///< windows while few grains touch and there is one thread, else plain
 };
 
 class Simulation {
  public:
   /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its invariants do not
-  /// hold or the box is too small for the nearest image to be unique.
+  /// hold, the box is too small for the nearest image to be unique, or windows are wanted on several threads.
   Simulation(State state, const ContactModel& model, int threads,
-             Stepping stepping = Stepping::plain);
+             Stepping stepping = Stepping::automatic);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
@@ -50,6 +51,7 @@ class Simulation {
   void step(Slice& mine, std::int64_t step);
   void advance_plainly(std::int64_t last);
   void advance_by_flights(std::int64_t last);
+  bool flights_pay() const;
   void drift(Slice& mine, std::int64_t step);
   bool in_trouble() const;
   void collect();
@@ -58,8 +60,9 @@ class Simulation {
   State state_;
   ContactModel model_;
   Fixed fall_;  // per step
+  const Stepping stepping_;
   Candidates candidates_;
-  std::unique_ptr<Flights> flights_;  // when stepping by windows
+  std::unique_ptr<Flights> flights_;  // while stepping by windows
 };
 
 }  // namespace riesel

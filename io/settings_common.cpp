@@ -130,8 +130,9 @@ SettingsTable run_settings() {
       {.key = "run.stepping",
        .kind = Kind::choice,
        .fallback = "auto",
-       .choices = {"auto", "plain"},
-       .doc = "How time steps are carried out. The results do not depend on it."},
+       .choices = {"auto", "plain", "windows"},
+       .doc = "Whether all grains are moved in each step (`plain`), or those in free flight cross many "
+              "steps at once (`windows`, on one thread). The results do not depend on it."},
   };
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -86,14 +87,15 @@ struct Throw {
   double speed;                    ///< m/s, bound on the random part of each velocity component
   double common_vy = 0.0;          ///< m/s
   double polydispersity = 0.0;     ///< relative half width of the radii; mass ~ r^2
-  double smallest = radius;        ///< m, the mean radius
+  double mean_radius = radius;     ///< m
 };
 
 /// Adds grains at random places where they touch nothing.
 inline void throw_grains(State& state, std::size_t count, const Throw& where, Dice& dice) {
-  while (count > 0) {
+  for (int attempts = 0; count > 0; ++attempts) {
+    if (attempts > 1'000'000) throw std::runtime_error("there is no room for so many grains");
     const double size = dice.between(1.0 - where.polydispersity, 1.0 + where.polydispersity);
-    const double r = where.smallest * size;
+    const double r = where.mean_radius * size;
     const Grain g{.x = dice.between(where.left, where.right),
                   .y = dice.between(where.low, where.high),
                   .vx = dice.between(-where.speed, where.speed),

@@ -113,7 +113,7 @@ TEST_CASE("grains of very different size go as by brute force") {
   throw_grains(state, 25, {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0}, dice);
   throw_grains(
       state, 60,
-      {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0, .smallest = 0.1e-3}, dice);
+      {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0, .mean_radius = 0.1e-3}, dice);
   CHECK(agree(state, 400).pairs_begun > 20);
 }
 

@@ -149,7 +149,7 @@ TEST_CASE("a contact that is met again is a new contact") {
 }
 
 TEST_CASE("contacts are listed in the order of their names, each once") {
-  State state = small_tube(23, 60);
+  State state = small_tube(23);
   Simulation simulation(state, soft(), 1);
   for (int i = 0; i < 30; ++i) {
     simulation.advance(20);

@@ -43,7 +43,7 @@ bool same(const State& a, const State& b) {
 constexpr std::int64_t some_steps = 600;
 
 const State& start() {
-  static const State state = small_tube(31, 45);
+  static const State state = small_tube(31);
   return state;
 }
 

@@ -117,11 +117,12 @@ TEST_CASE("Each byte of a checkpoint is protected") {
   const auto path = directory / "c.h5";
   write_checkpoint(path, special_checkpoint());
   const auto bytes = contents(path);
-  const auto next = [](std::size_t place) { return place < seal_size ? place + 1 : place + 31; };
+  const auto is_tried = [](std::size_t place) { return place < seal_size || place % 31 == 0; };
 
   SECTION("truncations") {
-    for (std::size_t size = 0; size < bytes.size(); size = next(size)) {
-      overwrite(path, bytes.substr(0, size));
+    for (std::size_t size = bytes.size(); size-- > 0;) {
+      if (!is_tried(size)) continue;
+      fs::resize_file(path, size);
       REQUIRE_FALSE(error_of_reading(path).empty());
     }
   }
@@ -132,7 +133,8 @@ TEST_CASE("Each byte of a checkpoint is protected") {
       file.seekp(static_cast<std::streamoff>(place));
       file.put(byte).flush();
     };
-    for (std::size_t i = 0; i < bytes.size(); i = next(i)) {
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      if (!is_tried(i)) continue;
       put(i, static_cast<char>(bytes[i] ^ (1 << random() % 8)));
       REQUIRE_FALSE(error_of_reading(path).empty());
       put(i, bytes[i]);

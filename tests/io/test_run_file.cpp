@@ -7,7 +7,6 @@
 
 #include <csignal>
 #include <map>
-#include <regex>
 
 using namespace riesel;
 using namespace riesel::io;
@@ -43,6 +42,13 @@ void check_rows(const fs::path& path, int rows) {
     equal = equal && time[k] == 0.1 * i && velocity[k] == -1.0 / (i + 1);
   }
   CHECK(equal);
+}
+
+/// The text with "0" for each digit.
+std::string shape_of(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }, '0');
+  return text;
 }
 
 template <class T>
@@ -259,9 +265,9 @@ TEST_CASE("Provenance tells the origin, the build, the machine and the time") {
   CHECK(values.at("source") == "source");
   CHECK(values.at("settings") == "settings");
   CHECK(values.at("slurm_job_id") == "4711");
-  CHECK(std::regex_match(values.at("date"), std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)")));
+  CHECK(shape_of(values.at("date")) == "0000-00-00T00:00:00Z");
   for (const auto* name : {"riesel_version", "hdf5_version", "yaml_cpp_version", "eigen_version"}) {
-    CHECK(std::regex_match(values.at(name), std::regex(R"(\d+\.\d+.*)")));
+    CHECK(shape_of(values.at(name)).starts_with("0."));
   }
   for (const auto* name : {"git_commit", "git_dirty", "compiler", "build_type", "cpu", "host"}) {
     CHECK_FALSE(values.at(name).empty());

@@ -1,0 +1,118 @@
+"""riesel check: what a settings file means, and warnings where they are due."""
+
+import math
+
+from riesel_command import SHIPPED, SMALL_TUBE, CommandTest, plain_number
+
+# Stiff enough for its velocities: nothing to warn of.
+MILD_TUBE = """\
+scenario: periodic_tube
+contact: {stiffness: 200 kN/m, restitution: 0.9}
+grains: {area_fraction: 0.3, polydispersity: 0}
+tube: {width: 10 mm, length: 10 mm}
+run: {duration: 2 ms}
+"""
+
+
+def t_col(stiffness, damping, reduced_mass):
+    """s, eq. (4) of the paper."""
+    return math.pi / math.sqrt(stiffness / reduced_mass - damping ** 2 / 4)
+
+
+class Check(CommandTest):
+
+    def check(self, text, *options):
+        self.write("settings.yaml", text)
+        result = self.riesel("check", "settings.yaml", "--threads", 1, *options)
+        self.assert_done(result)
+        return result.stdout
+
+    def assert_contact(self, text, pair, collision_time, restitution):
+        self.assertAlmostEqual(
+            plain_number(text, rf"{pair} +t_col = (\S+) s") / collision_time, 1.0, delta=1e-3)
+        self.assertAlmostEqual(plain_number(text, rf"{pair} +t_col = .* e_N = (\S+)"), restitution,
+                               delta=1e-4)
+
+    def test_a_tube_is_told_in_its_numbers(self):
+        text = self.check(MILD_TUBE)
+        gamma = -2 * math.log(0.9) * math.sqrt(2e11 / (math.pi ** 2 + math.log(0.9) ** 2))
+        wall, pair = t_col(2e5, gamma, 1e-6), t_col(2e5, gamma, 0.5e-6)
+        self.assert_contact(text, "grain and wall", wall, 0.9)
+        self.assert_contact(text, "grain and grain", pair, math.exp(-gamma * pair / 2))
+        self.assertAlmostEqual(plain_number(text, r"time step +(\S+) s") * 50 / pair, 1.0,
+                               delta=1e-3)
+        self.assertEqual(plain_number(text, r"\n  grains +(\d+),"), 38)
+        self.assertEqual(plain_number(text, r"wall grains +(\d+) per wall"), 8)
+        steps = plain_number(text, r"steps +(\d+)")
+        self.assertAlmostEqual(steps * pair / 50, 2e-3, delta=1e-5)
+        self.assertGreater(plain_number(text, r"v_crit +(\S+) m/s"), 1.0)
+        self.assertGreater(plain_number(text, r"expected time +(\S+) s on 1 thread \("), 0.0)
+        self.assertGreater(plain_number(text, r"memory +about (\d+) MB"), 0)
+        self.assertNotIn("warning", text)
+
+    def test_impacts_are_told_in_their_numbers(self):
+        for name, impacts in {"single_wall_grain": 60, "wall_array": 1800}.items():
+            with self.subTest(name):
+                text = self.check((SHIPPED / f"{name}.yaml").read_text(encoding="utf-8"))
+                self.assert_contact(text, "grain and wall", t_col(2000, 1e4, 1e-6), 0.7023)
+                self.assertEqual(plain_number(text, r"impacts +(\d+) in"), impacts)
+                self.assertAlmostEqual(plain_number(text, r"time step +(\S+) s"), 1.414e-6,
+                                       delta=1e-9)
+                self.assertGreater(plain_number(text, r"v_crit +(\S+) m/s"), 1.0)
+
+    def test_the_steps_told_are_the_steps_done(self):
+        text = self.check(SMALL_TUBE)
+        out = self.run_to_end("settings.yaml", "out")
+        self.assertEqual(plain_number(text, r"steps +(\d+)"), self.summary(out)["steps"])
+        self.assertEqual(plain_number(text, r"\n  grains +(\d+),"), self.summary(out)["grains"])
+
+    def test_every_shipped_file_is_accepted(self):
+        for file in SHIPPED.glob("*.yaml"):
+            with self.subTest(file.name):
+                text = self.check(file.read_text(encoding="utf-8"))
+                self.assertIn(f"settings.yaml: {file.stem}\n", text)
+
+    def test_nothing_is_written(self):
+        self.check(MILD_TUBE)
+        self.assertEqual([path.name for path in self.home.iterdir()], ["settings.yaml"])
+
+    def test_numbers_are_numbers_even_in_odd_cases(self):
+        for name, override in {"one grain": "grains.area_fraction=0.001",
+                               "at rest": "start.random_velocity=0",
+                               "sticky": "contact.restitution=1e-300",
+                               "no gravity": "gravity=0"}.items():
+            with self.subTest(name):
+                self.assertNotRegex(self.check(MILD_TUBE, "--set", override), r"\b(nan|inf)\b")
+
+    # --- warnings ---
+
+    def assert_warned(self, text, *mentions):
+        warnings = [line for line in text.splitlines() if line.startswith("  warning: ")]
+        self.assertEqual(len(warnings), 1, text)
+        for mention in mentions:
+            self.assertIn(mention, warnings[0])
+
+    def test_of_soft_grains_with_the_factor_that_helps(self):
+        softer = MILD_TUBE.replace("200 kN/m", "20 kN/m")
+        text = self.check(softer)
+        self.assert_warned(text, "overlaps over 1 %", "contact.stiffness")
+        factor = plain_number(text, r"by a factor (\S+)")
+        stiffer = softer.replace("20 kN/m", f"{20 * 1.05 * factor} kN/m")
+        self.assertNotIn("warning", self.check(stiffer))
+
+    def test_of_few_steps_per_collision(self):
+        self.assert_warned(self.check(MILD_TUBE, "--set", "run.steps_per_collision=10"),
+                           "10 steps per collision", "50")
+
+    def test_of_velocities_above_the_critical_one(self):
+        text = self.check(MILD_TUBE, "--set", "start.random_velocity=0.1 m/s",
+                          "--set", "start.axial_velocity=100 m/s",
+                          "--set", "contact.stiffness=1e8 N/m", "--set",
+                          "grains.mass=1 g")
+        critical = plain_number(text, r"v_crit +(\S+) m/s")
+        self.assertLess(critical, 100.0)
+        self.assert_warned(text, "v_crit", "brake failure")
+
+    def test_a_run_that_goes_wrong_at_once_is_a_warning_and_no_failure(self):
+        text = self.check(SMALL_TUBE.replace("2000 N/m", "2 N/m"))
+        self.assertIn("warning: overlaps over 1 %", text)

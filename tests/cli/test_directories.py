@@ -1,0 +1,89 @@
+"""Where results go: never over another run, and with a clear word where there is no room."""
+
+import subprocess
+import unittest
+
+from riesel_command import COMMAND, SMALL_TUBE, CommandTest, bytes_of_files
+
+
+def mounts_are_permitted():
+    return subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode == 0
+
+
+class Directories(CommandTest):
+
+    def test_an_existing_run_is_left_untouched_byte_by_byte(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        before = bytes_of_files(self.home)
+        for options in ([], ["--set", "seed=2"]):
+            result = self.riesel("run", "tube.yaml", "--out", "out", *options)
+            self.assert_refused(result, "out: ", "a run already", "--out", "riesel resume")
+        self.assertEqual(bytes_of_files(self.home), before)
+        self.assertTrue((out / "summary.json").exists())
+
+    def test_directories_on_the_way_are_made(self):
+        self.run_small_tube("a/b/c", "--set", "run.duration=0.1 ms")
+        self.assertTrue((self.home / "a/b/c/summary.json").exists())
+
+    def test_an_empty_directory_and_other_files_in_it_are_no_obstacle(self):
+        out = self.home / "out"
+        out.mkdir()
+        (out / "notes.txt").write_text("mine", encoding="utf-8")
+        self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        self.assertEqual((out / "notes.txt").read_text(encoding="utf-8"), "mine")
+
+    def test_a_file_in_the_way_is_named(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        before = bytes_of_files(self.home)
+        for out in ("tube.yaml", "tube.yaml/out"):
+            with self.subTest(out):
+                result = self.riesel("run", "tube.yaml", "--out", out)
+                self.assertNotEqual(result.returncode, 0)
+                self.assert_one_message(result.stderr, f"{out}: ", "Not a directory")
+                self.assert_nothing_written(before)
+
+
+@unittest.skipUnless(mounts_are_permitted(), "mounting a small disk is not permitted here")
+class SmallDisk(CommandTest):
+    """A disk that is there while a shell runs, mounted on `disk`."""
+
+    def setUp(self):
+        super().setUp()
+        (self.home / "disk").mkdir()
+        self.write("tube.yaml", SMALL_TUBE)
+
+    def on_disk(self, options, script):
+        return subprocess.run(
+            ["unshare", "-rm", "sh", "-c",
+             f"mount -t tmpfs -o {options} tmpfs disk && {script}", "sh", COMMAND],
+            cwd=self.home, capture_output=True, text=True, timeout=60, check=False)
+
+    def test_a_full_disk_is_a_failure_that_says_so(self):
+        for size in ("8k", "64k", "200k"):
+            with self.subTest(size):
+                result = self.on_disk(
+                    f"size={size}", '"$1" run tube.yaml --out disk/out --threads 1')
+                self.assert_failed(result, "disk/out", "No space left on device",
+                                   "free some space on its disk")
+
+    def test_a_run_that_met_a_full_disk_goes_on_when_there_is_room(self):
+        result = self.on_disk("size=800k", """
+            "$1" run tube.yaml --out disk/out --threads 1 >&2 || exit 99
+            head -c 2000000 /dev/zero > disk/ballast 2> /dev/null
+            "$1" resume disk/out --set "run.duration=20 ms" > /dev/null
+            [ $? = 1 ] || exit 98
+            rm disk/ballast
+            "$1" resume disk/out --set "run.duration=20 ms" >&2 || exit 97
+            cp -r disk/out .
+            """)
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("No space left on device", result.stderr)
+        whole = self.run_small_tube("whole", "--set", "run.duration=20 ms")
+        self.assert_same_result(whole, self.home / "out")
+
+    def test_a_disk_that_cannot_be_written_is_named(self):
+        for out in ("disk", "disk/out"):
+            with self.subTest(out):
+                result = self.on_disk("ro", f'"$1" run tube.yaml --out {out}')
+                self.assert_failed(result, f"{out}: ", "Read-only file system",
+                                   "choose a directory on a disk that is not read-only")

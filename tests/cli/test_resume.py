@@ -1,0 +1,165 @@
+"""Going on with a run: to a longer duration, from whatever checkpoint is whole, and only as the run
+that it was."""
+
+import shutil
+
+from riesel_command import CommandTest, bytes_of_files, final_time
+
+
+class Resume(CommandTest):
+
+    def copy(self, directory, name):
+        return shutil.copytree(directory, self.home / name)
+
+    def test_a_longer_duration_extends_a_finished_run(self):
+        long = self.run_small_tube("long")
+        # The first ends between two rows of the series, the second soon after a row.
+        for name, durations in {"once": ["2.3 ms"], "twice": ["0.5 us", "3.001 ms"]}.items():
+            with self.subTest(name):
+                short = self.run_small_tube(name, "--set", f"run.duration={durations[0]}")
+                for duration in [*durations[1:], "5 ms"]:
+                    self.resume_to_end(short, "--set", f"run.duration={duration}")
+                self.assert_same_result(long, short)
+
+    def test_the_result_does_not_depend_on_the_threads_before_and_after(self):
+        rows = ["--set", "output.interval=0.1 ms"]
+        long = self.run_small_tube("long", *rows, "--set", "run.duration=0.4 ms")
+        short = self.run_small_tube("short", *rows, "--set", "run.duration=0.2 ms", threads=2)
+        self.resume_to_end(short, "--threads", 3, "--set", "run.duration=0.4 ms")
+        self.assert_same_result(long, short)
+        self.assertEqual(self.summary(short)["performance"]["threads"], 3)
+
+    def test_the_effective_settings_are_those_of_the_longer_run(self):
+        long = self.run_small_tube("long")
+        short = self.run_small_tube("short", "--set", "run.duration=1 ms")
+        self.resume_to_end(short, "--set", "run.duration=5 ms")
+        self.assertEqual((long / "effective.yaml").read_bytes(),
+                         (short / "effective.yaml").read_bytes())
+
+    def test_a_finished_run_stays_as_it_is(self):
+        out = self.run_small_tube("out")
+        as_it_was = self.copy(out, "copy")
+        self.resume_to_end(out)
+        self.assert_same_result(as_it_was, out)
+
+    def test_the_checkpoint_file_stands_for_its_directory(self):
+        long = self.run_small_tube("long")
+        short = self.run_small_tube("short", "--set", "run.duration=1 ms")
+        self.resume_to_end(short / "checkpoint.h5", "--set", "run.duration=5 ms")
+        self.assert_same_result(long, short)
+
+
+class ResumeRefuses(CommandTest):
+
+    def assert_refused_untouched(self, out, *options, mentions):
+        before = bytes_of_files(out)
+        self.assert_refused(self.riesel("resume", out, *options), *mentions)
+        self.assertEqual(bytes_of_files(out), before)
+
+    def test_to_change_the_physics_or_the_rows(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        for override in ("gravity=5", "seed=2", "contact.stiffness=1 kN/m", "tube.width=20 mm",
+                         "run.steps_per_collision=60", "output.interval=2 ms",
+                         "scenario=wall_array"):
+            with self.subTest(override):
+                key = override.split("=", maxsplit=1)[0]
+                self.assert_refused_untouched(
+                    out, "--set", override,
+                    mentions=[f"--set {override}: {key}: cannot change", "start a new run"])
+
+    def test_what_is_no_setting(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        for override, mentions in {"nonsense": ["--set nonsense:", "key=value"],
+                                   "output.intervall=1": ["output.intervall:", "output.interval"],
+                                   "run.duration=5 kg": ["run.duration:", "a time", "'5 kg'"],
+                                   "run.threads=x": ["run.threads:", "'x'"]}.items():
+            with self.subTest(override):
+                self.assert_refused_untouched(out, "--set", override, mentions=mentions)
+
+    def test_a_duration_that_is_over_already(self):
+        out = self.run_small_tube("out")
+        self.assert_refused_untouched(out, "--set", "run.duration=1 ms", mentions=["run.duration"])
+
+    def test_what_is_not_there(self):
+        self.assert_refused(self.riesel("resume", "nowhere"), "nowhere", "check the path")
+        self.assert_nothing_written({})
+
+    def test_a_directory_without_a_checkpoint(self):
+        result = self.riesel("resume", ".")
+        self.assert_refused(result, "./checkpoint.h5", "No such file")
+        self.assert_nothing_written({})
+
+    def test_another_file(self):
+        tube = self.write("tube.yaml", "scenario: periodic_tube\n")
+        result = self.riesel("resume", tube)
+        self.assert_refused(result, "tube.yaml", "not begin like a checkpoint of riesel")
+        self.assertEqual([path.name for path in self.home.iterdir()], ["tube.yaml"])
+
+    def test_a_missing_run_file(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        (out / "run.h5").unlink()
+        result = self.riesel("resume", out, "--set", "run.duration=0.2 ms")
+        self.assertNotEqual(result.returncode, 0)
+        self.assert_one_message(result.stderr, "out/run.h5", "restore the file")
+
+
+class DamagedCheckpoint(CommandTest):
+    """Of a run that has two generations: at 2.3 ms, and at 5 ms."""
+
+    def setUp(self):
+        super().setUp()
+        self.out = self.run_small_tube("out", "--set", "run.duration=2.3 ms")
+        self.resume_to_end(self.out, "--set", "run.duration=5 ms")
+        self.newest = self.out / "checkpoint.h5"
+        self.previous = self.out / "checkpoint.h5.previous"
+
+    def damages(self):
+        """{name: content} of a damaged checkpoint."""
+        whole = self.newest.read_bytes()
+        middle = len(whole) // 2
+        flipped = bytes([whole[middle] ^ 1])
+        return {"cut short": whole[:middle],
+                "empty": b"",
+                "a bit flipped": whole[:middle] + flipped + whole[middle + 1:],
+                "too long": whole + b"\0"}
+
+    def test_the_generation_before_is_used_and_gives_the_same_result(self):
+        as_it_was = shutil.copytree(self.out, self.home / "copy")
+        for name, content in self.damages().items():
+            with self.subTest(name):
+                directory = shutil.copytree(as_it_was, self.home / name.replace(" ", "-"))
+                (directory / "checkpoint.h5").write_bytes(content)
+                result = self.riesel("resume", directory)
+                self.assertEqual(result.returncode, 0, result)
+                self.assertIn("checkpoint.h5: is damaged", result.stderr)
+                self.assertIn("checkpoint.h5.previous", result.stderr)
+                self.assert_same_result(as_it_was, directory)
+
+    def test_the_generation_before_is_used_where_the_newest_is_gone(self):
+        as_it_was = shutil.copytree(self.out, self.home / "copy")
+        self.newest.unlink()
+        self.assertEqual(self.riesel("resume", self.out).returncode, 0)
+        self.assert_same_result(as_it_was, self.out)
+
+    def test_without_a_generation_before_the_file_and_the_remedy_are_told(self):
+        self.previous.unlink()
+        for name, content in self.damages().items():
+            with self.subTest(name):
+                self.newest.write_bytes(content)
+                before = bytes_of_files(self.out)
+                self.assert_refused(self.riesel("resume", self.out), "out/checkpoint.h5: is damaged",
+                                    "start the run again")
+                self.assertEqual(bytes_of_files(self.out), before)
+
+    def test_two_damaged_generations_are_both_named(self):
+        self.newest.write_bytes(b"")
+        self.previous.write_bytes(b"")
+        self.assert_refused(self.riesel("resume", self.out), "out/checkpoint.h5: is damaged",
+                            "out/checkpoint.h5.previous: is damaged", "start the run again")
+
+    def test_the_generation_before_can_be_resumed_by_its_name(self):
+        as_it_was = shutil.copytree(self.out, self.home / "copy")
+        self.assertLess(final_time(self.run_small_tube("short", "--set", "run.duration=2.3 ms")),
+                        final_time(self.out))
+        self.resume_to_end(self.previous, "--set", "run.duration=5 ms")
+        self.assert_same_result(as_it_was, self.out)
