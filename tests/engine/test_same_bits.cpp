@@ -64,7 +64,7 @@ TEST_CASE("two runs are the same") { CHECK(same(advanced(start(), paper_model(),
 
 TEST_CASE("any number of threads gives the same bits") {
   const int threads = GENERATE(2, 3, 4);
-  const std::int64_t steps = 200;  // more threads than cores are slow
+  const std::int64_t steps = 100;  // more threads than cores are slow
   CHECK(same(advanced(start(), paper_model(), steps, threads),
              advanced(start(), paper_model(), steps)));
 }
@@ -77,8 +77,8 @@ TEST_CASE("more threads than grains give the same bits") {
 TEST_CASE("a step by several threads is not begun before the last one is known") {
   // Each call begins a new team, whose threads must agree on the number of the first step.
   Simulation simulation(start(), paper_model(), 2);
-  for (int i = 0; i < 200; ++i) simulation.advance(1);
-  CHECK(same(simulation.state(), advanced(start(), paper_model(), 200)));
+  for (int i = 0; i < 100; ++i) simulation.advance(1);
+  CHECK(same(simulation.state(), advanced(start(), paper_model(), 100)));
 }
 
 TEST_CASE("a team smaller than asked for never goes unnoticed") {

@@ -72,7 +72,8 @@ TEST_CASE("the hash notices every sum of the tally") {
   CHECK(noticed([](State& s) { s.tally.walls.friction_loss.add(1e-20); }));
 }
 
-TEST_CASE("the hash notices the impulses that the balance of energy needs") {
+TEST_CASE("the hash notices what the balances and the tally will need") {
+  CHECK(noticed([](State& s) { s.contacts[0].end += 1e-9; }));
   CHECK(noticed([](State& s) { s.contacts[0].impulse_y += 1e-12; }));
   CHECK(noticed([](State& s) { s.contacts[0].impulse_y_times_step += 1e-12; }));
   CHECK(noticed([](State& s) { s.tally.walls.impulse_y.add(1e-20); }));

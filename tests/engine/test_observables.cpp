@@ -1,0 +1,91 @@
+// What is read off a state is what its definition says.
+#include "engine/observables.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <cmath>
+
+using namespace systems;
+
+namespace {
+
+/// Two grains of unequal mass in a box of 10 mm.
+State pair_of_grains(double gravity = 0.0) {
+  State state = empty_box(10e-3, 20e-3);
+  state.gravity = gravity;
+  add_grain(state, {.x = 2e-3, .y = 3e-3, .vx = 1.0, .vy = 5.0, .radius = radius, .mass = 1e-6});
+  add_grain(state, {.x = 8e-3, .y = 9e-3, .vx = -3.0, .vy = 1.0, .radius = radius, .mass = 2e-6});
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("means and spreads are over grains, not over mass") {
+  const Observables o = observe(pair_of_grains());
+  CHECK(o.mean_vx == Approx(-1.0));
+  CHECK(o.mean_vy == Approx(3.0));
+  CHECK(o.sigma_vx == Approx(2.0));
+  CHECK(o.sigma_vy == Approx(2.0));
+  CHECK(o.granular_temperature == Approx(4.0));
+}
+
+TEST_CASE("a start has its kinetic energy and nothing else") {
+  State state = pair_of_grains();
+  state.origin = origin_of(state);
+  CHECK(state.origin.kinetic == Approx(0.5 * (1e-6 * 26.0 + 2e-6 * 10.0)));
+  CHECK(state.origin.momentum_y == Approx(1e-6 * 5.0 + 2e-6 * 1.0));
+  const Observables o = observe(state);
+  CHECK(o.time == 0.0);
+  CHECK(o.energies.kinetic == state.origin.kinetic);
+  CHECK(o.energies.elastic == 0.0);
+  CHECK(o.energies.gravity_work == 0.0);
+  CHECK(o.energies.residual == 0.0);
+  CHECK(o.contacts == 0.0);
+}
+
+TEST_CASE("a falling pair gains what gravity does") {
+  State state = pair_of_grains(10.0);
+  state.grains.ux = {0, 0};
+  const State end = advanced(state, paper_model(), 100'000);  // 0.1 s
+  const Energies e = observe(end).energies;
+  const double t = 0.1, g = 10.0;
+  CHECK(e.gravity_work == Approx(g * (7e-6 * t + 0.5 * 3e-6 * g * t * t)).epsilon(1e-8));
+  CHECK(std::abs(e.residual) < 1e-8 * e.kinetic);  // g is rounded to a quantum
+}
+
+TEST_CASE("grains beyond a wall line are counted as outside") {
+  State state = pair_of_grains();
+  CHECK(observe(state).outside == 0.0);
+  add_grain(state, grain(-0.1e-3, 1e-3, 0.0, 0.0));
+  add_grain(state, grain(10.1e-3, 1e-3, 0.0, 0.0));
+  CHECK(observe(state).outside == 2.0);
+}
+
+TEST_CASE("lasting contacts count before they end") {
+  State state = empty_box(10e-3, 20e-3);
+  add_grain(state, grain(4e-3, 5e-3, 1.0, 0.0));
+  add_grain(state, grain(5.001e-3, 5e-3, -1.0, 0.0));
+  const State middle = advanced(state, paper_model(), 20);
+  REQUIRE(middle.contacts.size() == 1);
+  const Observables o = observe(middle);
+  CHECK(o.contacts == 0.5);  // one for two grains
+  CHECK(o.grain_contacts_begun == 1.0);
+  CHECK(o.wall_contacts_begun == 0.0);
+  CHECK(o.max_overlap == middle.contacts[0].max_overlap);
+  const double xi = 1e-3 - (grain_of_id(middle, 1).x - grain_of_id(middle, 0).x);
+  CHECK(o.energies.elastic == Approx(0.5 * stiffness * xi * xi).epsilon(1e-9));
+  CHECK(o.energies.normal_loss > 0.0);
+  CHECK(std::abs(o.energies.residual) < 0.02 * o.energies.normal_loss);
+}
+
+TEST_CASE("observables do not depend on the order of the slots") {
+  const State state = advanced(small_tube(61), paper_model(), 400);
+  const Observables a = observe(state), b = observe(shuffled(state, 9));
+  CHECK(a.mean_vx == b.mean_vx);
+  CHECK(a.mean_vy == b.mean_vy);
+  CHECK(a.granular_temperature == b.granular_temperature);
+  CHECK(a.energies.kinetic == b.energies.kinetic);
+  CHECK(a.energies.elastic == b.energies.elastic);
+  CHECK(a.energies.residual == b.energies.residual);
+  CHECK(a.wall_impulse_y == b.wall_impulse_y);
+}

@@ -1,0 +1,168 @@
+// The balances of momentum and energy of many grains.
+#include "engine/observables.hpp"
+#include "engine/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace systems;
+
+namespace {
+
+/// Grains that fly freely out of the box are few in these times: walls are not needed.
+State gas_without_walls(double polydispersity, const Dice& seed) {
+  State state = empty_box(20e-3, 10e-3);
+  Dice dice = seed;
+  throw_grains(state, 40,
+               {.left = 7e-3,
+                .right = 13e-3,
+                .low = 0.0,
+                .high = state.box.length,
+                .speed = 3.0,
+                .polydispersity = polydispersity},
+               dice);
+  return state;
+}
+
+State walled_gas(double dt, double gravity, std::uint64_t seed) {
+  State state = empty_box(8e-3, 9.6e-3);
+  state.time_step = dt;
+  state.gravity = gravity;
+  add_walls(state, 8);
+  Dice dice(seed);
+  throw_grains(state, 40,
+               {.left = 0.0,
+                .right = 8e-3,
+                .low = 0.0,
+                .high = 9.6e-3,
+                .speed = 3.0,
+                .common_vy = 2.0},
+               dice);
+  return state;
+}
+
+/// Sums of the displacements per step, with the kicks that the next step takes up.
+std::array<Fixed, 2> integer_momentum(const State& state) {
+  const Grains& g = state.grains;
+  std::array<Fixed, 2> sum{};
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    sum[0] = wrapped_sum(sum[0], wrapped_sum(g.ux[i], g.kick_x[i]));
+    sum[1] = wrapped_sum(sum[1], wrapped_sum(g.uy[i], g.kick_y[i]));
+  }
+  return sum;
+}
+
+/// kg m/s, as above.
+std::array<double, 2> momentum(const State& state) {
+  const Grains& g = state.grains;
+  const double to_vx = state.box.quantum_x() / state.time_step;
+  const double to_vy = state.box.quantum_y() / state.time_step;
+  ExactSum x, y;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    x.add(g.mass[i] * static_cast<double>(wrapped_sum(g.ux[i], g.kick_x[i])) * to_vx);
+    y.add(g.mass[i] * static_cast<double>(wrapped_sum(g.uy[i], g.kick_y[i])) * to_vy);
+  }
+  return {x.value(), y.value()};
+}
+
+}  // namespace
+
+TEST_CASE("grains of equal mass conserve momentum to the last bit") {
+  // Action and reaction are the same integer with two signs, friction and damping or not.
+  const ContactModel model = GENERATE(paper_model(), frictionless(0.0));
+  const State start = gas_without_walls(0.0, Dice(51));
+  Simulation simulation(start, model, 1);
+  for (int i = 0; i < 20; ++i) {
+    simulation.advance(50);
+    CHECK(integer_momentum(simulation.state()) == integer_momentum(start));
+  }
+  CHECK(simulation.state().tally.grains.begun > 30);
+}
+
+TEST_CASE("grains of unequal mass conserve momentum to rounding") {
+  // Each kick is rounded to a quantum per step: half a quantum for each of the two grains of a contact, each
+  // step. That adds up like a walk, but is bounded by a straight line.
+  const State start = gas_without_walls(0.2, Dice(52));
+  const State end = advanced(start, paper_model(), 1000);
+  REQUIRE(end.tally.grains.begun > 30);
+  const double contact_steps = static_cast<double>(end.tally.grains.begun)
+                               + end.tally.grains.duration.value() / end.time_step
+                               + 1000.0 * static_cast<double>(end.contacts.size());
+  const double heaviest = *std::max_element(start.grains.mass.begin(), start.grains.mass.end());
+  const double quantum = std::max(start.box.quantum_x(), start.box.quantum_y());
+  const double bound = contact_steps * heaviest * quantum / start.time_step;
+  CHECK(bound < 1e-12 * 40.0 * mass * 3.0);
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    CHECK(std::abs(momentum(end)[axis] - momentum(start)[axis]) < bound + 1e-19);
+}
+
+TEST_CASE("the momentum along a tube is that of its start, of gravity and of the walls") {
+  const State start = walled_gas(time_step, 10.0, 53);
+  const State end = advanced(start, paper_model(), 3000);
+  REQUIRE(end.tally.walls.begun > 20);
+  const double weight = 40.0 * mass * end.gravity;
+  const double expected = end.origin.momentum_y + weight * end.time()
+                          + observe(end).wall_impulse_y;
+  // U is the velocity in the falling frame, half a step of gravity behind; it starts half a step of gravity low.
+  const double moved = momentum(end)[1] + weight * (end.time() + 0.5 * time_step);
+  CHECK(std::abs(moved - expected) < 1e-10 * 40.0 * mass);
+}
+
+TEST_CASE("an elastic gas without friction keeps its energy, the better the smaller the step") {
+  // One collision errs by up to 5e-4 of its energy at t_col / 50, of either sign and second order in dt;
+  // 3000 collisions of 40 grains walk to some 1e-3 of the whole.
+  const auto largest_error = [](double dt) {
+    Simulation simulation(walled_gas(dt, 0.0, 54), frictionless(0.0), 1);
+    const double start = observe(simulation.state()).energies.kinetic;
+    double largest = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      simulation.advance(std::llround(5e-4 / dt));
+      const Energies e = observe(simulation.state()).energies;
+      CHECK(e.normal_loss == 0.0);
+      CHECK(e.friction_loss == 0.0);
+      largest = std::max(largest, std::abs((e.kinetic + e.elastic) / start - 1.0));
+    }
+    CHECK(simulation.state().tally.grains.begun > 1000);
+    return largest;
+  };
+  CHECK(largest_error(1e-6) < 3e-3);
+  CHECK(largest_error(0.25e-6) < 3e-3 / 8.0);  // a sixteenth, and a factor of two for chance
+}
+
+TEST_CASE("the energy of a dissipative tube is accounted for, the better the smaller the step") {
+  // residual = start + work of gravity - kinetic - elastic - losses
+  const auto seed = GENERATE(as<std::uint64_t>{}, 55, 56, 57);
+  const auto residual = [&](double dt) {
+    Simulation simulation(walled_gas(dt, 10.0, seed), paper_model(), 1);
+    simulation.advance(std::llround(5e-3 / dt));
+    const Energies e = observe(simulation.state()).energies;
+    CHECK(e.normal_loss > 0.0);
+    CHECK(e.friction_loss > 0.0);
+    CHECK(e.gravity_work > 0.0);
+    return std::abs(e.residual) / (e.normal_loss + e.friction_loss);
+  };
+  const double coarse = residual(2e-6), middle = residual(1e-6), fine = residual(0.25e-6);
+  CHECK(middle < 2e-3);
+  CHECK(middle < 0.5 * coarse);  // second order: a quarter, and the runs are different ones
+  CHECK(fine < 0.2 * middle);
+}
+
+TEST_CASE("the work of gravity is the weight times the way of the centre of mass") {
+  // Followed step by step in a short tube that the grains cross several times.
+  const State start = walled_gas(time_step, 10.0, 58);
+  Simulation simulation(start, paper_model(), 1);
+  double way = 0.0;  // sum over grains, m
+  Grains before = ordered_by_id(start.grains);
+  for (int i = 0; i < 1000; ++i) {
+    simulation.advance(1);
+    const Grains now = ordered_by_id(simulation.state().grains);
+    for (std::size_t g = 0; g < now.size(); ++g)
+      way += start.box.metres_y(wrapped_difference(now.y[g], before.y[g]));
+    before = now;
+  }
+  const double work = observe(simulation.state()).energies.gravity_work;
+  CHECK(std::abs(work / (mass * 10.0 * way) - 1.0) < 1e-7);
+}
