@@ -101,10 +101,11 @@ bool Simulation::flights_pay() const {
 
 void Simulation::advance_plainly(std::int64_t last) {
   flights_.reset();
+  const std::int64_t first = state_.step + 1;  // before the team starts: a step changes state_.step
 #pragma omp parallel num_threads(threads())
   {
     Slice& mine = candidates_.slices()[static_cast<std::size_t>(omp_get_thread_num())];
-    for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
+    for (std::int64_t next = first; next <= last && !in_trouble(); ++next)
       step(mine, next);
   }
 }
