@@ -11,8 +11,6 @@
 
 #include "engine/contact_law.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 
@@ -20,16 +18,16 @@ namespace riesel {
 
 /// Two bodies that overlap, seen from the first one. SI units.
 struct Encounter {
-  Eigen::Vector2d separation;          ///< m, centre of the second minus centre of the first
-  Eigen::Vector2d velocity;            ///< m/s, of the second relative to the first, at the full step
-  Eigen::Vector2d half_step_velocity;  ///< m/s, half a step before
-  double reach;                        ///< m, sum of the radii; |separation| < reach
-  double reduced_mass;                 ///< kg
+  double x, y;            ///< m, centre of the second minus centre of the first
+  double vx, vy;          ///< m/s, of the second relative to the first, at the full step
+  double half_vx, half_vy;  ///< m/s, half a step before
+  double reach;           ///< m, sum of the radii; larger than the distance
+  double reduced_mass;    ///< kg
 };
 
 /// What the contact does in this step.
 struct Touch {
-  Eigen::Vector2d force;  ///< N, on the first body; the second gets the opposite
+  double fx, fy;          ///< N, on the first body; the second gets the opposite
   double overlap;         ///< m
   double rate;            ///< m/s, d(overlap)/dt: positive while approaching
   double slip;            ///< m/s, along s = n turned by 90 degrees, of the first relative to the second
@@ -46,16 +44,12 @@ struct Passage {
 };
 
 /// The relative path is extrapolated with the present velocity and normal acceleration (m/s^2, positive apart).
-inline Passage passage(const Encounter& e, double distance, double acceleration, double dt) {
+[[gnu::always_inline]] inline Passage passage(const Encounter& e, double distance, double acceleration, double dt) {
   // |r + v s + a s^2 / 2|^2 = reach^2, to second order in s
-  const double closing = -e.separation.dot(e.velocity);
-  const double curvature = e.velocity.squaredNorm() + distance * acceleration;
+  const double closing = -(e.x * e.vx + e.y * e.vy);
+  const double curvature = e.vx * e.vx + e.vy * e.vy + distance * acceleration;
   const double depth2 = (e.reach - distance) * (e.reach + distance);
-  const double root2 = closing * closing + curvature * depth2;
-  const double fastest2 = std::max(root2, closing * closing);
-  if (depth2 * depth2 > 4.0 * dt * dt * fastest2) return {dt, dt};  // far from both ends: the usual case
-
-  const double root = std::sqrt(root2);
+  const double root = std::sqrt(closing * closing + curvature * depth2);
   // Written without a quotient that could be 0/0, negative or not a number: then the bodies stay in touch.
   return {depth2 < dt * (root + closing) ? depth2 / (root + closing) : dt,
           depth2 < dt * (root - closing) ? depth2 / (root - closing) : dt};
@@ -65,17 +59,18 @@ inline Passage passage(const Encounter& e, double distance, double acceleration,
 /// (or ends) in it; then there is no other kick to stand for the rest.
 inline double kick_time(double in_touch, double dt) { return in_touch < dt ? in_touch : 0.5 * dt; }
 
+/// Without branches and inlined, so that a loop over contacts can be vectorised.
 template <class Normal, class Slip>
-Touch touch(const Encounter& e, const Normal& normal, const Slip& slip_law, double mu,
+[[gnu::always_inline]] inline Touch touch(const Encounter& e, const Normal& normal, const Slip& slip_law, double mu,
             Attraction attraction, double dt) {
-  const double distance = e.separation.norm();
-  const Eigen::Vector2d n = e.separation * (1.0 / distance);
-  const Eigen::Vector2d s(-n.y(), n.x());
+  const double distance = std::sqrt(e.x * e.x + e.y * e.y);
+  const double per_distance = 1.0 / distance;
+  const double nx = e.x * per_distance, ny = e.y * per_distance;
 
   Touch t;
   t.overlap = e.reach - distance;
-  t.rate = -e.velocity.dot(n);
-  t.slip = -e.velocity.dot(s);
+  t.rate = -(e.vx * nx + e.vy * ny);
+  t.slip = e.vx * ny - e.vy * nx;
 
   const double elastic = normal.elastic(t.overlap);
   const double damping = normal.damping(t.overlap, t.rate, e.reduced_mass);
@@ -85,12 +80,14 @@ Touch touch(const Encounter& e, const Normal& normal, const Slip& slip_law, doub
   const double weight = (kick_time(t.since, dt) + kick_time(t.until, dt)) / dt;
 
   double f_n = elastic + weight * damping;
-  if (attraction == Attraction::clip && (elastic + damping < 0.0 || f_n < 0.0)) f_n = 0.0;
+  if (attraction == Attraction::clip) f_n = elastic + damping < 0.0 ? 0.0 : std::max(f_n, 0.0);
 
-  const double half_step_slip = -e.half_step_velocity.dot(s);
+  const double half_step_slip = e.half_vx * ny - e.half_vy * nx;
   const double f_s = slip_law.force(mu * std::abs(f_n), t.slip, half_step_slip, e.reduced_mass, dt);
 
-  t.force = f_s * s - f_n * n;
+  // n = (nx, ny), s = (-ny, nx)
+  t.fx = -f_n * nx - f_s * ny;
+  t.fy = -f_n * ny + f_s * nx;
   t.elastic_energy = normal.stored_energy(t.overlap);
   t.normal_power = (f_n - elastic) * t.rate;
   t.friction_power = -f_s * t.slip;

@@ -67,7 +67,7 @@ using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw>;
 /// the equation means as dt -> 0. The slip that a step's kick can stop is that of the leapfrog velocity.
 struct CappedSlip {
   double force(double limit, double, double half_step_slip, double m_red, double dt) const {
-    return -std::clamp(m_red * half_step_slip / dt, -limit, limit);
+    return -std::max(-limit, std::min(limit, m_red * half_step_slip / dt));
   }
 };
 
@@ -83,7 +83,7 @@ struct ViscousSlip {
   double gamma_t;  ///< 1/s
 
   double force(double limit, double slip, double, double m_red, double) const {
-    return -std::clamp(gamma_t * m_red * slip, -limit, limit);
+    return -std::max(-limit, std::min(limit, gamma_t * m_red * slip));
   }
 };
 

@@ -27,8 +27,8 @@ class StepUnits {
   /// displacement per step along y, from one in the falling frame
   Fixed falling(Fixed uy) const { return wrapped_sum(uy, fallen_); }
   Fixed fall() const { return fall_; }
-  /// quanta per step^2, from m/s^2
-  Eigen::Vector2d kick(const Eigen::Vector2d& acceleration) const { return acceleration.cwiseProduct(kick_); }
+  /// quanta per step^2 over m/s^2
+  const Eigen::Vector2d& kick_per_acceleration() const { return kick_; }
 
  private:
   static Eigen::Vector2d scaled(Fixed x, Fixed y, const Eigen::Vector2d& unit) {
@@ -39,41 +39,46 @@ class StepUnits {
   Eigen::Vector2d metres_, velocity_, kick_;
 };
 
-/// Two free grains as they meet in this step; `reach` and so on as in Encounter.
-inline Encounter encounter(const Grains& g, std::uint32_t i, std::uint32_t j, const StepUnits& units) {
+/// Two free grains as they meet in this step.
+inline Encounter encounter(const Grains& g, std::uint32_t i, std::uint32_t j,
+                           const StepUnits& units) {
+  const Eigen::Vector2d separation =
+      units.metres(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i]));
   const Eigen::Vector2d half_step =
       units.velocity(wrapped_difference(g.ux[j], g.ux[i]), wrapped_difference(g.uy[j], g.uy[i]));
   const Eigen::Vector2d last_kick = units.velocity(wrapped_difference(g.kick_x[j], g.kick_x[i]),
-                                            wrapped_difference(g.kick_y[j], g.kick_y[i]));
-  return {
-      .separation =
-          units.metres(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i])),
-      .velocity = half_step + 0.5 * last_kick,
-      .half_step_velocity = half_step,
-      .reach = g.radius[i] + g.radius[j],
-      .reduced_mass = g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j]),
-  };
+                                                   wrapped_difference(g.kick_y[j], g.kick_y[i]));
+  return {.x = separation.x(),
+          .y = separation.y(),
+          .vx = half_step.x() + 0.5 * last_kick.x(),
+          .vy = half_step.y() + 0.5 * last_kick.y(),
+          .half_vx = half_step.x(),
+          .half_vy = half_step.y(),
+          .reach = g.radius[i] + g.radius[j],
+          .reduced_mass = g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j])};
 }
 
 /// A free grain and a fixed wall grain at (line, y).
-inline Encounter encounter(const Grains& g, std::uint32_t i, Fixed line, Fixed y, double wall_radius,
-                    const StepUnits& units) {
+inline Encounter encounter(const Grains& g, std::uint32_t i, Fixed line, Fixed y,
+                           double wall_radius, const StepUnits& units) {
+  const Eigen::Vector2d separation =
+      units.metres(wrapped_difference(line, g.x[i]), wrapped_difference(y, g.y[i]));
   const Eigen::Vector2d half_step = -units.velocity(g.ux[i], units.falling(g.uy[i]));
   const Eigen::Vector2d last_kick =
       -units.velocity(g.kick_x[i], wrapped_sum(g.kick_y[i], units.fall()));
-  return {
-      .separation =
-          units.metres(wrapped_difference(line, g.x[i]), wrapped_difference(y, g.y[i])),
-      .velocity = half_step + 0.5 * last_kick,
-      .half_step_velocity = half_step,
-      .reach = g.radius[i] + wall_radius,
-      .reduced_mass = g.mass[i],
-  };
+  return {.x = separation.x(),
+          .y = separation.y(),
+          .vx = half_step.x() + 0.5 * last_kick.x(),
+          .vy = half_step.y() + 0.5 * last_kick.y(),
+          .half_vx = half_step.x(),
+          .half_vy = half_step.y(),
+          .reach = g.radius[i] + wall_radius,
+          .reduced_mass = g.mass[i]};
 }
 
 /// Whether the two bodies touch: the one test that decides about the beginning and the end of a contact.
 inline bool overlapping(const Encounter& e) {
-  return e.separation.squaredNorm() < e.reach * e.reach;
+  return e.x * e.x + e.y * e.y < e.reach * e.reach;
 }
 
 }  // namespace riesel

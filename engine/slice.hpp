@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/aligned.hpp"
+#include "engine/contact_batch.hpp"
 #include "engine/contact_book.hpp"
 #include "engine/fixed_point.hpp"
 #include "engine/tally.hpp"
@@ -55,6 +56,7 @@ struct Slice {
 
   std::vector<std::uint32_t> hits;       ///< indices of pairs that may overlap in this step
   std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
+  ContactBatch batch;                    ///< the contacts that are being resolved
   ContactBook pair_contacts;
   ContactBook wall_contacts;
   std::vector<Kick> kicks;     ///< of this step, by contacts of the slice on grains of any slice

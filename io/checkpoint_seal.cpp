@@ -40,6 +40,8 @@ public:
   ~Reader() { close(descriptor_); }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
+  Reader(Reader&&) = delete;
+  Reader& operator=(Reader&&) = delete;
 
   /// The next bytes, as many as fit into the buffer; fewer at the end of the file only.
   std::span<const char> read(std::span<char> buffer) {

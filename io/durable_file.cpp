@@ -32,6 +32,8 @@ public:
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
 
   void write(std::string_view content) {
     constexpr std::size_t most = std::size_t{1} << 30;  // what Linux takes at once
@@ -64,6 +66,8 @@ public:
   ~Leftover() { unlink(path_.c_str()); }
   Leftover(const Leftover&) = delete;
   Leftover& operator=(const Leftover&) = delete;
+  Leftover(Leftover&&) = delete;
+  Leftover& operator=(Leftover&&) = delete;
 
   const fs::path& path() const { return path_; }
 

@@ -7,7 +7,6 @@
 #include "io/state_layout.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cstddef>
 #include <stdexcept>
@@ -24,9 +23,9 @@ constexpr std::int64_t format_version = 1;
 constexpr std::size_t buffered_rows = 1024;
 
 std::string names_of(const std::vector<Column>& columns) {
-  std::vector<std::string_view> names;
-  for (const auto& column : columns) names.emplace_back(column.name);
-  return fmt::format("{}", fmt::join(names, ","));
+  std::string names;
+  for (const auto& column : columns) names += (names.empty() ? "" : ",") + column.name;
+  return names;
 }
 
 void write_provenance(Hdf5Group group, const Provenance& provenance) {
@@ -82,6 +81,7 @@ void write_grains(Hdf5Group& group, const State& state) {
 void write_walls(Hdf5Group group, const State& state) {
   write_records(group, state.walls);
   std::vector<double> spacing;
+  spacing.reserve(state.walls.size());
   for (const auto& wall : state.walls) spacing.push_back(wall.spacing(state.box));
   write_column<double>(group, "spacing", "m", spacing);
 }
@@ -101,14 +101,15 @@ public:
   Hdf5Group root() const { return file_.root(); }
   std::int64_t rows() const { return rows_; }
 
-  /// Takes the first rows over from the series of another file.
-  void take_rows(const Hdf5Group& from, std::int64_t rows) {
+  /// Takes the first rows over from the series of another file of `file_size` bytes.
+  void take_rows(const Hdf5Group& from, std::int64_t rows, std::uintmax_t file_size) {
     if (const auto found = from.text_attribute("columns"); found != names_of(columns_)) {
       throw Hdf5Error(fmt::format("its series are {} instead of {}", found, names_of(columns_)));
     }
     rows_ = rows;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      auto values = values_of(from.data(columns_[i].name));
+      std::vector<double> values;
+      read_column(from, columns_[i].name, file_size, values);
       const auto wanted = static_cast<std::size_t>(rows);
       if (values.size() < wanted) {
         throw Hdf5Error(fmt::format("it has {} rows of {} and the checkpoint counts {}",
@@ -184,7 +185,7 @@ RunFile RunFile::reopen(const fs::path& path, const Provenance& provenance,
   try {
     const auto old = Hdf5File::open(path).root();
     RunFile file(path, series);
-    file.contents_->take_rows(old.group("series"), rows);
+    file.contents_->take_rows(old.group("series"), rows, fs::file_size(path));
     auto root = file.contents_->root();
     root.copy(old, "provenance");
     record_resume(root.group("provenance"), provenance);
@@ -219,6 +220,7 @@ void RunFile::write_curve(const std::vector<Column>& columns,
   auto group = replace_group(contents_->root(), "curve");
   for (std::size_t i = 0; i < columns.size(); ++i) {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const auto& row : rows) values.push_back(row[i]);
     auto data = write_column<double>(group, columns[i].name, columns[i].unit, values);
     data.set_attribute("doc", columns[i].doc);

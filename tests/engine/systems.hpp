@@ -151,8 +151,8 @@ inline Grain grain_of_id(const State& state, std::int32_t id) {
 
 /// `state` after `steps` steps.
 inline State advanced(const State& state, const ContactModel& model, std::int64_t steps,
-                      int threads = 1) {
-  Simulation simulation(state, model, threads);
+                      int threads = 1, Stepping stepping = Stepping::automatic) {
+  Simulation simulation(state, model, threads, stepping);
   simulation.advance(steps);
   return simulation.state();
 }

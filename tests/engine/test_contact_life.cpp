@@ -14,8 +14,8 @@ using namespace systems;
 namespace {
 
 /// Ended contacts as they were in their last step, in the order in which they ended.
-std::vector<Contact> watch(const State& start, std::int64_t steps) {
-  Simulation simulation(start, paper_model(), 1);
+std::vector<Contact> watch(const State& start, std::int64_t steps, Stepping stepping) {
+  Simulation simulation(start, paper_model(), 1, stepping);
   std::vector<Contact> ended, before;
   for (std::int64_t step = 1; step <= steps; ++step) {
     simulation.advance(1);
@@ -56,7 +56,8 @@ TEST_CASE("each contact lives as in the log of events") {
   // Both see the same steps; sums differ by rounding.
   const State start = small_tube(21);
   const std::int64_t steps = 800;
-  const std::vector<Contact> lives = watch(start, steps);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  const std::vector<Contact> lives = watch(start, steps, stepping);
   const brute_force::Stepper log = reference(start, steps);
   REQUIRE(lives.size() == log.ended().size());
   REQUIRE(lives.size() > 20);
@@ -79,8 +80,9 @@ TEST_CASE("each contact lives as in the log of events") {
 TEST_CASE("the tally is the sum over the lives") {
   const State start = small_tube(22);
   const std::int64_t steps = 800;
-  const std::vector<Contact> lives = watch(start, steps);
-  const State end = advanced(start, paper_model(), steps);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  const std::vector<Contact> lives = watch(start, steps, stepping);
+  const State end = advanced(start, paper_model(), steps, 1, stepping);
 
   ContactTally grains, walls;
   for (const Contact& contact : lives) {
@@ -118,7 +120,8 @@ TEST_CASE("begin and end are resolved within the step") {
 }
 
 TEST_CASE("sorting in the middle of a contact does not end it") {
-  Simulation simulation(disturbed_contact(), soft(), 1);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  Simulation simulation(disturbed_contact(), soft(), 1, stepping);
   simulation.advance(100);
   REQUIRE(simulation.state().contacts.size() == 1);
   const double begin = simulation.state().contacts[0].begin;

@@ -13,7 +13,7 @@ namespace {
 
 /// Pairs of grains at a given distance, in random directions and places, half of them astride the seam.
 struct Pairs {
-  CandidatePairs candidates;
+  Slice slice;
   CoarsePositions positions;
 };
 
@@ -32,14 +32,17 @@ Pairs pairs_at(double distance, double reach, std::size_t count, const Box& box)
     const double y = p % 2 == 0 ? dice.between(-0.5, 0.5) * distance : dice.between(0.0, box.length);
     const std::uint32_t first = place(x, y);
     const std::uint32_t second = place(x + distance * std::cos(angle), y + distance * std::sin(angle));
-    pairs.candidates.add(first, second, units.generous_square(reach));
+    pairs.slice.pairs.add(first, second, units.generous_square(reach));
   }
   return pairs;
 }
 
-std::size_t hits(const Pairs& pairs, const Box& box) {
-  std::vector<std::uint32_t> found{7, 7, 7};  // what was there must go
-  find_overlapping(pairs.candidates, pairs.positions, CoarseUnits(box), found);
+std::size_t hits(Pairs pairs, const Box& box) {
+  State state;
+  state.box = box;
+  std::vector<std::uint32_t>& found = pairs.slice.hits;
+  found = {7, 7, 7};  // what was there must go
+  find_overlapping(pairs.slice, state, pairs.positions, CoarseUnits(box));
   CHECK(std::is_sorted(found.begin(), found.end()));
   CHECK(std::adjacent_find(found.begin(), found.end()) == found.end());
   return found.size();

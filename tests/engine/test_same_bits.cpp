@@ -48,7 +48,8 @@ const State& start() {
 }
 
 const State& expected() {
-  static const State state = advanced(start(), paper_model(), some_steps);
+  static const State state =
+      advanced(start(), paper_model(), some_steps, 1, Stepping::plain);
   return state;
 }
 
@@ -58,6 +59,11 @@ TEST_CASE("the expected run has something to get wrong") {
   CHECK(expected().tally.grains.begun > 20);
   CHECK(expected().tally.walls.begun > 5);
   CHECK_FALSE(expected().contacts.empty());
+}
+
+TEST_CASE("windows, automatic and plain stepping give the same bits") {
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows, Stepping::automatic);
+  CHECK(same(advanced(start(), paper_model(), some_steps, 1, stepping), expected()));
 }
 
 TEST_CASE("two runs are the same") { CHECK(same(advanced(start(), paper_model(), some_steps), expected())); }
@@ -98,7 +104,8 @@ TEST_CASE("a team smaller than asked for never goes unnoticed") {
 }
 
 TEST_CASE("any split of the steps gives the same bits") {
-  Simulation simulation(start(), paper_model(), 1);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows, Stepping::automatic);
+  Simulation simulation(start(), paper_model(), 1, stepping);
   SECTION("one by one") {
     for (std::int64_t i = 0; i < some_steps; ++i) simulation.advance(1);
   }
@@ -127,19 +134,23 @@ TEST_CASE("looking at a run does not change it") {
 
 TEST_CASE("any order of the slots gives the same bits") {
   const auto seed = GENERATE(as<std::uint64_t>{}, 1, 2, 3, 4, 5);
-  CHECK(same(advanced(shuffled(start(), seed), paper_model(), some_steps), expected()));
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(advanced(shuffled(start(), seed), paper_model(), some_steps, 1, stepping), expected()));
 }
 
 TEST_CASE("a run taken up again at any step has the same bits") {
   Dice dice(34);
   int in_contact = 0;
   for (int i = 0; i < 20; ++i) {
-    const std::int64_t stop = dice.below(some_steps);
+    const std::int64_t stop = dice.below(some_steps), rest = some_steps - stop;
+    const Stepping first = i % 2 == 0 ? Stepping::plain : Stepping::windows;
     CAPTURE(stop);
-    const State middle = advanced(start(), paper_model(), stop);
+    const State middle = advanced(start(), paper_model(), stop, 1, first);
     in_contact += !middle.contacts.empty();
-    CHECK(same(advanced(middle, paper_model(), some_steps - stop), expected()));
-    CHECK(same(advanced(shuffled(middle, 7), paper_model(), some_steps - stop), expected()));
+    for (const Stepping then : {Stepping::plain, Stepping::windows}) {
+      CHECK(same(advanced(middle, paper_model(), rest, 1, then), expected()));
+      CHECK(same(advanced(shuffled(middle, 7), paper_model(), rest, 1, then), expected()));
+    }
   }
   CHECK(in_contact > 10);
 }
@@ -165,6 +176,7 @@ TEST_CASE("every law gives the same bits in pieces") {
   model.normal = normal;
   model.slip = slip;
   model.attraction = Attraction::clip;
-  const State whole = advanced(start(), model, 300);
+  const State whole = advanced(start(), model, 300, 1, Stepping::plain);
+  CHECK(same(advanced(start(), model, 300, 1, Stepping::windows), whole));
   CHECK(same(advanced(advanced(shuffled(start(), 8), model, 123), model, 177), whole));
 }

@@ -38,6 +38,8 @@ public:
   }
   ScratchDirectory(const ScratchDirectory&) = delete;
   ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+  ScratchDirectory(ScratchDirectory&&) = delete;
+  ScratchDirectory& operator=(ScratchDirectory&&) = delete;
 
   const fs::path& path() const { return path_; }
   fs::path operator/(const char* name) const { return path_ / name; }
