@@ -11,7 +11,7 @@ namespace riesel {
 namespace {
 
 /// The skin as a part of the mean diameter: more means more pairs to test, less means more sortings.
-constexpr double skin_per_diameter = 0.2;
+constexpr double skin_per_diameter = 0.25;
 /// Below this part of the full budget it is better to sort anew than to look at displacements again and again.
 constexpr double smallest_useful_budget = 0.2;
 
@@ -121,6 +121,7 @@ void Candidates::start_over(const State& state, std::int64_t step) {
 
 void Candidates::list_pairs(const State& state, Slice& mine) {
   const Grains& grains = state.grains;
+  const float farthest2 = units_.generous_square(2.0 * max_radius_ + skin_);
   CandidatePairs& pairs = mine.pairs;
   pairs.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i)
@@ -128,8 +129,10 @@ void Candidates::list_pairs(const State& state, Slice& mine) {
       for (std::size_t j = range.begin; j < range.end; ++j) {
         const float dx = static_cast<float>(coarse_difference(coarse_.x[j], coarse_.x[i])) * units_.x;
         const float dy = static_cast<float>(coarse_difference(coarse_.y[j], coarse_.y[i])) * units_.y;
+        const float distance2 = dx * dx + dy * dy;
+        if (distance2 >= farthest2) continue;
         const double reach = grains.radius[i] + grains.radius[j];
-        if (dx * dx + dy * dy < units_.generous_square(reach + skin_))
+        if (distance2 < units_.generous_square(reach + skin_))
           pairs.add(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
                     units_.generous_square(reach));
       }

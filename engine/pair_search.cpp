@@ -69,12 +69,6 @@ void find_at_walls(Slice& slice, const State& state) {
 
 }  // namespace
 
-float CoarseUnits::generous_square(double reach) const {
-  // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7 relative.
-  const double generous = (reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y)));
-  return static_cast<float>(generous * generous * (1.0 + 1e-6));
-}
-
 void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
                       CoarseUnits units) {
   find_pairs(slice.pairs, positions, units, slice.hits);

@@ -27,7 +27,11 @@ struct CoarseUnits {
   float x, y;  ///< m
 
   /// (reach + resolution)^2 in m^2, rounded up: no pair closer than `reach` (m) is farther in coarse positions.
-  float generous_square(double reach) const;
+  float generous_square(double reach) const {
+    // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7 relative.
+    const double generous = reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y));
+    return static_cast<float>(generous * generous * (1.0 + 1e-6));
+  }
 };
 
 /// Writes to slice.hits and slice.wall_hits the indices of the candidates that may overlap, in increasing order.

@@ -1,9 +1,9 @@
 // A second engine for tests: velocity Verlet in doubles that tries all pairs in every step.
 //
-// It has no cells, no candidates, no fixed point, no falling frame and no slots, and it forgets nothing: what
-// the engine does to be fast must not show in the comparison. Only the formula of a single contact in
-// a single step (touch) is the engine's own; that one is held against independent numbers in
-// tests/physics.
+// It has no cells, no candidates, no fixed point, no falling frame and no slots, and it forgets
+// nothing: what the engine does to be fast must not show in the comparison. Only the formula of a
+// single contact in a single step (touch) is the engine's own; that one is held against independent
+// numbers in tests/physics.
 #pragma once
 
 #include "engine/contact_force.hpp"
@@ -37,11 +37,15 @@ struct Life {
 };
 
 class Stepper {
- public:
+public:
   /// Starts from a state at step 0.
   Stepper(const State& state, const ContactModel& model)
-      : box_(state.box), walls_(state.walls), gravity_(0.0, state.gravity), dt_(state.time_step),
-        model_(model), bodies_(state.grains.size()) {
+      : box_(state.box),
+        walls_(state.walls),
+        gravity_(0.0, state.gravity),
+        dt_(state.time_step),
+        model_(model),
+        bodies_(state.grains.size()) {
     for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
       const Grain g = grain_at(state, slot);
       Body& body = bodies_[static_cast<std::size_t>(state.grains.id[slot])];
@@ -70,10 +74,10 @@ class Stepper {
       }
       for (std::size_t w = 0; w < walls_.size(); ++w)
         for (std::int64_t k = 0; k < walls_[w].count; ++k)
-          accelerations[i] += try_touch(bodies_[i], wall_grain(walls_[w], k), bodies_[i].mass,
-                                        name(static_cast<int>(w), i, static_cast<std::size_t>(k)),
-                                        now)
-                              / bodies_[i].mass;
+          accelerations[i] +=
+              try_touch(bodies_[i], wall_grain(walls_[w], k), bodies_[i].mass,
+                        name(static_cast<int>(w), i, static_cast<std::size_t>(k)), now)
+              / bodies_[i].mass;
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].acceleration = accelerations[i];
     for (const auto& [who, life] : touching_)
@@ -97,7 +101,7 @@ class Stepper {
     return largest;
   }
 
- private:
+private:
   static ContactName name(int wall, std::size_t grain, std::size_t partner) {
     return {wall, static_cast<std::int32_t>(grain), static_cast<std::int32_t>(partner)};
   }
@@ -123,8 +127,9 @@ class Stepper {
     const Vector2d velocity = half_step + 0.5 * dt_ * (b.acceleration - a.acceleration);
     const Touch t = std::visit(
         [&](const auto& normal, const auto& slip) {
-          return touch({separation, velocity, half_step, reach, reduced_mass}, normal, slip,
-                       model_.friction, model_.attraction, dt_);
+          return touch({separation.x(), separation.y(), velocity.x(), velocity.y(), half_step.x(),
+                        half_step.y(), reach, reduced_mass},
+                       normal, slip, model_.friction, model_.attraction, dt_);
         },
         model_.normal, model_.slip);
 
@@ -135,7 +140,7 @@ class Stepper {
     const Vector2d along_s(-separation.y(), separation.x());
     life.slip_path += dt_ * std::abs(velocity.dot(along_s)) / separation.norm();
     now[who] = life;
-    return t.force;
+    return {t.fx, t.fy};
   }
 
   Box box_;

@@ -36,7 +36,7 @@ inline ContactModel frictionless(double gamma_n) {
 
 /// Random numbers that are the same with every standard library.
 class Dice {
- public:
+public:
   explicit Dice(std::uint64_t seed) : bits_(seed) {}
 
   double between(double low, double high) {
@@ -46,7 +46,7 @@ class Dice {
     return static_cast<std::int64_t>(bits_() % static_cast<std::uint64_t>(n));
   }
 
- private:
+private:
   std::mt19937_64 bits_;
 };
 
@@ -82,12 +82,12 @@ inline bool room_for(const State& state, const Grain& newcomer) {
 
 /// Where grains are thrown to, and how fast.
 struct Throw {
-  double left, right;              ///< m, range of x
-  double low, high;                ///< m, range of y
-  double speed;                    ///< m/s, bound on the random part of each velocity component
-  double common_vy = 0.0;          ///< m/s
-  double polydispersity = 0.0;     ///< relative half width of the radii; mass ~ r^2
-  double mean_radius = radius;     ///< m
+  double left, right;           ///< m, range of x
+  double low, high;             ///< m, range of y
+  double speed;                 ///< m/s, bound on the random part of each velocity component
+  double common_vy = 0.0;       ///< m/s
+  double polydispersity = 0.0;  ///< relative half width of the radii; mass ~ r^2
+  double mean_radius = radius;  ///< m
 };
 
 /// Adds grains at random places where they touch nothing.

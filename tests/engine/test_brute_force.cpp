@@ -42,8 +42,8 @@ Events agree(const State& start, std::int64_t steps, const ContactModel& model, 
   return {tally.grains.begun, tally.walls.begun};
 }
 
-/// The same for all kinds of stepping on one thread. The windows are also let run without being looked at, when
-/// nothing lands the flying grains in between.
+/// The same for all kinds of stepping on one thread. The windows are also let run without being
+/// looked at, when nothing lands the flying grains in between.
 Events agree(const State& start, std::int64_t steps, const ContactModel& model = paper_model()) {
   const Events events = agree(start, steps, model, 1, Stepping::plain);
   agree(start, steps, model, 1, Stepping::windows);
@@ -122,7 +122,8 @@ TEST_CASE("grains of very different size go as by brute force") {
   throw_grains(state, 25, {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0}, dice);
   throw_grains(
       state, 60,
-      {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0, .mean_radius = 0.1e-3}, dice);
+      {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0, .mean_radius = 0.1e-3},
+      dice);
   CHECK(agree(state, 400).pairs_begun > 20);
 }
 
@@ -141,7 +142,8 @@ TEST_CASE("fast intruders go as by brute force") {
   Dice dice(13);
   for (int i = 0; i < 3;) {
     const double across = dice.between(-10.0, 10.0), along = i % 2 == 0 ? speed : -speed;
-    const Grain intruder = grain(dice.between(1e-3, 7e-3), dice.between(0.0, 9.6e-3), across, along);
+    const Grain intruder =
+        grain(dice.between(1e-3, 7e-3), dice.between(0.0, 9.6e-3), across, along);
     if (!room_for(state, intruder)) continue;
     add_grain(state, intruder);
     ++i;
@@ -161,7 +163,8 @@ TEST_CASE("grains that all fall at 50 m/s go as by brute force") {
 }
 
 TEST_CASE("a grain so fast that it jumps out of a contact goes as by brute force") {
-  // From an overlap it is beyond the reach of the candidates one step later, wherever the step falls.
+  // From an overlap it is beyond the reach of the candidates one step later, wherever the step
+  // falls.
   const double phase = GENERATE(range(0, 6)) / 6.0;
   State state = empty_box(20e-3, 19.8e-3);
   state.time_step = 3e-6;
@@ -180,15 +183,17 @@ TEST_CASE("a grain so fast that it jumps out of a contact goes as by brute force
 }
 
 TEST_CASE("a grain just released by a contact is not thought slower than it is") {
-  // The attraction at the end of a contact slows grain 1 down in the very step in which the displacements
-  // are looked at; grain 2 comes up to it at nearly the same speed, from just beyond the candidates' reach.
+  // The attraction at the end of a contact slows grain 1 down in the very step in which the
+  // displacements are looked at; grain 2 comes up to it at nearly the same speed, from just beyond
+  // the candidates' reach.
   State state = empty_box(20e-3, 10e-3);
   state.time_step = 4.75e-6;
   const double speed = 10.507087135894453, gap = 0.00012030780962861139;
   const double oncoming = 2.9983974696576841, distance = 0.00018905884476350012;
   add_grain(state, {5e-3, 5e-3, 0.0, 0.0, radius, 100.0 * mass});
   add_grain(state, grain(6e-3 + gap, 5e-3, -speed, 0.0));
-  add_grain(state, grain(7e-3 + distance + oncoming * (gap / speed + 2.4e-4), 5e-3, -oncoming, 0.0));
+  add_grain(state,
+            grain(7e-3 + distance + oncoming * (gap / speed + 2.4e-4), 5e-3, -oncoming, 0.0));
   ContactModel model = frictionless(damping);
   model.normal = LinearLaw{200.0, damping};
   CHECK(agree(state, 100, model).pairs_begun == 2);

@@ -1,5 +1,5 @@
-// The grid: sorting changes the slots and nothing else, and the ranges of later partners hold every close
-// pair exactly once, for any number of rows and columns.
+// The grid: sorting changes the slots and nothing else, and the ranges of later partners hold every
+// close pair exactly once, for any number of rows and columns.
 #include "engine/cells.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"

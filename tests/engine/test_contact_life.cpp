@@ -1,5 +1,5 @@
-// The life of a contact: begin, end, partners, largest overlap and slip path, against a log of events by
-// brute force; and that nothing the engine does between two steps cuts it in two.
+// The life of a contact: begin, end, partners, largest overlap and slip path, against a log of
+// events by brute force; and that nothing the engine does between two steps cuts it in two.
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/brute_force.hpp"
@@ -35,7 +35,8 @@ brute_force::Stepper reference(const State& start, std::int64_t steps) {
   return stepper;
 }
 
-/// Two grains in a long, soft contact, and a fast third one that makes the engine sort again and again.
+/// Two grains in a long, soft contact, and a fast third one that makes the engine sort again and
+/// again.
 State disturbed_contact() {
   State state = empty_box(20e-3, 20e-3);
   add_grain(state, grain(5e-3, 5e-3, 0.1, 0.0));
@@ -106,7 +107,8 @@ TEST_CASE("the tally is the sum over the lives") {
 }
 
 TEST_CASE("begin and end are resolved within the step") {
-  // Head-on at constant velocity until the first touch: the extrapolation is exact up to the force of one step.
+  // Head-on at constant velocity until the first touch: the extrapolation is exact up to the force
+  // of one step.
   const double phase = GENERATE(0.1, 0.5, 0.9);
   State state = empty_box(20e-3, 20e-3);
   const double v = 1.0, met = (7.0 + phase) * time_step;

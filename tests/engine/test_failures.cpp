@@ -34,7 +34,9 @@ std::string failure(const State& state, std::int64_t steps, int threads = 1) {
 
 }  // namespace
 
-TEST_CASE("a valid state is accepted") { CHECK_NOTHROW(Simulation(two_grains(), paper_model(), 1)); }
+TEST_CASE("a valid state is accepted") {
+  CHECK_NOTHROW(Simulation(two_grains(), paper_model(), 1));
+}
 
 TEST_CASE("windows on several threads are refused") {
   CHECK_THROWS_AS(Simulation(two_grains(), paper_model(), 2, Stepping::windows),

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::int64_t million = 1'000'000;
 
-/// A grain falls alone; in the other order of magnitude of time steps and lengths a bench or a tube may have.
+/// A grain falls alone; in the other order of magnitude of time steps and lengths a bench or a tube
+/// may have.
 State falling(double length, double dt, double vy) {
   State state = empty_box(10e-3, length);
   state.gravity = 10.0;

@@ -11,7 +11,8 @@ using namespace systems;
 
 namespace {
 
-/// Pairs of grains at a given distance, in random directions and places, half of them astride the seam.
+/// Pairs of grains at a given distance, in random directions and places, half of them astride the
+/// seam.
 struct Pairs {
   Slice slice;
   CoarsePositions positions;
@@ -29,9 +30,11 @@ Pairs pairs_at(double distance, double reach, std::size_t count, const Box& box)
   for (std::size_t p = 0; p < count; ++p) {
     const double angle = dice.between(0.0, 2.0 * std::numbers::pi);
     const double x = dice.between(0.0, box.width);
-    const double y = p % 2 == 0 ? dice.between(-0.5, 0.5) * distance : dice.between(0.0, box.length);
+    const double y =
+        p % 2 == 0 ? dice.between(-0.5, 0.5) * distance : dice.between(0.0, box.length);
     const std::uint32_t first = place(x, y);
-    const std::uint32_t second = place(x + distance * std::cos(angle), y + distance * std::sin(angle));
+    const std::uint32_t second =
+        place(x + distance * std::cos(angle), y + distance * std::sin(angle));
     pairs.slice.pairs.add(first, second, units.generous_square(reach));
   }
   return pairs;

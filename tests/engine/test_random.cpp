@@ -1,4 +1,5 @@
-// Random numbers: those of Philox, a function of their arguments and of nothing else, and well distributed.
+// Random numbers: those of Philox, a function of their arguments and of nothing else, and well
+// distributed.
 #include "engine/random.hpp"
 #include "tests/catch.hpp"
 
@@ -46,10 +47,11 @@ TEST_CASE("the generator is Philox4x32-10") {
 }
 
 TEST_CASE("a uniform number is made of the bits of its own counter") {
-  // seed in the key; whose, draw and use in the counter; 53 of 64 bits, in the middle of their interval
+  // seed in the key; whose, draw and use in the counter; 53 of 64 bits, in the middle of their
+  // interval
   const std::uint64_t seed = 0x0123456789abcdefu, whose = 0xfedcba9876543210u;
-  const auto bits = r123::Philox4x32()({{0x76543210u, 0xfedcba98u, 7u, 2u}},
-                                       {{0x89abcdefu, 0x01234567u}});
+  const auto bits =
+      r123::Philox4x32()({{0x76543210u, 0xfedcba98u, 7u, 2u}}, {{0x89abcdefu, 0x01234567u}});
   const auto [u, v] = RandomStream(seed, Use::vacancy).uniform(whose, 7);
   const auto fraction = [](std::uint32_t high, std::uint32_t low) {
     return std::ldexp(static_cast<double>(high), -32) + std::ldexp(static_cast<double>(low), -64);
@@ -72,7 +74,8 @@ TEST_CASE("seeds, uses, owners and draws never share a number") {
     for (const Use use : {Use::radius, Use::vacancy, Use::velocity})
       for (const std::uint64_t whose : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 32})
         for (const std::uint32_t draw : {0u, 1u})
-          for (const double value : RandomStream(seed, use).uniform(whose, draw)) seen.insert(value);
+          for (const double value : RandomStream(seed, use).uniform(whose, draw))
+            seen.insert(value);
   CHECK(seen.size() == 2 * 3 * 3 * 2 * 2);
 }
 
@@ -88,7 +91,8 @@ TEST_CASE("uniform numbers are uniform in (0, 1)") {
     }
     return pair;
   });
-  // Standard errors with 2e5 numbers: 6.5e-4 of the mean, 1.7e-4 of the variance, 97 of a bin. Five of them.
+  // Standard errors with 2e5 numbers: 6.5e-4 of the mean, 1.7e-4 of the variance, 97 of a bin. Five
+  // of them.
   CHECK(std::abs(mean - 0.5) < 3.3e-3);
   CHECK(std::abs(variance - 1.0 / 12.0) < 8.5e-4);
   for (const int count : histogram) CHECK(std::abs(count - many / 10) < 490);
@@ -104,7 +108,8 @@ TEST_CASE("normal numbers have mean 0 and variance 1, and are independent within
     product += a * b / many;
     beyond_two += std::abs(a) > 2.0;
   }
-  // Standard errors: 2.2e-3, 3.2e-3, 3.2e-3; 4.55 % lie beyond two sigma, 66 of them uncertain. Five of each.
+  // Standard errors: 2.2e-3, 3.2e-3, 3.2e-3; 4.55 % lie beyond two sigma, 66 of them uncertain.
+  // Five of each.
   CHECK(std::abs(mean) < 1.1e-2);
   CHECK(std::abs(variance - 1.0) < 1.6e-2);
   CHECK(std::abs(product) < 1.6e-2);

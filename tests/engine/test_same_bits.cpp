@@ -1,5 +1,5 @@
-// The promise: the same bits for any number of threads, any order of the slots, any split of the steps
-// between calls, and for a run that was stopped and taken up again.
+// The promise: the same bits for any number of threads, any order of the slots, any split of the
+// steps between calls, and for a run that was stopped and taken up again.
 #include "engine/observables.hpp"
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
@@ -34,9 +34,8 @@ bool same(const State& a, const State& b) {
          && std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
                        [](const Contact& c, const Contact& d) { return all_of(c) == all_of(d); })
          && all_of(a.tally.grains) == all_of(b.tally.grains)
-         && all_of(a.tally.walls) == all_of(b.tally.walls)
-         && a.origin.kinetic == b.origin.kinetic && a.origin.momentum_y == b.origin.momentum_y
-         && state_hash(a) == state_hash(b)
+         && all_of(a.tally.walls) == all_of(b.tally.walls) && a.origin.kinetic == b.origin.kinetic
+         && a.origin.momentum_y == b.origin.momentum_y && state_hash(a) == state_hash(b)
          && observe(a).energies.residual == observe(b).energies.residual;
 }
 
@@ -48,8 +47,7 @@ const State& start() {
 }
 
 const State& expected() {
-  static const State state =
-      advanced(start(), paper_model(), some_steps, 1, Stepping::plain);
+  static const State state = advanced(start(), paper_model(), some_steps, 1, Stepping::plain);
   return state;
 }
 
@@ -66,7 +64,9 @@ TEST_CASE("windows, automatic and plain stepping give the same bits") {
   CHECK(same(advanced(start(), paper_model(), some_steps, 1, stepping), expected()));
 }
 
-TEST_CASE("two runs are the same") { CHECK(same(advanced(start(), paper_model(), some_steps), expected())); }
+TEST_CASE("two runs are the same") {
+  CHECK(same(advanced(start(), paper_model(), some_steps), expected()));
+}
 
 TEST_CASE("any number of threads gives the same bits") {
   const int threads = GENERATE(2, 3, 4);
@@ -88,7 +88,8 @@ TEST_CASE("a step by several threads is not begun before the last one is known")
 }
 
 TEST_CASE("a team smaller than asked for never goes unnoticed") {
-  // Inside a parallel region OpenMP grants one thread. Right bits or an exception, but no grains left standing.
+  // Inside a parallel region OpenMP grants one thread. Right bits or an exception, but no grains
+  // left standing.
   const State reference = advanced(start(), paper_model(), 50);
   bool noticed_or_right = false;
 #pragma omp parallel num_threads(2)
@@ -135,7 +136,8 @@ TEST_CASE("looking at a run does not change it") {
 TEST_CASE("any order of the slots gives the same bits") {
   const auto seed = GENERATE(as<std::uint64_t>{}, 1, 2, 3, 4, 5);
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
-  CHECK(same(advanced(shuffled(start(), seed), paper_model(), some_steps, 1, stepping), expected()));
+  CHECK(
+      same(advanced(shuffled(start(), seed), paper_model(), some_steps, 1, stepping), expected()));
 }
 
 TEST_CASE("a run taken up again at any step has the same bits") {
@@ -168,9 +170,9 @@ TEST_CASE("a run taken up in every step has the same bits") {
 
 TEST_CASE("every law gives the same bits in pieces") {
   ContactModel model = paper_model();
-  const NormalLaw normal = GENERATE(NormalLaw(LinearLaw{stiffness, damping}),
-                                    NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
-                                    NormalLaw(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}));
+  const NormalLaw normal =
+      GENERATE(NormalLaw(LinearLaw{stiffness, damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
+               NormalLaw(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}));
   const SlipLaw slip =
       GENERATE(SlipLaw(CappedSlip{}), SlipLaw(LiteralSlip{}), SlipLaw(ViscousSlip{1e5}));
   model.normal = normal;

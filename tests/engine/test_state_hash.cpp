@@ -1,5 +1,5 @@
-// The hash is that of all that the future depends on: every part of it counts, the order of the slots
-// does not.
+// The hash is that of all that the future depends on: every part of it counts, the order of the
+// slots does not.
 #include "engine/state.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"

@@ -85,8 +85,12 @@ inline Rebound head_on(const HeadOn& h, const ContactModel& model) {
   State state = open_space(h.dt);
   if (std::isinf(h.mass_2)) {
     state.walls = {{.line = 0.0, .radius = wall_radius, .count = 1}};
-    add_grain(state, {.x = radius + wall_radius + gap, .y = 0.0, .vx = -h.speed, .vy = 0.0,
-                      .radius = radius, .mass = h.mass_1});
+    add_grain(state, {.x = radius + wall_radius + gap,
+                      .y = 0.0,
+                      .vx = -h.speed,
+                      .vy = 0.0,
+                      .radius = radius,
+                      .mass = h.mass_1});
     const Outcome out = collide(state, model);
     return {out.velocity.x() / h.speed, out.contact_time(), out.tally.max_overlap};
   }

@@ -43,13 +43,12 @@ inline double resolving_time_step(double collision_time, double height, double v
 
 /// Scenario 1 at one velocity.
 inline ImpactResult pass(const ImpactSetup& setup, double v_y, double steps) {
-  return follow(setup,
-                {.x = impact_height,
-                 .y = just_upstream(setup, impact_height),
-                 .v_x = 0.0,
-                 .v_y = v_y,
-                 .time_step =
-                     resolving_time_step(setup.collision_time, impact_height, v_y, steps)});
+  return follow(
+      setup, {.x = impact_height,
+              .y = just_upstream(setup, impact_height),
+              .v_x = 0.0,
+              .v_y = v_y,
+              .time_step = resolving_time_step(setup.collision_time, impact_height, v_y, steps)});
 }
 
 }  // namespace impacts

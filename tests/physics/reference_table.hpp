@@ -13,13 +13,13 @@ namespace reference {
 
 /// One line of a table, by the names of its columns.
 class Row {
- public:
+public:
   explicit Row(std::map<std::string, std::string> cells) : cells_(std::move(cells)) {}
 
   const std::string& text(const std::string& column) const { return cells_.at(column); }
   double operator()(const std::string& column) const { return std::stod(text(column)); }
 
- private:
+private:
   std::map<std::string, std::string> cells_;
 };
 

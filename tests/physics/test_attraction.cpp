@@ -10,7 +10,8 @@ using namespace collisions;
 namespace {
 
 struct Kicks {
-  Fixed strongest_pull = 0, strongest_push = 0;  // quanta; the wall is to the left, so a push is positive
+  Fixed strongest_pull = 0,
+        strongest_push = 0;  // quanta; the wall is to the left, so a push is positive
 };
 
 Kicks kicks_of_a_head_on_contact(Attraction attraction) {

@@ -33,14 +33,10 @@ State walled_gas(double dt, double gravity, std::uint64_t seed) {
   state.gravity = gravity;
   add_walls(state, 8);
   Dice dice(seed);
-  throw_grains(state, 40,
-               {.left = 0.0,
-                .right = 8e-3,
-                .low = 0.0,
-                .high = 9.6e-3,
-                .speed = 3.0,
-                .common_vy = 2.0},
-               dice);
+  throw_grains(
+      state, 40,
+      {.left = 0.0, .right = 8e-3, .low = 0.0, .high = 9.6e-3, .speed = 3.0, .common_vy = 2.0},
+      dice);
   return state;
 }
 
@@ -83,8 +79,8 @@ TEST_CASE("grains of equal mass conserve momentum to the last bit") {
 }
 
 TEST_CASE("grains of unequal mass conserve momentum to rounding") {
-  // Each kick is rounded to a quantum per step: half a quantum for each of the two grains of a contact, each
-  // step. That adds up like a walk, but is bounded by a straight line.
+  // Each kick is rounded to a quantum per step: half a quantum for each of the two grains of a
+  // contact, each step. That adds up like a walk, but is bounded by a straight line.
   const State start = gas_without_walls(0.2, Dice(52));
   const State end = advanced(start, paper_model(), 1000);
   REQUIRE(end.tally.grains.begun > 30);
@@ -104,16 +100,16 @@ TEST_CASE("the momentum along a tube is that of its start, of gravity and of the
   const State end = advanced(start, paper_model(), 3000);
   REQUIRE(end.tally.walls.begun > 20);
   const double weight = 40.0 * mass * end.gravity;
-  const double expected = end.origin.momentum_y + weight * end.time()
-                          + observe(end).wall_impulse_y;
-  // U is the velocity in the falling frame, half a step of gravity behind; it starts half a step of gravity low.
+  const double expected = end.origin.momentum_y + weight * end.time() + observe(end).wall_impulse_y;
+  // U is the velocity in the falling frame, half a step of gravity behind; it starts half a step of
+  // gravity low.
   const double moved = momentum(end)[1] + weight * (end.time() + 0.5 * time_step);
   CHECK(std::abs(moved - expected) < 1e-10 * 40.0 * mass);
 }
 
 TEST_CASE("an elastic gas without friction keeps its energy, the better the smaller the step") {
-  // One collision errs by up to 5e-4 of its energy at t_col / 50, of either sign and second order in dt;
-  // 3000 collisions of 40 grains walk to some 1e-3 of the whole.
+  // One collision errs by up to 5e-4 of its energy at t_col / 50, of either sign and second order
+  // in dt; 3000 collisions of 40 grains walk to some 1e-3 of the whole.
   const auto largest_error = [](double dt) {
     Simulation simulation(walled_gas(dt, 0.0, 54), frictionless(0.0), 1);
     const double start = observe(simulation.state()).energies.kinetic;

@@ -1,5 +1,6 @@
-// What the paper says of its Figs. 3 to 5: how the loss of axial velocity at the wall depends on the axial
-// velocity, where the wall fails as a brake, and where a corrugated wall becomes an emergency brake.
+// What the paper says of its Figs. 3 to 5: how the loss of axial velocity at the wall depends on
+// the axial velocity, where the wall fails as a brake, and where a corrugated wall becomes an
+// emergency brake.
 #include "tests/catch.hpp"
 #include "tests/physics/impacts.hpp"
 
@@ -23,13 +24,12 @@ MeanImpact mean_impact(double v_x, double v_y, double steps = 50.0) {
   static const ImpactSetup setup = wall_array(paper_model(), wall_collision_time());
   MeanImpact mean;
   for (double i = 0.0; i < starts; ++i) {
-    const ImpactResult result =
-        follow(setup, {.x = reach,
-                       .y = i * spacing / starts,
-                       .v_x = v_x,
-                       .v_y = v_y,
-                       .time_step = resolving_time_step(setup.collision_time, impact_height, v_y,
-                                                        steps)});
+    const ImpactResult result = follow(
+        setup, {.x = reach,
+                .y = i * spacing / starts,
+                .v_x = v_x,
+                .v_y = v_y,
+                .time_step = resolving_time_step(setup.collision_time, impact_height, v_y, steps)});
     CHECK(result.end == ImpactEnd::away);
     mean.dv_y += result.dv_y / starts;
     mean.contacts += result.contacts / starts;
@@ -48,7 +48,8 @@ ImpactSetup standard() { return single_wall_grain(paper_model(), wall_collision_
 }  // namespace
 
 TEST_CASE("the brake is best where the passage takes as long as a collision") {
-  // v_crit = c / t_col is a crossover, no theorem: the maximum lies at 0.97 of it with damping, 1.2 without.
+  // v_crit = c / t_col is a crossover, no theorem: the maximum lies at 0.97 of it with damping, 1.2
+  // without.
   const double gamma = GENERATE(0.0, damping);
   const double t_col = LinearContact{stiffness, gamma, mass}.collision_time();
   const ImpactSetup setup = single_wall_grain(with_stiffness(stiffness, gamma), t_col);
@@ -85,13 +86,13 @@ TEST_CASE("without damping the loss falls off as 1/v far above v_crit") {
   const double at_80 = 80.0 * pass(elastic, 80.0, 100.0).dv_y;
   const double at_160 = 160.0 * pass(elastic, 160.0, 100.0).dv_y;
   const double at_640 = 640.0 * pass(elastic, 640.0, 100.0).dv_y;
-  CHECK(std::abs(at_80 / at_640 - 1.0) < 5e-3);   // corrections ~ (v_crit / v)^2 = 2e-3
+  CHECK(std::abs(at_80 / at_640 - 1.0) < 5e-3);  // corrections ~ (v_crit / v)^2 = 2e-3
   CHECK(std::abs(at_160 / at_640 - 1.0) < 2e-3);
 }
 
 TEST_CASE("with damping the loss tends to that of a straight passage") {
-  // A grain too fast to be deflected feels F_N = gamma m d(xi)/dt along the chord. The integral of friction
-  // gives 2 mu b ln(R/b), that of the normal force itself c - 2 b arctan(c / 2b).
+  // A grain too fast to be deflected feels F_N = gamma m d(xi)/dt along the chord. The integral of
+  // friction gives 2 mu b ln(R/b), that of the normal force itself c - 2 b arctan(c / 2b).
   const double b = impact_height, c = chord(reach, b);
   const double of_friction = damping * 2.0 * friction * b * std::log(reach / b);
   const double of_normal_force = damping * (c - 2.0 * b * std::atan(0.5 * c / b));

@@ -1,4 +1,5 @@
-// What is known of a contact on paper: against the paper's numbers, independent numbers, and quadrature.
+// What is known of a contact on paper: against the paper's numbers, independent numbers, and
+// quadrature.
 #include "engine/closed_forms.hpp"
 #include "tests/catch.hpp"
 #include "tests/physics/reference_table.hpp"
@@ -18,8 +19,8 @@ double reduced_mass(const reference::Row& row) {
   return std::isinf(m2) ? m1 : m1 * m2 / (m1 + m2);
 }
 
-/// Duration of an undamped contact from conservation of energy, dt = dxi / v(xi), by the substitution
-/// xi = xi_max sin^2(q), which takes the singularity away; midpoint rule.
+/// Duration of an undamped contact from conservation of energy, dt = dxi / v(xi), by the
+/// substitution xi = xi_max sin^2(q), which takes the singularity away; midpoint rule.
 double time_by_quadrature(double k, double alpha, double m_red, double speed) {
   const double p = alpha + 1.0;
   const double xi_max = std::pow(p * m_red * speed * speed / (2.0 * k), 1.0 / p);

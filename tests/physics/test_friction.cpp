@@ -1,4 +1,5 @@
-// Friction: Coulomb's law where the contact slides, and what becomes of sgn(v_S) where the slip stops.
+// Friction: Coulomb's law where the contact slides, and what becomes of sgn(v_S) where the slip
+// stops.
 #include "engine/closed_forms.hpp"
 #include "tests/catch.hpp"
 #include "tests/physics/collisions.hpp"
@@ -25,7 +26,8 @@ double step_of(double gamma) {
   return LinearContact{stiffness, gamma, mass}.collision_time() / 50.0;
 }
 
-/// The velocity along a flat wall at each step, from the first touch to the first step after the last.
+/// The velocity along a flat wall at each step, from the first touch to the first step after the
+/// last.
 std::vector<double> slips(const ContactModel& model, double normal, double along, double dt) {
   Simulation simulation(above_flat_wall(normal, along, dt), model, 1);
   std::vector<double> slip;
@@ -66,7 +68,8 @@ TEST_CASE("friction dissipates what the motion along the wall loses") {
 }
 
 TEST_CASE("capped friction stops the slip and never reverses it") {
-  const double along = GENERATE(0.05, 0.3, 0.7);  // mu (1 + e) v_n = 0.85 m/s is what friction can stop
+  const double along =
+      GENERATE(0.05, 0.3, 0.7);  // mu (1 + e) v_n = 0.85 m/s is what friction can stop
   const std::vector<double> slip = slips(paper_model(), 1.0, along, step_of(damping));
   constexpr double turn = 5e-6;  // of the normal, in 0.05 mm; what sticks to the wall turns with it
   for (const double v : slip) CHECK(std::abs(v) < along + turn);
@@ -80,7 +83,8 @@ TEST_CASE("the literal sign chatters, by no more than one kick of friction") {
   const double normal = 1.0, dt = step_of(damping);
   const std::vector<double> slip = slips(model, normal, 0.05, dt);
   // |F_N| is largest at the first touch (gamma m v) or at the largest overlap (k v t_col / pi).
-  const double strongest = std::max(1.5 * damping * mass * normal, std::sqrt(stiffness * mass) * normal);
+  const double strongest =
+      std::max(1.5 * damping * mass * normal, std::sqrt(stiffness * mass) * normal);
   const double kick = friction * strongest * dt / mass;
   int reversals = 0;
   bool stopped = false;
@@ -113,8 +117,9 @@ TEST_CASE("viscous slip tends to the capped one as its rate grows") {
 }
 
 TEST_CASE("oblique impacts are those of the reference, whether they slide, stick or are clipped") {
-  // t / 1000. Left over: second order, 1e-6; a clipped force, a stop of the slip or the root of Hertz's damping falls
-  // somewhere in a step, 1e-3 of a contact's duration, weighted with the small force at that moment.
+  // t / 1000. Left over: second order, 1e-6; a clipped force, a stop of the slip or the root of
+  // Hertz's damping falls somewhere in a step, 1e-3 of a contact's duration, weighted with the
+  // small force at that moment.
   int stuck = 0;
   for (const reference::Row& row : reference::table("oblique")) {
     const double k = row("k"), gamma = row("gamma");
@@ -123,8 +128,7 @@ TEST_CASE("oblique impacts are those of the reference, whether they slide, stick
     const ContactModel model{
         linear ? NormalLaw(LinearLaw{k, gamma}) : HertzKuwabaraKonoLaw{k, gamma}, CappedSlip{},
         row("mu"), row.text("attraction") == "clip" ? Attraction::clip : Attraction::keep};
-    const Grain start{row("x"),  row("y"),           row("vx"),
-                      row("vy"), row("radius_free"), row("mass")};
+    const Grain start{row("x"), row("y"), row("vx"), row("vy"), row("radius_free"), row("mass")};
     const Outcome out =
         hit_wall_grain(start, row("radius_wall"), model, row("contact_time") / 1000.0);
     const Vector2d expected(row("vx_after"), row("vy_after"));

@@ -1,8 +1,9 @@
-// Head-on collisions by the engine: restitution, duration and overlap are those of the closed forms, and
-// what is missing vanishes with the second power of the time step.
+// Head-on collisions by the engine: restitution, duration and overlap are those of the closed
+// forms, and what is missing vanishes with the second power of the time step.
 //
-// Where in a time step a contact begins and ends is chance. With damping, statements on accuracy are therefore
-// statements on the mean over these phases, and the worst phase is bounded separately.
+// Where in a time step a contact begins and ends is chance. With damping, statements on accuracy
+// are therefore statements on the mean over these phases, and the worst phase is bounded
+// separately.
 #include "engine/closed_forms.hpp"
 #include "tests/catch.hpp"
 #include "tests/physics/collisions.hpp"
@@ -34,8 +35,8 @@ struct Errors {
   double worst_overlap = 0.0;
 };
 
-/// For about this many steps per collision: never a whole number, for which begin and end would have the same phase
-/// and their errors cancel.
+/// For about this many steps per collision: never a whole number, for which begin and end would
+/// have the same phase and their errors cancel.
 Errors errors(double mass_2, double gamma, double steps_per_collision) {
   const double v = 1.0;
   HeadOn h{.mass_1 = mass, .mass_2 = mass_2, .speed = v, .dt = 0.0};
@@ -67,8 +68,8 @@ double order(const std::array<double, 5>& error) {
 }  // namespace
 
 TEST_CASE("a contact resolved by 50 steps comes out to parts in a thousand") {
-  // The paper's eq. (5) promises "of order 1e-4" for t_col / 50. Second-order terms are (pi/50)^2/24
-  // = 1.6e-4 with factors of order one before them.
+  // The paper's eq. (5) promises "of order 1e-4" for t_col / 50. Second-order terms are
+  // (pi/50)^2/24 = 1.6e-4 with factors of order one before them.
   const double partner = GENERATE(as<double>{}, wall, 1e-6, 3e-6);
   const double gamma = GENERATE(0.0, 1e4);
   CAPTURE(partner, gamma);
@@ -79,8 +80,8 @@ TEST_CASE("a contact resolved by 50 steps comes out to parts in a thousand") {
 }
 
 TEST_CASE("no phase of the contact's begin costs more than one step of damping") {
-  // Where a contact begins or ends within a hair of a full step, half a step of damping may count twice
-  // or not at all: gamma dt / 2 of the velocity. Twice that is the promise.
+  // Where a contact begins or ends within a hair of a full step, half a step of damping may count
+  // twice or not at all: gamma dt / 2 of the velocity. Twice that is the promise.
   const double gamma = 1e4;
   const double steps = GENERATE(25.0, 50.0, 100.0);
   const double dt = LinearContact{stiffness, gamma, mass}.collision_time() / steps;
@@ -101,12 +102,13 @@ TEST_CASE("head-on collisions converge at second order in the time step") {
   }
   CHECK(std::abs(order(restitution) - 2.0) < 0.15);
   CHECK(std::abs(order(time) - 2.0) < 0.25);
-  CHECK(overlap[4] < 2e-5);  // the top of the parabola, sampled: (pi / 800)^2 / 2 = 8e-6 and second order
+  CHECK(overlap[4]
+        < 2e-5);  // the top of the parabola, sampled: (pi / 800)^2 / 2 = 8e-6 and second order
 }
 
 TEST_CASE("an elastic collision conserves energy, and at random phases without bias") {
-  // The force begins and ends with a kink somewhere in a step: up to (pi/50)^2 / 8 = 5e-4 for one collision, of
-  // either sign.
+  // The force begins and ends with a kink somewhere in a step: up to (pi/50)^2 / 8 = 5e-4 for one
+  // collision, of either sign.
   const double partner = GENERATE(as<double>{}, wall, 1e-6, 3e-6);
   const Errors e = errors(partner, 0.0, 50.0);
   CHECK(e.worst_restitution < 5e-4);
@@ -114,8 +116,9 @@ TEST_CASE("an elastic collision conserves energy, and at random phases without b
 }
 
 TEST_CASE("head-on collisions of all laws are those of the reference") {
-  // Steps of t / 2000. What is left is of second order for eq. (1): 5e-7; of order 3/2 for Hertz-Kuwabara-Kono,
-  // whose damping begins as a square root: 1e-5; and where a clipped force jumps: gamma dt ~ 4e-4 at worst.
+  // Steps of t / 2000. What is left is of second order for eq. (1): 5e-7; of order 3/2 for
+  // Hertz-Kuwabara-Kono, whose damping begins as a square root: 1e-5; and where a clipped force
+  // jumps: gamma dt ~ 4e-4 at worst.
   for (const reference::Row& row : reference::table("head_on")) {
     const bool linear = row.text("law") == "linear", clip = row.text("attraction") == "clip";
     const double k = row("k"), gamma = row("gamma");

@@ -1,7 +1,7 @@
 // Impacts on the wall against the tables of an independent, adaptive integrator.
 //
-// Time steps of min(t_col, chord / v_y) / 50, as a user has them, and a tenth of that. The errors are of
-// second order for eq. (1), so that the tolerances of the two differ by about a hundred.
+// Time steps of min(t_col, chord / v_y) / 50, as a user has them, and a tenth of that. The errors
+// are of second order for eq. (1), so that the tolerances of the two differ by about a hundred.
 #include "tests/catch.hpp"
 #include "tests/physics/impacts.hpp"
 #include "tests/physics/reference_table.hpp"
@@ -40,8 +40,8 @@ std::string name(ImpactEnd end) {
 }  // namespace
 
 TEST_CASE("a grain that grazes one wall grain does as in the reference") {
-  // 1e-3: (pi/50)^2/24 = 2e-4 with factors of order one, and the largest sampled overlap lacks up to
-  // (pi/100)^2/2 = 5e-4. A hundredth of that at a tenth of the step.
+  // 1e-3: (pi/50)^2/24 = 2e-4 with factors of order one, and the largest sampled overlap lacks up
+  // to (pi/100)^2/2 = 5e-4. A hundredth of that at a tenth of the step.
   const bool fine = GENERATE(false, true);
   for (const reference::Row& row : reference::table("single_wall_grain")) {
     ContactModel model = paper_model();
@@ -65,10 +65,11 @@ TEST_CASE("a grain that grazes one wall grain does as in the reference under Her
 }
 
 TEST_CASE("every impact on the wall array ends as in the reference") {
-  // At a tenth of the step the error is of second order in the velocities at stake, 2e-5 m/s, and no contact is missed.
-  // At 50 steps a contact that begins or ends within a hair of a full step may have half a step of
-  // damping too much, 0.7 % of its velocity; and a grazing contact shorter than a step may be missed: it costs
-  // little itself, but the contacts after it begin elsewhere, 2.5e-4 v_y.
+  // At a tenth of the step the error is of second order in the velocities at stake, 2e-5 m/s, and
+  // no contact is missed. At 50 steps a contact that begins or ends within a hair of a full step
+  // may have half a step of damping too much, 0.7 % of its velocity; and a grazing contact shorter
+  // than a step may be missed: it costs little itself, but the contacts after it begin
+  // elsewhere, 2.5e-4 v_y.
   const bool fine = GENERATE(false, true);
   const ImpactSetup setup = wall_array(paper_model(), wall_collision_time());
   int rows = 0, other_counts = 0;
