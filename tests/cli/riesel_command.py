@@ -68,15 +68,18 @@ class CommandTest(unittest.TestCase):
     maxDiff = None
 
     def setUp(self):
+        self.move_to_an_empty_home()
+
+    def move_to_an_empty_home(self):
         directory = tempfile.TemporaryDirectory(prefix="riesel-test-")
         self.addCleanup(directory.cleanup)
         self.home = pathlib.Path(directory.name)
 
     # --- calling the command ---
 
-    def riesel(self, *arguments, before=(), **environment):
-        """Runs the command to its end. `before`: a command line that runs it."""
-        return subprocess.run([*before, COMMAND, *map(str, arguments)], cwd=self.home, timeout=120,
+    def riesel(self, *arguments, **environment):
+        """Runs the command to its end."""
+        return subprocess.run([COMMAND, *map(str, arguments)], cwd=self.home, timeout=60,
                               stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               errors="replace", env={**os.environ, **environment}, check=False)
 
@@ -147,9 +150,10 @@ class CommandTest(unittest.TestCase):
 
     def assert_nothing_written(self, before):
         """`before`: bytes_of_files(self.home) of then. Directories do not appear either."""
-        self.assertEqual(bytes_of_files(self.home), before)
-        directories = [path for path in self.home.rglob("*") if path.is_dir()]
-        self.assertEqual(directories, [])
+        after = bytes_of_files(self.home)
+        self.assertEqual(sorted(after), sorted(before))
+        self.assertEqual(after, before)
+        self.assertEqual([path for path in self.home.rglob("*") if path.is_dir()], [])
 
     def assert_same_result(self, one, other):
         """The same state, bit by bit, the same series, and the same summary but for the speed."""

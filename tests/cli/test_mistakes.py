@@ -107,14 +107,16 @@ class Mistakes(CommandTest):
     def test_in_a_file(self):
         for name, (old, new, place, mentions) in MISTAKES_IN_FILES.items():
             with self.subTest(name):
+                self.move_to_an_empty_home()
                 self.assertIn(old, SMALL_TUBE)
                 self.write("tube.yaml", SMALL_TUBE.replace(old, new, 1))
                 self.assert_mistake("tube.yaml", mentions=[f"tube.yaml:{place}: ", *mentions])
 
     def test_in_an_override(self):
-        self.write("tube.yaml", SMALL_TUBE)
         for override, mentions in MISTAKES_IN_OVERRIDES.items():
             with self.subTest(override):
+                self.move_to_an_empty_home()
+                self.write("tube.yaml", SMALL_TUBE)
                 self.assert_mistake("tube.yaml", "--set", override, mentions=mentions)
 
     def test_in_the_number_of_threads(self):
@@ -123,6 +125,11 @@ class Mistakes(CommandTest):
             with self.subTest(threads):
                 self.assert_mistake("tube.yaml", f"--threads={threads}",
                                     mentions=["threads", threads])
+
+    def test_in_the_way_of_stepping(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        self.assert_mistake("tube.yaml", "--set", "run.stepping=windows", "--threads", "2",
+                            mentions=["run.stepping:", "one thread", "run.threads"])
 
     def test_a_missing_file(self):
         self.assert_mistake("tube.yaml", mentions=["tube.yaml: ", "No such file", "check the path"])

@@ -3,7 +3,7 @@ that it was."""
 
 import shutil
 
-from riesel_command import CommandTest, bytes_of_files, final_time
+from riesel_command import CommandTest, bytes_of_files
 
 
 class Resume(CommandTest):
@@ -129,7 +129,7 @@ class DamagedCheckpoint(CommandTest):
             with self.subTest(name):
                 directory = shutil.copytree(as_it_was, self.home / name.replace(" ", "-"))
                 (directory / "checkpoint.h5").write_bytes(content)
-                result = self.riesel("resume", directory)
+                result = self.riesel("resume", directory, "--set", "run.duration=5 ms")
                 self.assertEqual(result.returncode, 0, result)
                 self.assertIn("checkpoint.h5: is damaged", result.stderr)
                 self.assertIn("checkpoint.h5.previous", result.stderr)
@@ -138,7 +138,9 @@ class DamagedCheckpoint(CommandTest):
     def test_the_generation_before_is_used_where_the_newest_is_gone(self):
         as_it_was = shutil.copytree(self.out, self.home / "copy")
         self.newest.unlink()
-        self.assertEqual(self.riesel("resume", self.out).returncode, 0)
+        result = self.riesel("resume", self.out, "--set", "run.duration=5 ms")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("checkpoint.h5.previous", result.stderr)
         self.assert_same_result(as_it_was, self.out)
 
     def test_without_a_generation_before_the_file_and_the_remedy_are_told(self):
@@ -159,7 +161,5 @@ class DamagedCheckpoint(CommandTest):
 
     def test_the_generation_before_can_be_resumed_by_its_name(self):
         as_it_was = shutil.copytree(self.out, self.home / "copy")
-        self.assertLess(final_time(self.run_small_tube("short", "--set", "run.duration=2.3 ms")),
-                        final_time(self.out))
         self.resume_to_end(self.previous, "--set", "run.duration=5 ms")
         self.assert_same_result(as_it_was, self.out)

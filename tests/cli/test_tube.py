@@ -112,6 +112,12 @@ class SameBits(CommandTest):
             self.assert_same_result(
                 one, self.run_small_tube(f"threads-{threads}", *short, threads=threads))
 
+    def test_for_any_way_of_stepping(self):
+        one = self.run_small_tube("one")
+        for stepping in ("plain", "windows"):
+            self.assert_same_result(
+                one, self.run_small_tube(stepping, "--set", f"run.stepping={stepping}"))
+
     def test_for_the_effective_settings(self):
         one = self.run_small_tube("one")
         again = self.run_to_end(one / "effective.yaml", "again")

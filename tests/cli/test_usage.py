@@ -2,7 +2,7 @@
 
 from riesel_command import BAD_INPUT, SHIPPED, CommandTest
 
-SUBCOMMANDS = ["run", "resume", "check", "scenarios"]
+SUBCOMMANDS = ["run", "resume", "check", "scenarios", "settings"]
 
 
 class Usage(CommandTest):
@@ -47,7 +47,7 @@ class Usage(CommandTest):
         for subcommand, options in {"run": ["FILE", "--out", "--set", "--threads"],
                                     "resume": ["DIR", "--set", "--threads"],
                                     "check": ["FILE", "--set", "--threads"],
-                                    "scenarios": []}.items():
+                                    "scenarios": [], "settings": []}.items():
             with self.subTest(subcommand):
                 result = self.riesel(subcommand, "--help")
                 self.assert_done(result)
@@ -58,6 +58,13 @@ class Usage(CommandTest):
         result = self.riesel("--version")
         self.assert_done(result)
         self.assertRegex(result.stdout, r"\Ariesel \d+\.\d+\.\d+ \(.*\)\n\Z")
+
+    def test_the_settings_reference_knows_every_scenario_and_its_keys(self):
+        result = self.riesel("settings")
+        self.assert_done(result)
+        for name in ("single_wall_grain", "wall_array", "periodic_tube", "contact.stiffness",
+                     "impact.height", "grains.area_fraction", "run.duration"):
+            self.assertIn(f"`{name}`", result.stdout)
 
     def test_every_scenario_is_listed_on_a_line_with_what_it_is(self):
         result = self.riesel("scenarios")
