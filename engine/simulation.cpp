@@ -111,10 +111,14 @@ void Simulation::advance_plainly(std::int64_t last) {
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {
-  if (!flights_) flights_ = std::make_unique<Flights>(state_, model_, candidates_);
-  for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
-    flights_->step(next);
-  flights_->land_all(state_.step);
+  // A team of one: the caller may be in a team of its own, whose barriers are none of our business.
+#pragma omp parallel num_threads(1)
+  {
+    if (!flights_) flights_ = std::make_unique<Flights>(state_, model_, candidates_);
+    for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
+      flights_->step(next);
+    flights_->land_all(state_.step);
+  }
 }
 
 /// Velocities take up the last kicks, positions move on to step `step`.

@@ -7,7 +7,8 @@ from riesel_command import COMMAND, SMALL_TUBE, CommandTest, bytes_of_files
 
 
 def mounts_are_permitted():
-    return subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode == 0
+    attempt = subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False)
+    return attempt.returncode == 0
 
 
 class Directories(CommandTest):

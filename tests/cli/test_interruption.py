@@ -73,7 +73,8 @@ class Interruption(CommandTest):
 
     def test_the_way_to_go_on_is_told(self):
         _, _, stderr = self.start_and_stop(["run", "long.yaml", "--out", "out"], signal.SIGINT)
-        self.assertRegex(stderr, r"interrupted at t = \S+ s; 'riesel resume out' goes on from there\n")
+        self.assertRegex(
+            stderr, r"interrupted at t = \S+ s; 'riesel resume out' goes on from there\n\Z")
         self.assertFalse((self.out / "summary.json").exists())
 
     def test_before_the_first_checkpoint(self):

@@ -149,8 +149,8 @@ class DamagedCheckpoint(CommandTest):
             with self.subTest(name):
                 self.newest.write_bytes(content)
                 before = bytes_of_files(self.out)
-                self.assert_refused(self.riesel("resume", self.out), "out/checkpoint.h5: is damaged",
-                                    "start the run again")
+                self.assert_refused(self.riesel("resume", self.out),
+                                    "out/checkpoint.h5: is damaged", "start the run again")
                 self.assertEqual(bytes_of_files(self.out), before)
 
     def test_two_damaged_generations_are_both_named(self):
