@@ -1,11 +1,13 @@
 // riesel check: what a settings file means, before hours are spent on it.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
+#include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/simulation.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
+#include <omp.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace riesel::app {
 
@@ -72,10 +75,10 @@ double memory_in_use() {
 }
 
 /// Particle-steps per second, from a few real steps.
-double measured_speed(const scenarios::Flow& flow, int threads) {
+double measured_speed(const io::Settings& settings, const scenarios::Flow& flow, int threads) {
   using Clock = std::chrono::steady_clock;
   constexpr double enough_seconds = 0.3;
-  Simulation simulation(flow.state, flow.model, threads);
+  Simulation simulation(flow.state, flow.model, threads, stepping_of(settings));
   simulation.advance(10);  // caches and threads warm up
   const auto start = Clock::now();
   std::int64_t steps = 0;
@@ -110,8 +113,9 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const double diameter = settings.number("grains.diameter");
   const double random = settings.number("start.random_velocity");
   const double axial = settings.number("start.axial_velocity");
-  // Two grains of a normal distribution rarely meet at more than four standard deviations of each.
-  const double fastest = std::max({4.0 * std::numbers::sqrt2 * random, std::abs(axial), 1e-3});
+  // Two grains of a normal distribution rarely meet at more than four standard deviations of each; the common fall
+  // brings no two together.
+  const double fastest = std::max(4.0 * std::numbers::sqrt2 * random, 1e-3);
 
   double area = 0.0;
   for (const double radius : grains.radius) area += std::numbers::pi * radius * radius;
@@ -126,17 +130,39 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   warn_of_overlap(flow.model.normal, {0.5 * mass, fastest}, diameter);
 
   const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
-  const double depth = random * t_col / std::numbers::pi;
   const double reach = 0.5 * diameter + state.walls.front().radius;
-  print_critical_velocity(chord(reach, reach - depth), t_col, std::abs(axial));
+  print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(axial));
 
   const double steps = std::ceil(settings.number("run.duration") / state.time_step);
-  const auto wanted = settings.integer_or_auto("run.threads");
-  const int threads = wanted ? static_cast<int>(*wanted) : useful_threads(grains.size());
-  const double speed = measured_speed(flow, threads);
+  check_stepping(settings);
+  const int threads = threads_for(settings, grains.size());
+  const double speed = measured_speed(settings, flow, threads);
   line("steps", "{:.0f}", steps);
   line("expected time", "{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
        readable_time(n * steps / speed), threads, threads == 1 ? "" : "s", speed / 1e6);
+  line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
+}
+
+/// From some impacts, evenly spread over the curve.
+void print_cost(const io::Settings& settings, const scenarios::ImpactCurve& curve) {
+  constexpr std::size_t enough = 50;
+  const std::size_t stride = curve.impacts.size() / enough + 1;
+  std::vector<Impact> sample;
+  for (std::size_t i = 0; i < curve.impacts.size(); i += stride) sample.push_back(curve.impacts[i]);
+
+  const auto wanted = settings.integer_or_auto("run.threads");
+  const int threads = wanted ? static_cast<int>(*wanted) : omp_get_max_threads();
+  const auto start = std::chrono::steady_clock::now();
+  double steps = 0.0;
+  for (const ImpactResult& result : follow_all(curve.setup, sample, threads))
+    steps += static_cast<double>(result.steps);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+
+  const double scale =
+      static_cast<double>(curve.impacts.size()) / static_cast<double>(sample.size());
+  line("steps", "about {:.2g}", scale * steps);
+  line("expected time", "{} on {} thread{}", readable_time(scale * seconds.count()), threads,
+       threads == 1 ? "" : "s");
   line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
 }
 
@@ -159,12 +185,12 @@ void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& cur
   if (fastest_normal > 0.0)
     warn_of_overlap(setup.model.normal, {setup.grain_mass, fastest_normal},
                     2.0 * setup.grain_radius);
-  const double height = setup.single_wall_grain() ? curve.impacts.front().x
-                                                  : setup.reach()
-                                                        - fastest_normal * setup.collision_time
-                                                              / std::numbers::pi;
+  const double path = setup.single_wall_grain()
+                          ? chord(setup.reach(), curve.impacts.front().x)
+                          : chord_of_impact(setup.reach(), fastest_normal, setup.collision_time);
   line("v_crit", "{:.3g} m/s: above it a grain passes a wall grain sooner than t_col",
-       chord(setup.reach(), height) / setup.collision_time);
+       path / setup.collision_time);
+  print_cost(settings, curve);
 }
 
 }  // namespace

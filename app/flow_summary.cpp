@@ -4,7 +4,7 @@
 #include "engine/steady_state.hpp"
 
 #include <algorithm>
-#include <numbers>
+#include <limits>
 #include <numeric>
 
 namespace riesel::app {
@@ -16,9 +16,10 @@ struct Population {
 };
 
 Population population(const Grains& grains) {
-  const auto n = static_cast<double>(grains.size());
-  return {.mean_radius = std::accumulate(grains.radius.begin(), grains.radius.end(), 0.0) / n,
-          .mass = std::accumulate(grains.mass.begin(), grains.mass.end(), 0.0)};
+  ExactSum radius, mass;  // the slots have no fixed order
+  for (const double r : grains.radius) radius.add(r);
+  for (const double m : grains.mass) mass.add(m);
+  return {.mean_radius = radius.value() / static_cast<double>(grains.size()), .mass = mass.value()};
 }
 
 /// m/s, above which a grain that meets the wall with the typical random velocity passes a wall grain sooner than the
@@ -28,9 +29,8 @@ double critical_velocity(const State& state, const ContactModel& model, const Po
   const double mass = grains.mass / static_cast<double>(state.grains.size());
   const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
   const double t_col = collision_time(model.normal, mass, speed);
-  const double depth = speed * t_col / std::numbers::pi;
   const double reach = grains.mean_radius + state.walls.front().radius;
-  return chord(reach, std::max(0.0, reach - depth)) / t_col;
+  return chord_of_impact(reach, speed, t_col) / t_col;
 }
 
 double mean_from(const std::vector<double>& series, std::size_t first) {
@@ -66,7 +66,8 @@ io::FlowSummary summarise(const io::RunFile& file, const State& state, const Con
   io::FlowSummary s;
   s.time = state.time();
   s.state = std::string(name(steady.verdict));
-  s.mean_axial_velocity = {.value = steady.mean, .error = steady.error};
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  s.mean_axial_velocity = {.value = steady.mean, .error = velocity.size() > 1 ? steady.error : unknown};
   s.independent_samples = steady.independent_samples;
   if (steady.transient_end < velocity.size()) {
     s.transient_end = file.series("time")[steady.transient_end];

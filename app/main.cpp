@@ -1,7 +1,6 @@
 // The command riesel: reads the command line, calls a subcommand, turns errors into messages and exit status.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
-#include "app/interrupt.hpp"
 #include "engine/simulation.hpp"
 #include "io/build_info.hpp"
 #include "io/file_error.hpp"
@@ -42,7 +41,7 @@ class CommandLine {
  public:
   CommandLine(int argc, char** argv) : arguments_(argv, argv + argc) {
     program_.set_version_flag("--version", version_text());
-    program_.require_subcommand(1);
+    program_.require_subcommand(0, 1);  // so that a wrong one is named; see command()
     add_run();
     add_resume();
     add_check();
@@ -59,29 +58,37 @@ class CommandLine {
  private:
   void add_run() {
     CLI::App* run = program_.add_subcommand("run", "Run a settings file");
-    run->add_option("FILE", run_.file, "Settings in YAML")->required();
+    CLI::Option* file = run->add_option("FILE", run_.file, "Settings in YAML");
     run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]");
     add_overrides(*run, run_.overrides);
     add_threads(*run, run_.overrides);
-    run->callback([this] { command_ = [this] { return app::run(run_, arguments_); }; });
+    set_command(*run, *file, [this] { return app::run(run_, arguments_); });
   }
 
   void add_resume() {
     CLI::App* resume = program_.add_subcommand("resume", "Go on with a run from its last checkpoint");
-    resume->add_option("DIR", resume_.checkpoint, "Directory of the run, or its checkpoint.h5")
-        ->required();
+    CLI::Option* directory = resume->add_option("DIR", resume_.checkpoint,
+                                                "Directory of the run, or its checkpoint.h5");
     add_overrides(*resume, resume_.overrides);
     add_threads(*resume, resume_.overrides);
-    resume->callback([this] { command_ = [this] { return app::resume(resume_, arguments_); }; });
+    set_command(*resume, *directory, [this] { return app::resume(resume_, arguments_); });
   }
 
   void add_check() {
     CLI::App* check = program_.add_subcommand(
         "check", "Validate a settings file and tell what it means: t_col, e_N, time step, cost");
-    check->add_option("FILE", check_.file, "Settings in YAML")->required();
+    CLI::Option* file = check->add_option("FILE", check_.file, "Settings in YAML");
     add_overrides(*check, check_.overrides);
     add_threads(*check, check_.overrides);
-    check->callback([this] { command_ = [this] { return app::check(check_); }; });
+    set_command(*check, *file, [this] { return app::check(check_); });
+  }
+
+  /// The argument is required, but asked for only after CLI11 has complained of unknown options, which say more.
+  void set_command(CLI::App& subcommand, const CLI::Option& argument, std::function<int()> command) {
+    subcommand.callback([this, &argument, command] {
+      if (argument.count() == 0) throw CLI::RequiredError(argument.get_name());
+      command_ = command;
+    });
   }
 
   const app::Arguments arguments_;
@@ -117,10 +124,10 @@ int main(int argc, char** argv) {
   CommandLine line(argc, argv);
   try {
     line.program().parse(argc, argv);
+    if (!line.command()) throw CLI::RequiredError::Subcommand(1);
   } catch (const CLI::ParseError& error) {
     const bool asked_for_text = line.program().exit(error) == 0;
     return asked_for_text ? app::exit_done : app::exit_bad_input;
   }
-  app::catch_interrupts();
   return call(line.command());
 }

@@ -33,8 +33,8 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   fmt::print("  {:<22}{:.4g} 1/s x {:.4g} m/s = {:.4g} m/s^2, gravity {:.4g} m/s^2\n",
              "wall collisions", s.balance.n_dot, s.balance.dv_y, s.balance.n_dot_dv_y,
              s.balance.gravity);
-  fmt::print("  {:<22}{:.2g} of the work of gravity\n", "energy residual",
-             s.energy.gravity_work != 0.0 ? s.energy.residual / s.energy.gravity_work : 0.0);
+  fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
+             s.energy.residual / (s.energy.initial + s.energy.gravity_work));
   fmt::print("  {:<22}{:.2g} of the mean grain diameter\n", "largest overlap",
              s.validity.max_overlap_ratio);
   print_common(s.run, directory);

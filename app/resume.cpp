@@ -1,7 +1,10 @@
 #include "app/commands.hpp"
 #include "app/run_flow.hpp"
+#include "app/stepping.hpp"
 #include "io/checkpoint.hpp"
+#include "io/durable_file.hpp"
 #include "io/file_error.hpp"
+#include "io/summary.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -13,18 +16,28 @@ namespace {
 /// What may change without making it another run.
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
   for (const std::string& setting : overrides) {
-    const std::string key = setting.substr(0, setting.find('='));
-    const bool allowed = key == "run.duration" || key == "run.threads"
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) continue;  // not a setting at all: for others to say
+    const std::string key = setting.substr(0, equals);
+    const bool allowed = key == "run.duration" || key == "run.threads" || key == "run.stepping"
                          || io::section_of(key) == "output";
     if (!allowed || key == "output.interval")
       throw io::SettingsError(
           {.source = "--set " + setting}, key, "cannot change when a run is resumed",
-          "only run.duration, run.threads and output.checkpoint_interval can; for anything else "
+          "only run.duration, run.threads, run.stepping and output.checkpoint_interval can; for anything else "
           "start a new run");
   }
 }
 
 io::FoundCheckpoint find(const std::filesystem::path& path) {
+  const bool run_without = std::filesystem::exists(path / io::effective_settings_name)
+                           && !std::filesystem::exists(path / io::checkpoint_name)
+                           && !std::filesystem::exists(
+                               io::previous_generation(path / io::checkpoint_name));
+  if (run_without)
+    throw UnusableInput(path.string()
+                        + ": was stopped before its first checkpoint; remove it and start the run "
+                          "again");
   try {
     return io::find_checkpoint(path);
   } catch (const io::FileError& error) {
@@ -37,11 +50,17 @@ io::FoundCheckpoint find(const std::filesystem::path& path) {
 int resume(const ResumeOptions& options, const Arguments& arguments) {
   reject_overrides_of_the_physics(options.overrides);
   io::FoundCheckpoint found = find(options.checkpoint);
-  if (!found.note.empty()) fmt::print(stderr, "riesel: {}\n", found.note);
+  if (!found.note.empty())
+    fmt::print(stderr, "riesel: {}; going on from {}\n", found.note, found.path.string());
 
   const auto settings =
       io::Settings::from_text(found.checkpoint.settings, found.path.string(),
                               scenarios::settings_tables(), options.overrides);
+  check_stepping(settings);
+  if (settings.number("run.duration") < found.checkpoint.state.time() - found.checkpoint.state.time_step)
+    settings.reject("run.duration",
+                    fmt::format("the run has come to {:.6g} s already", found.checkpoint.state.time()),
+                    "choose a longer duration");
   const auto home = std::filesystem::is_directory(options.checkpoint)
                         ? options.checkpoint
                         : std::filesystem::absolute(options.checkpoint).parent_path();

@@ -9,7 +9,6 @@
 
 #include <omp.h>
 
-#include <algorithm>
 #include <chrono>
 #include <numeric>
 #include <span>
@@ -35,7 +34,7 @@ io::CurvePoint average(const scenarios::ImpactCurve::Point& point,
     mean.max_overlap += r.max_overlap;
   }
   for (double* value : {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time, &mean.max_overlap})
-    *value /= std::max(away, 1);
+    *value /= away;  // not a number where no impact counts
   return mean;
 }
 

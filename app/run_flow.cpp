@@ -6,6 +6,7 @@
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
 #include "app/series.hpp"
+#include "app/stepping.hpp"
 #include "engine/simulation.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
@@ -27,23 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-Stepping stepping(const io::Settings& settings) {
-  const std::string& choice = settings.text("run.stepping");
-  if (choice == "plain") return Stepping::plain;
-  if (choice == "windows") return Stepping::windows;
-  return Stepping::automatic;
-}
-
-int threads_for(const io::Settings& settings, std::size_t grains) {
-  const auto wanted = settings.integer_or_auto("run.threads");
-  if (stepping(settings) != Stepping::windows)
-    return wanted ? static_cast<int>(*wanted) : useful_threads(grains);
-  if (wanted && *wanted > 1)
-    settings.reject("run.stepping", "windows are stepped on one thread",
-                    "set run.threads to 1, or run.stepping to auto");
-  return 1;
 }
 
 /// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the same rhythm.
@@ -76,13 +60,14 @@ class FlowRun {
           RunDirectory directory, const Arguments& arguments, const Past& past)
       : settings_(settings), past_(past), directory_(std::move(directory)),
         schedule_(settings, state.time_step), threads_(threads_for(settings, state.grains.size())),
-        simulation_(std::move(state), model, threads_, stepping(settings)),
+        simulation_(std::move(state), model, threads_, stepping_of(settings)),
         file_(open(arguments)), first_step_(simulation_.state().step) {}
 
   int run() {
+    catch_interrupts();
     start_ = last_checkpoint_ = Clock::now();
-    if (file_.rows() == 0) add_row();
     try {
+      if (file_.rows() == 0) begin();
       while (simulation_.state().step < schedule_.last_step && interrupting_signal() == 0) advance();
     } catch (const RunFailure& failure) {
       return fail(failure);
@@ -103,6 +88,12 @@ class FlowRun {
     const auto path = directory_.file(io::run_file_name);
     return past_.rows == 0 ? io::RunFile::create(path, provenance, series_columns())
                      : io::RunFile::reopen(path, provenance, series_columns(), past_.rows);
+  }
+
+  /// The first row and a checkpoint: from here on nothing is lost.
+  void begin() {
+    add_row();
+    save();
   }
 
   /// To the next row, or a part of the way in a large system, so that signals and the clock are heeded in time.

@@ -21,7 +21,7 @@ set(io_external      "hdf5.h" "yaml-cpp/" "udunits2.h" "nlohmann/" "fmt/" "omp.h
                      "unistd.h" "fcntl.h" "sys/" "sched.h")
 
 set(scenarios_rooms     "engine/" "io/" "scenarios/")
-set(scenarios_external  "Eigen/")
+set(scenarios_external  "Eigen/" "fmt/")
 
 set(app_rooms        "engine/" "io/" "scenarios/" "app/")
 set(app_external     "CLI/" "fmt/" "omp.h" "unistd.h" "sys/")

@@ -31,16 +31,6 @@ std::int32_t coarse_difference(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
 
-std::uint64_t wall_key(const Slice& slice, std::uint32_t slot, const ContactName& name) {
-  const auto& near = slice.near_walls;
-  const auto place = std::find_if(near.begin(), near.end(), [&](const NearWall& n) {
-    return n.slot == slot && n.wall == name.wall;
-  });
-  if (place == near.end())
-    throw std::invalid_argument("a contact with a wall that is not near");
-  return wall_contact_key(static_cast<std::size_t>(place - near.begin()), name.partner);
-}
-
 }  // namespace
 
 Candidates::Candidates(State& state, int threads)
@@ -53,7 +43,8 @@ Candidates::Candidates(State& state, int threads)
 
 #pragma omp parallel num_threads(threads)
   renew(state, slices_[static_cast<std::size_t>(omp_get_thread_num())], state.step);
-  give_back(state, state.contacts);
+  if (give_back(state, state.contacts) > 0)
+    throw std::invalid_argument("a contact between bodies that are far from each other");
 }
 
 void Candidates::note_speeds(const State& state, Slice& mine) const {
@@ -199,22 +190,27 @@ std::vector<Contact> Candidates::contacts() const {
   return all;
 }
 
-void Candidates::give_back(const State& state, const std::vector<Contact>& contacts) {
+/// Enters contacts into the books. One whose bodies are no candidates any more has ended: the grain is so fast that it left
+/// in a single step. Returns how many have.
+std::size_t Candidates::give_back(const State& state, const std::vector<Contact>& contacts) {
   std::vector<std::uint32_t> slot_of(contacts.empty() ? 0 : state.grains.size());
   for (std::size_t slot = 0; slot < slot_of.size(); ++slot)
     slot_of[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
 
   using Keyed = std::pair<std::uint64_t, const Contact*>;
   std::vector<std::vector<Keyed>> pairs(slices_.size()), walls(slices_.size());
+  std::size_t ended = 0;
   for (const Contact& contact : contacts) {
+    const bool of_wall = contact.name.wall != no_wall;
     const std::uint32_t grain = slot_of[static_cast<std::size_t>(contact.name.grain)];
-    if (contact.name.wall != no_wall) {
-      const std::size_t s = slice_of(grain);
-      walls[s].push_back({wall_key(slices_[s], grain, contact.name), &contact});
+    const auto found =
+        of_wall ? wall_key(grain, contact.name)
+                : pair_key(grain, slot_of[static_cast<std::size_t>(contact.name.partner)]);
+    if (found) {
+      (of_wall ? walls : pairs)[found->slice].push_back({found->key, &contact});
     } else {
-      const std::uint32_t partner = slot_of[static_cast<std::size_t>(contact.name.partner)];
-      const auto [s, key] = pair_key(grain, partner);
-      pairs[s].push_back({key, &contact});
+      slices_.front().tally.end(contact);
+      ++ended;
     }
   }
   const auto enter = [](ContactBook& book, std::vector<Keyed>& keyed) {
@@ -226,6 +222,7 @@ void Candidates::give_back(const State& state, const std::vector<Contact>& conta
     enter(slices_[s].pair_contacts, pairs[s]);
     enter(slices_[s].wall_contacts, walls[s]);
   }
+  return ended;
 }
 
 std::size_t Candidates::slice_of(std::uint32_t slot) const {
@@ -234,16 +231,29 @@ std::size_t Candidates::slice_of(std::uint32_t slot) const {
   return static_cast<std::size_t>(after - slices_.begin());
 }
 
-std::pair<std::size_t, std::uint64_t> Candidates::pair_key(std::uint32_t a, std::uint32_t b) const {
+std::optional<Candidates::KeyInSlice> Candidates::pair_key(std::uint32_t a, std::uint32_t b) const {
   for (const auto& [first, second] : {std::pair{a, b}, std::pair{b, a}}) {
     const std::size_t s = slice_of(first);
     const CandidatePairs& pairs = slices_[s].pairs;
     const auto [low, high] = std::equal_range(pairs.first.begin(), pairs.first.end(), first);
     for (auto p = static_cast<std::size_t>(low - pairs.first.begin());
          p < static_cast<std::size_t>(high - pairs.first.begin()); ++p)
-      if (pairs.second[p] == second) return {s, p};
+      if (pairs.second[p] == second) return KeyInSlice{.slice = s, .key = p};
   }
-  throw std::invalid_argument("a contact between grains that do not touch");
+  return std::nullopt;
+}
+
+std::optional<Candidates::KeyInSlice> Candidates::wall_key(std::uint32_t slot,
+                                                          const ContactName& name) const {
+  const std::size_t s = slice_of(slot);
+  const auto& near = slices_[s].near_walls;
+  const auto place = std::find_if(near.begin(), near.end(), [&](const NearWall& n) {
+    return n.slot == slot && n.wall == name.wall;
+  });
+  if (place == near.end()) return std::nullopt;
+  return KeyInSlice{
+      .slice = s,
+      .key = wall_contact_key(static_cast<std::size_t>(place - near.begin()), name.partner)};
 }
 
 }  // namespace riesel

@@ -12,9 +12,8 @@
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 
-#include <algorithm>
 #include <cstdint>
-#include <utility>
+#include <optional>
 #include <vector>
 
 namespace riesel {
@@ -53,9 +52,16 @@ class Candidates {
   void measure_motion(const State& state, Slice& mine, std::int64_t step) const;
   double squared_speed(const State& state, std::size_t slot) const;
 
-  void give_back(const State& state, const std::vector<Contact>& contacts);
+  /// Where in the books a contact stands.
+  struct KeyInSlice {
+    std::size_t slice;
+    std::uint64_t key;
+  };
+
+  std::size_t give_back(const State& state, const std::vector<Contact>& contacts);
   std::size_t slice_of(std::uint32_t slot) const;
-  std::pair<std::size_t, std::uint64_t> pair_key(std::uint32_t a, std::uint32_t b) const;
+  std::optional<KeyInSlice> pair_key(std::uint32_t a, std::uint32_t b) const;
+  std::optional<KeyInSlice> wall_key(std::uint32_t slot, const ContactName& name) const;
 
   double skin_;  // m
   double max_radius_;

@@ -1,5 +1,6 @@
 #include "engine/closed_forms.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -58,6 +59,11 @@ double collision_time(const NormalLaw& normal, double reduced_mass, double speed
 
 double chord(double reach, double impact_height) {
   return 2.0 * std::sqrt(reach * reach - impact_height * impact_height);
+}
+
+double chord_of_impact(double reach, double speed, double t_col) {
+  const double depth = speed * t_col / pi;
+  return chord(reach, std::max(0.0, reach - depth));
 }
 
 }  // namespace riesel

@@ -36,4 +36,8 @@ double collision_time(const NormalLaw& normal, double reduced_mass, double speed
 /// m, chord of a straight passage at the given impact height through a circle of radius `reach`.
 double chord(double reach, double impact_height);
 
+/// m, the chord of a body that has sunk in as deep as in a head-on contact of duration `t_col` (s) that begins with
+/// `speed` (m/s).
+double chord_of_impact(double reach, double speed, double t_col);
+
 }  // namespace riesel

@@ -69,10 +69,7 @@ class ContactBook {
   }
 
   void end(const Entry& entry, Tally& tally) {
-    const Contact& ended = contacts_[entry.place];
-    ContactTally& kind = tally.of(ended.name);
-    ++kind.ended;
-    kind.add(ended);
+    tally.end(contacts_[entry.place]);
     free_.push_back(entry.place);
   }
 

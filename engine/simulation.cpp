@@ -43,6 +43,15 @@ RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, F
   }
 }
 
+/// OpenMP may grant fewer threads than asked for, and every slice needs one.
+int team_size(int wanted) {
+  int granted = 1;
+#pragma omp parallel num_threads(wanted)
+#pragma omp single
+  granted = omp_get_num_threads();
+  return granted;
+}
+
 std::string partners(const ContactName& name) {
   const std::string grain = "grain " + std::to_string(name.grain);
   const std::string partner = std::to_string(name.partner);
@@ -61,7 +70,7 @@ int useful_threads(std::size_t grains) {
 
 Simulation::Simulation(State state, const ContactModel& model, int threads, Stepping stepping)
     : state_(ready(std::move(state))), model_(model), fall_(fall_per_step(state_)),
-      stepping_(stepping), candidates_(state_, threads) {
+      stepping_(stepping), candidates_(state_, team_size(threads)) {
   if (stepping == Stepping::windows && threads > 1)
     throw std::invalid_argument("windows are stepped on one thread");
 }
@@ -102,12 +111,17 @@ bool Simulation::flights_pay() const {
 void Simulation::advance_plainly(std::int64_t last) {
   flights_.reset();
   const std::int64_t first = state_.step + 1;  // before the team starts: a step changes state_.step
+  bool complete = true;
 #pragma omp parallel num_threads(threads())
-  {
+  if (omp_get_num_threads() != threads()) {
+    complete = false;  // the same for all
+  } else {
     Slice& mine = candidates_.slices()[static_cast<std::size_t>(omp_get_thread_num())];
     for (std::int64_t next = first; next <= last && !in_trouble(); ++next)
       step(mine, next);
   }
+  if (!complete)
+    throw RunFailure("the system grants fewer threads than at the start of the run");
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {

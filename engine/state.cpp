@@ -15,7 +15,8 @@ void add(Hash& hash, const Grains& g, std::size_t i) {
 
 void add(Hash& hash, const Contact& c) {
   for (const auto part : {c.name.wall, c.name.grain, c.name.partner}) hash.add(part);
-  for (const auto part : {c.begin, c.max_overlap, c.slip_path, c.normal_loss, c.friction_loss})
+  for (const auto part : {c.begin, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path,
+                          c.normal_loss, c.friction_loss, c.impulse_y, c.impulse_y_times_step})
     hash.add(part);
 }
 
@@ -23,7 +24,8 @@ void add(Hash& hash, const ContactTally& t) {
   hash.add(t.begun);
   hash.add(t.ended);
   hash.add(t.max_overlap);
-  for (const auto& sum : {t.duration, t.slip_path, t.normal_loss, t.friction_loss}) {
+  for (const auto& sum : {t.duration, t.slip_path, t.normal_loss, t.friction_loss, t.impulse_y,
+                          t.impulse_y_times_step}) {
     hash.add(sum.high());
     hash.add(sum.low());
   }
@@ -99,6 +101,13 @@ std::uint64_t state_hash(const State& state) {
   hash.add(state.gravity);
   hash.add(state.time_step);
   hash.add(state.step);
+  hash.add(state.origin.kinetic);
+  hash.add(state.origin.momentum_y);
+  for (const WallLattice& wall : state.walls) {
+    hash.add(wall.line);
+    hash.add(wall.radius);
+    hash.add(wall.count);
+  }
   const Grains ordered = ordered_by_id(state.grains);
   for (std::size_t i = 0; i < ordered.size(); ++i) add(hash, ordered, i);
   for (const Contact& contact : state.contacts) add(hash, contact);

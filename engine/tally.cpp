@@ -26,6 +26,12 @@ void ContactTally::merge(const ContactTally& other) {
   impulse_y_times_step.add(other.impulse_y_times_step);
 }
 
+void Tally::end(const Contact& contact) {
+  ContactTally& kind = of(contact.name);
+  ++kind.ended;
+  kind.add(contact);
+}
+
 void Tally::merge(const Tally& other) {
   grains.merge(other.grains);
   walls.merge(other.walls);

@@ -35,6 +35,8 @@ struct Tally {
   ContactTally walls;   ///< free grain on wall grain
 
   ContactTally& of(const ContactName& name) { return name.wall == no_wall ? grains : walls; }
+  /// Counts a contact that has ended.
+  void end(const Contact& contact);
   void merge(const Tally& other);
 };
 

@@ -55,6 +55,7 @@ struct FlowSummary {
   } validity;
 };
 
+/// Means are not a number (null in the file) where no start counts.
 struct CurvePoint {
   double v_x = 0.0, v_y = 0.0, dv_x = 0.0, dv_y = 0.0;  ///< m/s
   double contacts = 0.0, contact_time = 0.0, max_overlap = 0.0;

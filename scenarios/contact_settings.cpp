@@ -3,6 +3,10 @@
 #include "engine/closed_forms.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <fmt/core.h>
+
+#include <cmath>
+
 namespace riesel::scenarios {
 
 namespace {
@@ -38,6 +42,16 @@ SlipLaw slip_law(const io::Settings& settings) {
   return CappedSlip{};
 }
 
+[[noreturn]] void reject_overdamped(const io::Settings& settings, const LinearContact& contact) {
+  const std::string problem = "so much damping that grains do not rebound";
+  if (settings.has("contact.restitution"))
+    settings.reject("contact.restitution", problem,
+                    "choose it larger, or restitution_of: wall, where damping counts most");
+  settings.reject("contact.damping", problem,
+                  fmt::format("choose less than {:.4g} 1/s, which is critical for the heaviest pair",
+                              2.0 * std::sqrt(contact.k_n / contact.reduced_mass)));
+}
+
 }  // namespace
 
 ContactModel contact_model(const io::Settings& settings) {
@@ -52,9 +66,7 @@ double collision_time(const io::Settings& settings, const ContactModel& model,
                       double reduced_mass) {
   if (const auto* linear = std::get_if<LinearLaw>(&model.normal)) {
     const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass};
-    if (!contact.rebounds())
-      settings.reject("contact.damping", "so much damping that grains do not rebound",
-                      "choose it below 2 sqrt(stiffness / reduced mass)");
+    if (!contact.rebounds()) reject_overdamped(settings, contact);
     return contact.collision_time();
   }
   return riesel::collision_time(model.normal, reduced_mass,

@@ -102,7 +102,7 @@ class Relaxation {
   static constexpr double restitution = 0.1;
   static constexpr double steps_per_collision = 30.0;
   static constexpr std::int64_t steps_per_round = 500;
-  static constexpr int max_rounds = 400;
+  static constexpr int max_rounds = 200;
   // Any stiffness and mass do: together they only set the unit of time.
   static constexpr double stiffness = 1.0, mass = 1.0;
 
@@ -155,9 +155,13 @@ std::optional<std::vector<Place>> pack(const State& empty, const std::vector<dou
   std::vector<Place> places = occupied_sites(lattice, radii.size(), seed);
   if (lattice.closest() >= 2.0 * largest) return places;
 
-  Relaxation relaxation(empty, places, radii);
-  if (!relaxation.succeeds()) return std::nullopt;
-  return relaxation.places();
+  try {
+    Relaxation relaxation(empty, places, radii);
+    if (relaxation.succeeds()) return relaxation.places();
+  } catch (const RunFailure&) {
+    // pressed out of the tube
+  }
+  return std::nullopt;
 }
 
 }  // namespace riesel::scenarios

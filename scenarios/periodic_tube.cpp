@@ -9,6 +9,8 @@
 #include "scenarios/packing.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -83,8 +85,8 @@ io::SettingsTable own_settings() {
        .unit = "m/s",
        .fallback = "0.5 m/s",
        .range = io::non_negative(),
-       .doc = "Root mean square of each component of the random velocities at the start, which are "
-              "normally distributed; their momenta add up to zero."},
+       .doc = "Root mean square of the random velocities at the start, per component; they are "
+              "normally distributed and their momenta add up to zero."},
       {.key = "run.duration",
        .unit = "s",
        .required = true,
@@ -156,17 +158,16 @@ void reject_what_has_no_room(const io::Settings& settings, const State& empty) {
   const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
   if (free_width < largest)
     settings.reject("tube.width", "too narrow for the grains between the wall grains",
-                    "choose more than " + std::to_string(largest + empty.box.width - free_width)
-                        + " m");
-  if (empty.box.length < 4.0 * largest)
+                    fmt::format("choose more than {:.6g} m", largest + empty.box.width - free_width));
+  if (empty.box.length < 4.0 * largest * (1.0 - 1e-12))
     settings.reject("tube.length", "too short for a periodic tube of grains of this size",
-                    "choose at least four grain diameters, " + std::to_string(4.0 * largest) + " m");
+                    fmt::format("choose at least four grain diameters, {:.6g} m", 4.0 * largest));
   const double densest = pi / std::sqrt(12.0);  // discs on a triangular lattice
   const double wanted = settings.number("grains.area_fraction");
   if (wanted * empty.box.width > densest * free_width)
     settings.reject("grains.area_fraction", "more than can be packed between the wall grains",
-                    "choose at most " + std::to_string(densest * free_width / empty.box.width)
-                        + ", and less for grains of unequal size");
+                    fmt::format("choose at most {:.3f}, and less for grains of unequal size",
+                                densest * free_width / empty.box.width));
 }
 
 /// Velocities as set, exactly: that of the centre of mass, and the mean square of the random part.
@@ -217,6 +218,14 @@ std::vector<Grain> start_grains(const io::Settings& settings, const State& empty
   return grains;
 }
 
+/// Damping counts most for the heaviest grain at the wall.
+void reject_what_does_not_rebound(const io::Settings& settings, const ContactModel& model,
+                                  const std::vector<Grain>& grains) {
+  const auto heaviest = std::max_element(grains.begin(), grains.end(),
+                                         [](auto& a, auto& b) { return a.mass < b.mass; });
+  collision_time(settings, model, heaviest->mass);
+}
+
 Problem prepare(const io::Settings& settings) {
   State state = empty_tube(settings);
   reject_what_has_no_room(settings, state);
@@ -226,7 +235,12 @@ Problem prepare(const io::Settings& settings) {
   const auto lightest = std::min_element(
       grains.begin(), grains.end(), [](auto& a, auto& b) { return a.mass < b.mass; });
   const double shortest = collision_time(settings, model, 0.5 * lightest->mass);
+  reject_what_does_not_rebound(settings, model, grains);
   state.time_step = time_step(settings, shortest);
+  constexpr double most_steps = 1e15;  // far below what a counter holds
+  if (settings.number("run.duration") / state.time_step > most_steps)
+    settings.reject("run.duration", "more time steps than can be counted",
+                    fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
   for (const Grain& grain : grains) add_grain(state, grain);
   return Flow{.state = std::move(state), .model = model};
 }

@@ -5,6 +5,8 @@
 #include "engine/closed_forms.hpp"
 #include "scenarios/impact_settings.hpp"
 
+#include <fmt/core.h>
+
 namespace riesel::scenarios {
 
 namespace {
@@ -25,7 +27,7 @@ Problem prepare(const io::Settings& settings) {
   const double height = settings.number("impact.height");
   if (height >= reach)
     settings.reject("impact.height", "the grain passes above the wall grain without touching it",
-                    "choose it below the sum of the two radii, " + std::to_string(reach) + " m");
+                    fmt::format("choose it below the sum of the two radii, {:.6g} m", reach));
   const std::vector<double> start = {just_upstream(curve.setup, height)};
   for (const double v_y : settings.numbers("impact.axial_velocity"))
     add_point(settings, curve, 0.0, v_y, height, start, chord(reach, height));

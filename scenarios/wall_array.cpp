@@ -5,8 +5,7 @@
 #include "engine/closed_forms.hpp"
 #include "scenarios/impact_settings.hpp"
 
-#include <algorithm>
-#include <numbers>
+#include <fmt/core.h>
 
 namespace riesel::scenarios {
 
@@ -46,14 +45,8 @@ double start_height(const io::Settings& settings, double reach) {
   const double height = settings.number("impact.height");
   if (height < reach * (1.0 - 1e-12))
     settings.reject("impact.height", "the grain would overlap a wall grain at the start",
-                    "choose at least the sum of the two radii, " + std::to_string(reach) + " m");
+                    fmt::format("choose at least the sum of the two radii, {:.6g} m", reach));
   return height;
-}
-
-/// m, the way in the overlap of a grain that sinks in as deep as a head-on impact with v_x would.
-double typical_chord(const ImpactSetup& setup, double v_x) {
-  const double depth = v_x * setup.collision_time / std::numbers::pi;
-  return chord(setup.reach(), std::max(0.0, setup.reach() - depth));
 }
 
 Problem prepare(const io::Settings& settings) {
@@ -65,9 +58,11 @@ Problem prepare(const io::Settings& settings) {
   for (std::size_t i = 0; i < starts.size(); ++i)
     starts[i] = static_cast<double>(i) * spacing / static_cast<double>(starts.size());
 
-  for (const double v_x : settings.numbers("impact.normal_velocity"))
+  for (const double v_x : settings.numbers("impact.normal_velocity")) {
+    const double chord = chord_of_impact(curve.setup.reach(), v_x, curve.setup.collision_time);
     for (const double v_y : settings.numbers("impact.axial_velocity"))
-      add_point(settings, curve, v_x, v_y, height, starts, typical_chord(curve.setup, v_x));
+      add_point(settings, curve, v_x, v_y, height, starts, chord);
+  }
   return curve;
 }
 

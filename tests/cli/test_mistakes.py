@@ -11,14 +11,15 @@ MISTAKES_IN_FILES = {
     "unknown section": (
         "grains:", "grain:", "3:1", ["grain: unknown key", "did you mean 'grains'?"]),
     "key of another scenario": (
-        "run:", "impact: {starts: 3}\nrun:", "6:1", ["impact", "only wall_array"]),
+        "run:", "impact: {starts: 3}\nrun:", "6:1",
+        ["impact: unknown key", "only single_wall_grain or wall_array"]),
     "key in the wrong section": (
         "width: 10 mm,", "width: 10 mm, friction: 0.1,", "4:22",
         ["tube.friction: unknown key", "belongs into the section contact"]),
     "unit of another dimension": (
         "width: 10 mm", "width: 10 kg", "4:15", ["tube.width:", "a length", "'10 kg'"]),
     "unknown unit": (
-        "5 ms", "5 mseconds", "6:17", ["run.duration:", "a time", "'5 mseconds'"]),
+        "5 ms", "5 blinks", "6:17", ["run.duration:", "a time", "'5 blinks'"]),
     "text for a number": (
         "0.3}", "plenty}", "3:25", ["grains.area_fraction:", "a pure number", "'plenty'"]),
     "list for a number": (
@@ -50,7 +51,7 @@ MISTAKES_IN_FILES = {
     "missing section": (
         "run: {duration: 5 ms}", "", "1:1", ["run.duration:", "missing"]),
     "unknown choice": (
-        "stiffness:", "law: hertzian, stiffness:", "2:16",
+        "stiffness:", "law: herz, stiffness:", "2:16",
         ["contact.law:", "linear, power or hertz", "did you mean 'hertz'?"]),
     "unknown scenario": (
         "periodic_tube", "periodic_pipe", "1:11",

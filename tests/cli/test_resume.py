@@ -12,12 +12,12 @@ class Resume(CommandTest):
         return shutil.copytree(directory, self.home / name)
 
     def test_a_longer_duration_extends_a_finished_run(self):
-        long = self.run_small_tube("long")
+        long = self.run_small_tube("long", "--set", "run.duration=20 ms")
         # The first ends between two rows of the series, the second soon after a row.
-        for name, durations in {"once": ["2.3 ms"], "twice": ["0.5 us", "3.001 ms"]}.items():
+        for name, durations in {"once": ["2.3 ms"], "twice": ["0.5 us", "7.001 ms"]}.items():
             with self.subTest(name):
                 short = self.run_small_tube(name, "--set", f"run.duration={durations[0]}")
-                for duration in [*durations[1:], "5 ms"]:
+                for duration in [*durations[1:], "20 ms"]:
                     self.resume_to_end(short, "--set", f"run.duration={duration}")
                 self.assert_same_result(long, short)
 

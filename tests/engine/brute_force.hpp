@@ -81,7 +81,7 @@ public:
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].acceleration = accelerations[i];
     for (const auto& [who, life] : touching_)
-      if (!now.contains(who)) ended_.push_back({who, life});
+      if (!now.contains(who)) ended_.emplace_back(who, life);
     touching_ = std::move(now);
   }
 

@@ -4,6 +4,7 @@
 #include "tests/engine/systems.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -40,7 +41,8 @@ TEST_CASE("a sum does not depend on the order of its terms") {
 
 TEST_CASE("a sum does not depend on how its terms are shared") {
   const std::vector<double> values = terms(999);
-  ExactSum shares[3], total;
+  std::array<ExactSum, 3> shares;
+  ExactSum total;
   for (std::size_t i = 0; i < values.size(); ++i) shares[i % 3].add(values[i]);
   for (const ExactSum& share : shares) total.add(share);
   CHECK(total == sum_of(values));

@@ -12,7 +12,7 @@ namespace {
 /// Runs both ways, compares them, and returns the end.
 State same_both_ways(const State& start, std::int64_t steps,
                      const ContactModel& model = paper_model()) {
-  const State plain = advanced(start, model, steps, 1, Stepping::plain);
+  State plain = advanced(start, model, steps, 1, Stepping::plain);
   CHECK(state_hash(advanced(start, model, steps, 1, Stepping::windows)) == state_hash(plain));
 
   Simulation in_pieces(start, model, 1, Stepping::windows);
@@ -54,14 +54,14 @@ TEST_CASE("a grain fired along the wall goes both ways alike") {
   CHECK(same_both_ways(state, 1000).tally.walls.begun > 0);
 }
 
-TEST_CASE("a grain that falls back to the wall grain above which it stands goes both ways alike") {
-  // Along y only gravity brings it there: its straight path leads away.
+TEST_CASE("a grain that only gravity brings back to the wall goes both ways alike") {
+  // Thrown up from above a wall grain: its path without gravity leads away for good.
   State state = empty_box(8e-3, 9.6e-3);
   state.gravity = 10.0;
   state.time_step = 5e-6;
   add_walls(state, 1);
-  add_grain(state, grain(0.1e-3, -1.2e-3, 0.0, -0.05));
-  CHECK(same_both_ways(state, 4000).tally.walls.begun > 1);
+  add_grain(state, grain(0.1e-3, -0.9e-3, 0.0, -0.05));
+  CHECK(same_both_ways(state, 6000).tally.walls.begun > 0);
 }
 
 TEST_CASE("Newton's cradle goes both ways alike") {

@@ -5,7 +5,9 @@
 #include "tests/physics/collisions.hpp"
 #include "tests/physics/reference_table.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace collisions;
 
