@@ -57,15 +57,19 @@ void warn_of_overlap(const NormalLaw& normal, const Pair& pair, double diameter)
   line("expected overlap", "up to {:.2g} m, {:.2g} % of the diameter, in an impact of {:.3g} m/s",
        overlap, 100.0 * overlap / diameter, pair.speed);
   if (overlap > 0.01 * diameter)
-    warn("overlaps over 1 % of the diameter are to be expected; raise contact.stiffness by a factor "
-         "{:.2g}", std::pow(overlap / (0.01 * diameter), 2.0));
+    warn(
+        "overlaps over 1 % of the diameter are to be expected; raise contact.stiffness by a factor "
+        "{:.2g}",
+        std::pow(overlap / (0.01 * diameter), 2.0));
 }
 
 void warn_of_time_step(const io::Settings& settings) {
   const double steps = settings.number("run.steps_per_collision");
   if (steps < 20.0)
-    warn("{:.3g} steps per collision are few: errors grow with the square of the step; 50 keep them "
-         "at 1e-4", steps);
+    warn(
+        "{:.3g} steps per collision are few: errors grow with the square of the step; 50 keep them "
+        "at 1e-4",
+        steps);
 }
 
 double memory_in_use() {
@@ -101,8 +105,10 @@ void print_critical_velocity(double chord_length, double t_col, double fastest) 
   const double v_crit = chord_length / t_col;
   line("v_crit", "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col)", v_crit, chord_length);
   if (fastest > v_crit)
-    warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the contact "
-         "can push them away (brake failure)", fastest);
+    warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the "
+         "contact "
+         "can push them away (brake failure)",
+         fastest);
 }
 
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
@@ -113,8 +119,8 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const double diameter = settings.number("grains.diameter");
   const double random = settings.number("start.random_velocity");
   const double axial = settings.number("start.axial_velocity");
-  // Two grains of a normal distribution rarely meet at more than four standard deviations of each; the common fall
-  // brings no two together.
+  // Two grains of a normal distribution rarely meet at more than four standard deviations of each;
+  // the common fall brings no two together.
   const double fastest = std::max(4.0 * std::numbers::sqrt2 * random, 1e-3);
 
   double area = 0.0;
@@ -134,7 +140,6 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(axial));
 
   const double steps = std::ceil(settings.number("run.duration") / state.time_step);
-  check_stepping(settings);
   const int threads = threads_for(settings, grains.size());
   const double speed = measured_speed(settings, flow, threads);
   line("steps", "{:.0f}", steps);
@@ -196,8 +201,9 @@ void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& cur
 }  // namespace
 
 int check(const CheckOptions& options) {
-  const auto settings = io::Settings::from_file(options.file, scenarios::settings_tables(),
-                                                options.overrides);
+  const auto settings =
+      io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
+  check_stepping(settings);
   const scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
   fmt::print("{}: {}\n", options.file.string(), settings.scenario());
   if (const auto* flow = std::get_if<scenarios::Flow>(&problem))

@@ -1,5 +1,5 @@
-// The subcommands of riesel, one file each. They return the exit status, and throw io::SettingsError or UnusableInput
-// for bad input, anything else where a run fails.
+// The subcommands of riesel, one file each. They return the exit status, and throw
+// io::SettingsError or UnusableInput for bad input, anything else where a run fails.
 #pragma once
 
 #include "app/run_directory.hpp"
@@ -19,9 +19,9 @@ class UnusableInput : public std::runtime_error {
 };
 
 struct RunOptions {
-  std::filesystem::path file;                     ///< the settings
-  std::optional<std::filesystem::path> directory; ///< where the results go
-  std::vector<std::string> overrides;             ///< "key=value"
+  std::filesystem::path file;                      ///< the settings
+  std::optional<std::filesystem::path> directory;  ///< where the results go
+  std::vector<std::string> overrides;              ///< "key=value"
 };
 
 int run(const RunOptions& options, const Arguments& arguments);

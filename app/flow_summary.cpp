@@ -22,8 +22,8 @@ Population population(const Grains& grains) {
   return {.mean_radius = radius.value() / static_cast<double>(grains.size()), .mass = mass.value()};
 }
 
-/// m/s, above which a grain that meets the wall with the typical random velocity passes a wall grain sooner than the
-/// contact can push it away: chord over t_col.
+/// m/s, above which a grain that meets the wall with the typical random velocity passes a wall
+/// grain sooner than the contact can push it away: chord over t_col.
 double critical_velocity(const State& state, const ContactModel& model, const Population& grains,
                          double sigma_vx) {
   const double mass = grains.mass / static_cast<double>(state.grains.size());
@@ -67,14 +67,15 @@ io::FlowSummary summarise(const io::RunFile& file, const State& state, const Con
   s.time = state.time();
   s.state = std::string(name(steady.verdict));
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  s.mean_axial_velocity = {.value = steady.mean, .error = velocity.size() > 1 ? steady.error : unknown};
+  s.mean_axial_velocity = {.value = steady.mean,
+                           .error = velocity.size() > 1 ? steady.error : unknown};
   s.independent_samples = steady.independent_samples;
   if (steady.transient_end < velocity.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = mean_from(file.series("granular_temperature"), steady.transient_end);
     s.balance = balance(file, steady.transient_end, interval, state, grains.mass);
-    s.validity.v_crit = critical_velocity(
-        state, model, grains, mean_from(file.series("sigma_vx"), steady.transient_end));
+    s.validity.v_crit = critical_velocity(state, model, grains,
+                                          mean_from(file.series("sigma_vx"), steady.transient_end));
   }
   s.validity.max_overlap_ratio = last.max_overlap / (2.0 * grains.mean_radius);
   const Energies& e = last.energies;

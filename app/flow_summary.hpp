@@ -8,7 +8,8 @@
 
 namespace riesel::app {
 
-/// All but `run`. `last` are the observables of `state`, `interval` (s) is the time between two rows of the series.
+/// All but `run`. `last` are the observables of `state`, `interval` (s) is the time between two
+/// rows of the series.
 io::FlowSummary summarise(const io::RunFile& file, const State& state, const ContactModel& model,
                           const Observables& last, double interval);
 

@@ -1,5 +1,5 @@
-// SIGINT and SIGTERM as a polite request: the run stops at the next occasion, after a checkpoint. A second
-// signal ends the program at once.
+// SIGINT and SIGTERM as a polite request: the run stops at the next occasion, after a checkpoint. A
+// second signal ends the program at once.
 #pragma once
 
 namespace riesel::app {

@@ -1,4 +1,5 @@
-// The command riesel: reads the command line, calls a subcommand, turns errors into messages and exit status.
+// The command riesel: reads the command line, calls a subcommand, turns errors into messages and
+// exit status.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
 #include "engine/simulation.hpp"
@@ -38,7 +39,7 @@ void add_threads(CLI::App& command, std::vector<std::string>& overrides) {
 
 /// What the command line says: the subcommand, ready to be called, and its options.
 class CommandLine {
- public:
+public:
   CommandLine(int argc, char** argv) : arguments_(argv, argv + argc) {
     program_.set_version_flag("--version", version_text());
     program_.require_subcommand(0, 1);  // so that a wrong one is named; see command()
@@ -55,7 +56,7 @@ class CommandLine {
   CLI::App& program() { return program_; }
   const std::function<int()>& command() const { return command_; }
 
- private:
+private:
   void add_run() {
     CLI::App* run = program_.add_subcommand("run", "Run a settings file");
     CLI::Option* file = run->add_option("FILE", run_.file, "Settings in YAML");
@@ -66,9 +67,10 @@ class CommandLine {
   }
 
   void add_resume() {
-    CLI::App* resume = program_.add_subcommand("resume", "Go on with a run from its last checkpoint");
-    CLI::Option* directory = resume->add_option("DIR", resume_.checkpoint,
-                                                "Directory of the run, or its checkpoint.h5");
+    CLI::App* resume =
+        program_.add_subcommand("resume", "Go on with a run from its last checkpoint");
+    CLI::Option* directory =
+        resume->add_option("DIR", resume_.checkpoint, "Directory of the run, or its checkpoint.h5");
     add_overrides(*resume, resume_.overrides);
     add_threads(*resume, resume_.overrides);
     set_command(*resume, *directory, [this] { return app::resume(resume_, arguments_); });
@@ -83,8 +85,10 @@ class CommandLine {
     set_command(*check, *file, [this] { return app::check(check_); });
   }
 
-  /// The argument is required, but asked for only after CLI11 has complained of unknown options, which say more.
-  void set_command(CLI::App& subcommand, const CLI::Option& argument, std::function<int()> command) {
+  /// The argument is required, but asked for only after CLI11 has complained of unknown options,
+  /// which say more.
+  void set_command(CLI::App& subcommand, const CLI::Option& argument,
+                   std::function<int()> command) {
     subcommand.callback([this, &argument, command] {
       if (argument.count() == 0) throw CLI::RequiredError(argument.get_name());
       command_ = command;

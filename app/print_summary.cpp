@@ -47,8 +47,10 @@ void print_summary(const io::CurveSummary& s, const std::filesystem::path& direc
     stuck += point.stuck;
   }
   fmt::print("{}: {} points\n", s.run.scenario, s.curve.size());
-  if (passed > 0) fmt::print("  {:<22}{} impacts, left out of the means\n", "through the wall", passed);
-  if (stuck > 0) fmt::print("  {:<22}{} impacts, left out of the means\n", "stuck at the wall", stuck);
+  if (passed > 0)
+    fmt::print("  {:<22}{} impacts, left out of the means\n", "through the wall", passed);
+  if (stuck > 0)
+    fmt::print("  {:<22}{} impacts, left out of the means\n", "stuck at the wall", stuck);
   print_common(s.run, directory);
 }
 

@@ -24,7 +24,8 @@ std::string Progress::time_left(double done) const {
   const double progress = done - done_at_start_;
   if (progress <= 0.0) return "--:--:--";
   const std::chrono::duration<double> spent = Clock::now() - start_;
-  const auto left = std::chrono::duration_cast<std::chrono::seconds>(spent * (1.0 - done) / progress);
+  const auto left =
+      std::chrono::duration_cast<std::chrono::seconds>(spent * (1.0 - done) / progress);
   return fmt::format("{:%H:%M:%S}", left);
 }
 
@@ -34,7 +35,8 @@ void Progress::show(double done, const std::string& text) {
   if (now - last_shown_ < (terminal_ ? Clock::duration(between_updates_of_a_line) : between_lines))
     return;
   last_shown_ = now;
-  const std::string line = fmt::format("{:5.1f} %  {}  {} left", 100.0 * done, text, time_left(done));
+  const std::string line =
+      fmt::format("{:5.1f} %  {}  {} left", 100.0 * done, text, time_left(done));
   if (terminal_)
     fmt::print(stderr, "\r{:<79}", line);
   else

@@ -1,5 +1,5 @@
-// Tells the user how far a run is: one line that renews itself on a terminal, a line now and then elsewhere. All of it
-// goes to standard error, so that standard output holds results only.
+// Tells the user how far a run is: one line that renews itself on a terminal, a line now and then
+// elsewhere. All of it goes to standard error, so that standard output holds results only.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 namespace riesel::app {
 
 class Progress {
- public:
+public:
   Progress();
 
   /// `done` from 0 to 1; `text` says what is worth knowing now.
@@ -16,7 +16,7 @@ class Progress {
   /// Ends the line, before other text is printed.
   void finish();
 
- private:
+private:
   using Clock = std::chrono::steady_clock;
   std::string time_left(double done) const;
 

@@ -22,18 +22,19 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
     const bool allowed = key == "run.duration" || key == "run.threads" || key == "run.stepping"
                          || io::section_of(key) == "output";
     if (!allowed || key == "output.interval")
-      throw io::SettingsError(
-          {.source = "--set " + setting}, key, "cannot change when a run is resumed",
-          "only run.duration, run.threads, run.stepping and output.checkpoint_interval can; for anything else "
-          "start a new run");
+      throw io::SettingsError({.source = "--set " + setting}, key,
+                              "cannot change when a run is resumed",
+                              "only run.duration, run.threads, run.stepping and "
+                              "output.checkpoint_interval can; for anything else "
+                              "start a new run");
   }
 }
 
 io::FoundCheckpoint find(const std::filesystem::path& path) {
-  const bool run_without = std::filesystem::exists(path / io::effective_settings_name)
-                           && !std::filesystem::exists(path / io::checkpoint_name)
-                           && !std::filesystem::exists(
-                               io::previous_generation(path / io::checkpoint_name));
+  const bool run_without =
+      std::filesystem::exists(path / io::effective_settings_name)
+      && !std::filesystem::exists(path / io::checkpoint_name)
+      && !std::filesystem::exists(io::previous_generation(path / io::checkpoint_name));
   if (run_without)
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "
@@ -53,14 +54,15 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   if (!found.note.empty())
     fmt::print(stderr, "riesel: {}; going on from {}\n", found.note, found.path.string());
 
-  const auto settings =
-      io::Settings::from_text(found.checkpoint.settings, found.path.string(),
-                              scenarios::settings_tables(), options.overrides);
+  const auto settings = io::Settings::from_text(found.checkpoint.settings, found.path.string(),
+                                                scenarios::settings_tables(), options.overrides);
   check_stepping(settings);
-  if (settings.number("run.duration") < found.checkpoint.state.time() - found.checkpoint.state.time_step)
-    settings.reject("run.duration",
-                    fmt::format("the run has come to {:.6g} s already", found.checkpoint.state.time()),
-                    "choose a longer duration");
+  if (settings.number("run.duration")
+      < found.checkpoint.state.time() - found.checkpoint.state.time_step)
+    settings.reject(
+        "run.duration",
+        fmt::format("the run has come to {:.6g} s already", found.checkpoint.state.time()),
+        "choose a longer duration");
   const auto home = std::filesystem::is_directory(options.checkpoint)
                         ? options.checkpoint
                         : std::filesystem::absolute(options.checkpoint).parent_path();

@@ -7,12 +7,12 @@
 namespace riesel::app {
 
 int run(const RunOptions& options, const Arguments& arguments) {
-  const auto settings = io::Settings::from_file(options.file, scenarios::settings_tables(),
-                                                options.overrides);
+  const auto settings =
+      io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
   scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
   if (std::holds_alternative<scenarios::Flow>(problem)) check_stepping(settings);
-  RunDirectory directory = RunDirectory::create(
-      options.directory.value_or("runs" / options.file.stem()), settings);
+  RunDirectory directory =
+      RunDirectory::create(options.directory.value_or("runs" / options.file.stem()), settings);
 
   if (auto* flow = std::get_if<scenarios::Flow>(&problem))
     return run_flow(settings, std::move(*flow), std::move(directory), arguments);

@@ -33,7 +33,8 @@ io::CurvePoint average(const scenarios::ImpactCurve::Point& point,
     mean.contact_time += r.contact_time;
     mean.max_overlap += r.max_overlap;
   }
-  for (double* value : {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time, &mean.max_overlap})
+  for (double* value :
+       {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time, &mean.max_overlap})
     *value /= away;  // not a number where no impact counts
   return mean;
 }
@@ -72,14 +73,14 @@ int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
   using Clock = std::chrono::steady_clock;
   const auto wanted = settings.integer_or_auto("run.threads");
   const int threads = wanted ? static_cast<int>(*wanted) : omp_get_max_threads();
-  io::RunFile file = io::RunFile::create(
-      directory.file(io::run_file_name),
-      io::collect_provenance({.arguments = arguments,
-                              .seed = settings.integer("seed"),
-                              .threads = threads,
-                              .source = settings.source_text(),
-                              .settings = settings.effective_yaml()}),
-      {});
+  io::RunFile file =
+      io::RunFile::create(directory.file(io::run_file_name),
+                          io::collect_provenance({.arguments = arguments,
+                                                  .seed = settings.integer("seed"),
+                                                  .threads = threads,
+                                                  .source = settings.source_text(),
+                                                  .settings = settings.effective_yaml()}),
+                          {});
 
   const auto start = Clock::now();
   const std::vector<ImpactResult> results = follow_all(curve.setup, curve.impacts, threads);

@@ -17,9 +17,11 @@ RunDirectory::RunDirectory(const fs::path& path, const io::Settings& settings)
 
 RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
   if (fs::exists(path / io::run_file_name))
-    throw UnusableInput(path.string()
-                        + ": holds a run already; choose another directory with --out, or go on with that "
-                          "run by 'riesel resume " + path.string() + "'");
+    throw UnusableInput(
+        path.string()
+        + ": holds a run already; choose another directory with --out, or go on with that "
+          "run by 'riesel resume "
+        + path.string() + "'");
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw io::system_failure(path, "cannot be made", error.value());
@@ -29,7 +31,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& sett
 RunDirectory RunDirectory::reopen(const fs::path& path, const io::Settings& settings) {
   if (!fs::exists(path / io::run_file_name))
     throw UnusableInput((path / io::run_file_name).string()
-                        + ": is missing; a run goes on only together with its series");
+                        + ": is missing; restore the file, or start the run again elsewhere");
   RunDirectory directory(path, settings);
   fs::remove(directory.file(io::summary_name));  // of the shorter run
   return directory;

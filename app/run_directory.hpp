@@ -15,9 +15,9 @@ namespace riesel::app {
 using Arguments = std::vector<std::string>;
 
 class RunDirectory {
- public:
-  /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run in it already,
-  /// io::FileError if it cannot be written.
+public:
+  /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run in
+  /// it already, io::FileError if it cannot be written.
   static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
   /// The directory of a run that goes on.
   static RunDirectory reopen(const std::filesystem::path& path, const io::Settings& settings);
@@ -25,7 +25,7 @@ class RunDirectory {
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
- private:
+private:
   RunDirectory(const std::filesystem::path& path, const io::Settings& settings);
 
   std::filesystem::path path_;

@@ -30,7 +30,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the same rhythm.
+/// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the
+/// same rhythm.
 struct Schedule {
   Schedule(const io::Settings& settings, double time_step)
       : last_step(std::llround(std::ceil(settings.number("run.duration") / time_step - 1e-9))),
@@ -55,20 +56,25 @@ struct Past {
 };
 
 class FlowRun {
- public:
+public:
   FlowRun(const io::Settings& settings, const ContactModel& model, State state,
           RunDirectory directory, const Arguments& arguments, const Past& past)
-      : settings_(settings), past_(past), directory_(std::move(directory)),
-        schedule_(settings, state.time_step), threads_(threads_for(settings, state.grains.size())),
+      : settings_(settings),
+        past_(past),
+        directory_(std::move(directory)),
+        schedule_(settings, state.time_step),
+        threads_(threads_for(settings, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings)),
-        file_(open(arguments)), first_step_(simulation_.state().step) {}
+        file_(open(arguments)),
+        first_step_(simulation_.state().step) {}
 
   int run() {
     catch_interrupts();
     start_ = last_checkpoint_ = Clock::now();
     try {
       if (file_.rows() == 0) begin();
-      while (simulation_.state().step < schedule_.last_step && interrupting_signal() == 0) advance();
+      while (simulation_.state().step < schedule_.last_step && interrupting_signal() == 0)
+        advance();
     } catch (const RunFailure& failure) {
       return fail(failure);
     }
@@ -77,17 +83,17 @@ class FlowRun {
     return interrupting_signal() != 0 ? tell_interruption() : tell_result();
   }
 
- private:
+private:
   io::RunFile open(const Arguments& arguments) const {
-    const io::Provenance provenance = io::collect_provenance(
-        {.arguments = arguments,
-         .seed = settings_.integer("seed"),
-         .threads = threads_,
-         .source = past_.source,
-         .settings = settings_.effective_yaml()});
+    const io::Provenance provenance =
+        io::collect_provenance({.arguments = arguments,
+                                .seed = settings_.integer("seed"),
+                                .threads = threads_,
+                                .source = past_.source,
+                                .settings = settings_.effective_yaml()});
     const auto path = directory_.file(io::run_file_name);
     return past_.rows == 0 ? io::RunFile::create(path, provenance, series_columns())
-                     : io::RunFile::reopen(path, provenance, series_columns(), past_.rows);
+                           : io::RunFile::reopen(path, provenance, series_columns(), past_.rows);
   }
 
   /// The first row and a checkpoint: from here on nothing is lost.
@@ -96,7 +102,8 @@ class FlowRun {
     save();
   }
 
-  /// To the next row, or a part of the way in a large system, so that signals and the clock are heeded in time.
+  /// To the next row, or a part of the way in a large system, so that signals and the clock are
+  /// heeded in time.
   void advance() {
     constexpr double particle_steps = 2e7;  // about a quarter of a second
     const State& state = simulation_.state();
@@ -143,9 +150,8 @@ class FlowRun {
             .steps = state.step,
             .state_hash = state_hash(state),
             .wall_seconds = wall_seconds(),
-            .particle_steps_per_second = grains
-                                         * static_cast<double>(state.step - first_step_)
-                                         / seconds_since(start_),
+            .particle_steps_per_second =
+                grains * static_cast<double>(state.step - first_step_) / seconds_since(start_),
             .threads = threads_};
   }
 

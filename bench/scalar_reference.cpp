@@ -7,11 +7,18 @@
 namespace riesel::bench {
 
 ScalarReference::ScalarReference(const State& state, const ContactModel& model)
-    : n_(state.grains.size()), length_(state.box.length), width_(state.box.width),
-      gravity_(state.gravity), dt_(state.time_step), wall_radius_(state.walls.front().radius),
+    : n_(state.grains.size()),
+      length_(state.box.length),
+      width_(state.box.width),
+      gravity_(state.gravity),
+      dt_(state.time_step),
+      wall_radius_(state.walls.front().radius),
       wall_spacing_(state.walls.front().spacing(state.box)),
-      k_n_(std::get<LinearLaw>(model.normal).k_n), gamma_n_(std::get<LinearLaw>(model.normal).gamma_n),
-      mu_(model.friction), fx_(n_, 0.0), fy_(n_, 0.0) {
+      k_n_(std::get<LinearLaw>(model.normal).k_n),
+      gamma_n_(std::get<LinearLaw>(model.normal).gamma_n),
+      mu_(model.friction),
+      fx_(n_, 0.0),
+      fy_(n_, 0.0) {
   for (std::size_t i = 0; i < n_; ++i) {
     const Grain g = grain_at(state, i);
     x_.push_back(g.x);
@@ -21,7 +28,8 @@ ScalarReference::ScalarReference(const State& state, const ContactModel& model)
     radius_.push_back(g.radius);
     mass_.push_back(g.mass);
   }
-  skin_ = 0.2 * 2.0 * std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(n_);
+  skin_ =
+      0.2 * 2.0 * std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(n_);
   rebuild();
 }
 
@@ -73,8 +81,8 @@ void ScalarReference::rebuild() {
   const auto columns = static_cast<std::size_t>(std::max(1.0, width_ / range));
   const auto rows = static_cast<std::size_t>(std::max(3.0, length_ / range));
   const auto cell_of = [&](std::size_t i) {
-    const auto c = static_cast<std::size_t>(
-        std::clamp(x_[i] / width_, 0.0, 1.0 - 1e-12) * static_cast<double>(columns));
+    const auto c = static_cast<std::size_t>(std::clamp(x_[i] / width_, 0.0, 1.0 - 1e-12)
+                                            * static_cast<double>(columns));
     const auto r = static_cast<std::size_t>(y_[i] / length_ * static_cast<double>(rows)) % rows;
     return r * columns + c;
   };
@@ -99,7 +107,8 @@ void ScalarReference::rebuild() {
   for (std::size_t i = 0; i < n_; ++i) {
     const std::size_t home = cell_of(i), row = home / columns, column = home % columns;
     for (std::size_t dr = 0; dr < 3; ++dr)
-      for (std::size_t c = column == 0 ? 0 : column - 1; c <= std::min(column + 1, columns - 1); ++c) {
+      for (std::size_t c = column == 0 ? 0 : column - 1; c <= std::min(column + 1, columns - 1);
+           ++c) {
         const std::size_t other = (row + rows + dr - 1) % rows * columns + c;
         for (std::size_t j = start[other]; j < start[other + 1]; ++j) {
           if (j <= i) continue;
@@ -132,7 +141,8 @@ struct Force {
   double x, y;
 };
 
-/// On the first body; (dx, dy) from the first to the second, (dvx, dvy) the velocity of the second relative to it.
+/// On the first body; (dx, dy) from the first to the second, (dvx, dvy) the velocity of the second
+/// relative to it.
 Force contact(double dx, double dy, double distance, double overlap, double dvx, double dvy,
               double m_red, double k_n, double gamma_n, double mu, double dt) {
   const double nx = dx / distance, ny = dy / distance;

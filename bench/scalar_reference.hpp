@@ -1,6 +1,7 @@
-// A straightforward scalar code for the tube, to compare with: double precision, structure of arrays, a Verlet list
-// with a skin, velocity Verlet with the linear law and capped Coulomb friction. No integers, no vectors, no windows;
-// compiled with the same flags. It computes the same physics to first order in its treatment of friction.
+// A straightforward scalar code for the tube, to compare with: double precision, structure of
+// arrays, a Verlet list with a skin, velocity Verlet with the linear law and capped Coulomb
+// friction. No integers, no vectors, no windows; compiled with the same flags. It computes the same
+// physics to first order in its treatment of friction.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -13,13 +14,13 @@
 namespace riesel::bench {
 
 class ScalarReference {
- public:
+public:
   ScalarReference(const State& state, const ContactModel& model);
 
   void advance(std::int64_t steps);
   double mean_vy() const;
 
- private:
+private:
   void step();
   void rebuild();
   bool moved_too_far() const;

@@ -1,5 +1,5 @@
-// The first suite: particle-steps per second of the tube of scenarios/periodic_tube.yaml, from 1.4 thousand to a million
-// grains, beside a straightforward scalar code in the same run.
+// The first suite: particle-steps per second of the tube of scenarios/periodic_tube.yaml, from 1.4
+// thousand to a million grains, beside a straightforward scalar code in the same run.
 //
 //   build/bench/bench/speed [seconds per measurement]
 #include "bench/scalar_reference.hpp"
@@ -26,14 +26,16 @@ struct Size {
 };
 
 /// The tube at area fraction 0.55, stretched.
-constexpr Size sizes[] = {
-    {"1.4 k", 0.020, 0.100}, {"10 k", 0.020, 0.714}, {"100 k", 0.0632, 2.259}, {"1 M", 0.200, 7.140}};
+constexpr Size sizes[] = {{"1.4 k", 0.020, 0.100},
+                          {"10 k", 0.020, 0.714},
+                          {"100 k", 0.0632, 2.259},
+                          {"1 M", 0.200, 7.140}};
 
 scenarios::Flow tube(const Size& size) {
-  const std::string text = fmt::format(
-      "{{scenario: periodic_tube, contact: {{stiffness: 2000, restitution: 0.92}}, "
-      "tube: {{width: {}, length: {}}}, run: {{duration: 1}}}}",
-      size.width, size.length);
+  const std::string text =
+      fmt::format("{{scenario: periodic_tube, contact: {{stiffness: 2000, restitution: 0.92}}, "
+                  "tube: {{width: {}, length: {}}}, run: {{duration: 1}}}}",
+                  size.width, size.length);
   const auto settings = io::Settings::from_text(text, "benchmark", scenarios::settings_tables());
   return std::get<scenarios::Flow>(scenarios::named("periodic_tube").prepare(settings));
 }

@@ -17,10 +17,10 @@ struct CacheLineAllocator {
   explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
 
   T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{cache_line}));
+    return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{cache_line}));
   }
   void deallocate(T* p, std::size_t n) {
-    ::operator delete(p, n * sizeof(T), std::align_val_t{cache_line});
+    ::operator delete (p, n * sizeof(T), std::align_val_t{cache_line});
   }
   template <class U>
   bool operator==(const CacheLineAllocator<U>&) const {

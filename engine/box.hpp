@@ -7,11 +7,11 @@
 
 namespace riesel {
 
-/// Periodic along y with period `length`. x is representable in [-4 width, 4 width); grains belong between the
-/// walls at 0 and `width`, and one beyond [-width, 2 width] counts as lost, so that differences of two x never
-/// overflow.
+/// Periodic along y with period `length`. x is representable in [-4 width, 4 width); grains belong
+/// between the walls at 0 and `width`, and one beyond [-width, 2 width] counts as lost, so that
+/// differences of two x never overflow.
 struct Box {
-  double width;   ///< m, distance between the wall lines (or the scale of x where there is one wall)
+  double width;  ///< m, distance between the wall lines (or the scale of x where there is one wall)
   double length;  ///< m, period along y
 
   double quantum_x() const { return 8.0 * width * two_to_minus_64; }  ///< m

@@ -9,7 +9,7 @@
 namespace riesel {
 
 class Calendar {
- public:
+public:
   /// How far ahead an appointment can be made; later ones are to be moved to the horizon.
   static constexpr std::int64_t horizon = 1024;  // steps
 
@@ -29,7 +29,7 @@ class Calendar {
     for (auto& bucket : buckets_) bucket.clear();
   }
 
- private:
+private:
   std::vector<std::uint32_t>& bucket(std::int64_t step) {
     return buckets_[static_cast<std::size_t>(step) % static_cast<std::size_t>(horizon)];
   }

@@ -10,9 +10,11 @@ namespace riesel {
 
 namespace {
 
-/// The skin as a part of the mean diameter: more means more pairs to test, less means more sortings.
+/// The skin as a part of the mean diameter: more means more pairs to test, less means more
+/// sortings.
 constexpr double skin_per_diameter = 0.25;
-/// Below this part of the full budget it is better to sort anew than to look at displacements again and again.
+/// Below this part of the full budget it is better to sort anew than to look at displacements again
+/// and again.
 constexpr double smallest_useful_budget = 0.2;
 
 double mean_diameter(const Grains& grains) {
@@ -38,7 +40,10 @@ Candidates::Candidates(State& state, int threads)
   const Grains& grains = state.grains;
   skin_ = skin_per_diameter * mean_diameter(grains);
   max_radius_ = *std::max_element(grains.radius.begin(), grains.radius.end());
-  if (state.box.length <= 2.0 * (2.0 * max_radius_ + skin_))
+  double largest_partner = max_radius_;
+  for (const WallLattice& wall : state.walls)
+    largest_partner = std::max(largest_partner, wall.radius);
+  if (state.box.length <= 2.0 * (max_radius_ + largest_partner + skin_))
     throw std::invalid_argument("the period is too short for the nearest image to be unique");
 
 #pragma omp parallel num_threads(threads)
@@ -91,7 +96,8 @@ void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
 #pragma omp barrier
 }
 
-/// What all slices share: who has which slots, and the common motion that does not count as displacement.
+/// What all slices share: who has which slots, and the common motion that does not count as
+/// displacement.
 void Candidates::start_over(const State& state, std::int64_t step) {
   const Grains& grains = state.grains;
   for (auto* positions : {&coarse_, &coarse_when_sorted_}) {
@@ -106,8 +112,8 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   double sum = 0.0;  // relative to the first grain: velocities in the falling frame may wrap
   for (const Fixed uy : grains.uy)
     sum += static_cast<double>(wrapped_difference(uy, grains.uy.front()));
-  drift_y_ = wrapped_sum(grains.uy.front(),
-                         nearest_fixed(sum / static_cast<double>(grains.size())));
+  drift_y_ =
+      wrapped_sum(grains.uy.front(), nearest_fixed(sum / static_cast<double>(grains.size())));
 }
 
 void Candidates::list_pairs(const State& state, Slice& mine) {
@@ -118,8 +124,10 @@ void Candidates::list_pairs(const State& state, Slice& mine) {
   for (std::size_t i = mine.begin; i < mine.end; ++i)
     cells_.for_each_later_range(i, [&](SlotRange range) {
       for (std::size_t j = range.begin; j < range.end; ++j) {
-        const float dx = static_cast<float>(coarse_difference(coarse_.x[j], coarse_.x[i])) * units_.x;
-        const float dy = static_cast<float>(coarse_difference(coarse_.y[j], coarse_.y[i])) * units_.y;
+        const float dx =
+            static_cast<float>(coarse_difference(coarse_.x[j], coarse_.x[i])) * units_.x;
+        const float dy =
+            static_cast<float>(coarse_difference(coarse_.y[j], coarse_.y[i])) * units_.y;
         const float distance2 = dx * dx + dy * dy;
         if (distance2 >= farthest2) continue;
         const double reach = grains.radius[i] + grains.radius[j];
@@ -134,8 +142,7 @@ void Candidates::list_near_walls(const State& state, Slice& mine) {
   mine.near_walls.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
     const double x = state.box.metres_x(state.grains.x[i]);
-    if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width)
-      mine.lost = state.grains.id[i];
+    if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width) mine.lost = state.grains.id[i];
     for (std::size_t w = 0; w < state.walls.size(); ++w) {
       const double reach = state.grains.radius[i] + state.walls[w].radius;
       if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_)
@@ -152,20 +159,24 @@ void Candidates::list_received(const Grains& grains, Slice& mine) {
       mine.received.push_back({static_cast<std::uint32_t>(i), grains.kick_x[i], grains.kick_y[i]});
 }
 
-/// Speeds are those of the next drift: with the kick that the next step will add.
+/// Of the displacement per step relative to the drift, with or without the kick in the store: in
+/// the middle of a step the last kick is taken up already, at its end the next step will.
 double Candidates::squared_speed(const State& state, std::size_t slot) const {
   const Grains& g = state.grains;
-  const Fixed uy = wrapped_sum(wrapped_difference(g.uy[slot], drift_y_), g.kick_y[slot]);
-  const double vx = state.box.metres_x(wrapped_sum(g.ux[slot], g.kick_x[slot]));
-  const double vy = state.box.metres_y(uy);
-  return vx * vx + vy * vy;
+  const Fixed uy = wrapped_difference(g.uy[slot], drift_y_);
+  const auto squared = [&](Fixed x, Fixed y) {
+    const double vx = state.box.metres_x(x), vy = state.box.metres_y(y);
+    return vx * vx + vy * vy;
+  };
+  return std::max(squared(g.ux[slot], uy), squared(wrapped_sum(g.ux[slot], g.kick_x[slot]),
+                                                   wrapped_sum(uy, g.kick_y[slot])));
 }
 
 void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t step) const {
   const std::int64_t steps = step - sorted_at_;
   const Fixed sum_of_steps = steps * (sorted_at_ + 1 + step) / 2;
-  const std::int32_t drift = upper_half(wrapped_sum(wrapped_product(steps, drift_y_),
-                                                    wrapped_product(sum_of_steps, fall_)));
+  const std::int32_t drift = upper_half(
+      wrapped_sum(wrapped_product(steps, drift_y_), wrapped_product(sum_of_steps, fall_)));
   float farthest2 = 0.0F;
   mine.fastest2 = 0.0;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
@@ -190,8 +201,8 @@ std::vector<Contact> Candidates::contacts() const {
   return all;
 }
 
-/// Enters contacts into the books. One whose bodies are no candidates any more has ended: the grain is so fast that it left
-/// in a single step. Returns how many have.
+/// Enters contacts into the books. One whose bodies are no candidates any more has ended: the grain
+/// is so fast that it left in a single step. Returns how many have.
 std::size_t Candidates::give_back(const State& state, const std::vector<Contact>& contacts) {
   std::vector<std::uint32_t> slot_of(contacts.empty() ? 0 : state.grains.size());
   for (std::size_t slot = 0; slot < slot_of.size(); ++slot)
@@ -244,7 +255,7 @@ std::optional<Candidates::KeyInSlice> Candidates::pair_key(std::uint32_t a, std:
 }
 
 std::optional<Candidates::KeyInSlice> Candidates::wall_key(std::uint32_t slot,
-                                                          const ContactName& name) const {
+                                                           const ContactName& name) const {
   const std::size_t s = slice_of(slot);
   const auto& near = slices_[s].near_walls;
   const auto place = std::find_if(near.begin(), near.end(), [&](const NearWall& n) {

@@ -1,10 +1,11 @@
-// Who may touch whom before the grains have moved by the skin: sorting, candidate pairs, and the guarantee.
+// Who may touch whom before the grains have moved by the skin: sorting, candidate pairs, and the
+// guarantee.
 //
 // The pairs listed are those closer than the sum of radii plus a skin. They hold as long as no
-// grain has moved by half the skin, measured from the common motion of all grains, which brings no two of them
-// together: the common fall never triggers a renewal. Instead of looking at all grains in every step, a bound is
-// kept on the largest speed (only contacts raise it) and subtracted from a budget of displacement; when
-// the budget is used up, the true displacements are looked at.
+// grain has moved by half the skin, measured from the common motion of all grains, which brings no
+// two of them together: the common fall never triggers a renewal. Instead of looking at all grains
+// in every step, a bound is kept on the largest speed (only contacts raise it) and subtracted from
+// a budget of displacement; when the budget is used up, the true displacements are looked at.
 #pragma once
 
 #include "engine/cells.hpp"
@@ -19,7 +20,7 @@
 namespace riesel {
 
 class Candidates {
- public:
+public:
   /// Sorts `state` and takes over its contacts.
   Candidates(State& state, int threads);
 
@@ -28,13 +29,14 @@ class Candidates {
   CoarsePositions& coarse() { return coarse_; }
   CoarseUnits units() const { return units_; }
 
-  /// Spends one step's motion of the budget. True if the candidates hold for sure; else look_again() must be called
-  /// before they are used. All threads of a team, called after a barrier, get the same answer.
+  /// Spends one step's motion of the budget. True if the candidates hold for sure; else
+  /// look_again() must be called before they are used. All threads of a team, called after a
+  /// barrier, get the same answer.
   bool spend_step(Slice& mine) const;
 
-  /// Looks at the true displacements, and sorts anew if they are too large: then true. The state and the coarse
-  /// positions must be those of step `step`. To be called by all threads of a team; what it changes is complete when it
-  /// returns.
+  /// Looks at the true displacements, and sorts anew if they are too large: then true. The state
+  /// and the coarse positions must be those of step `step`. To be called by all threads of a team;
+  /// what it changes is complete when it returns.
   bool look_again(State& state, Slice& mine, std::int64_t step);
 
   /// The grains of `mine` that received kicks have new velocities: keeps the bound on the speeds.
@@ -43,7 +45,7 @@ class Candidates {
   /// Contacts of all slices, ordered by name.
   std::vector<Contact> contacts() const;
 
- private:
+private:
   void renew(State& state, Slice& mine, std::int64_t step);
   void start_over(const State& state, std::int64_t step);
   void list_pairs(const State& state, Slice& mine);

@@ -30,18 +30,22 @@ void Cells::sort(State& state, double range) {
 void Cells::lay_out(const State& state, double range) {
   const Grains& grains = state.grains;
   const auto [leftmost, rightmost] = std::minmax_element(grains.x.begin(), grains.x.end());
-  const Fixed extent = *rightmost - *leftmost;
   left_edge_ = *leftmost;
-  columns_ = static_cast<std::size_t>(std::max(1.0, state.box.metres_x(extent) / range));
+  const double extent = quanta_from_left(*rightmost);
+  columns_ = static_cast<std::size_t>(std::max(1.0, extent * state.box.quantum_x() / range));
   rows_ = static_cast<std::size_t>(std::max(1.0, state.box.length / range));
-  columns_per_quantum_ =
-      static_cast<double>(columns_) / std::max(1.0, static_cast<double>(extent));
+  columns_per_quantum_ = static_cast<double>(columns_) / std::max(1.0, extent);
   cell_of_old_slot_.resize(grains.size());
 }
 
+/// Never negative, and right even for grains that are about to be found lost.
+double Cells::quanta_from_left(Fixed x) const {
+  return static_cast<double>(static_cast<std::uint64_t>(wrapped_difference(x, left_edge_)));
+}
+
 std::uint32_t Cells::cell_at(const Grains& grains, std::size_t slot) const {
-  const auto from_left = static_cast<double>(grains.x[slot] - left_edge_);
-  const auto column = static_cast<std::size_t>(from_left * columns_per_quantum_);
+  const auto column =
+      static_cast<std::size_t>(quanta_from_left(grains.x[slot]) * columns_per_quantum_);
   return static_cast<std::uint32_t>(part_of_ring(grains.y[slot], rows_) * columns_
                                     + std::min(column, columns_ - 1));
 }

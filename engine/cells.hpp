@@ -1,9 +1,10 @@
 // The linked-cell grid: sorts the grains by cell, so that a cell is a range of slots.
 //
-// Cells are numbered row by row, x first. Along y their number divides the period and the row of a grain
-// follows from its fixed-point y by a multiplication; the rows close into a ring. With cells at least as long
-// as the search range, all partners of a grain stand in its cell and the eight around it; in sorted
-// order the half of them that comes after the grain is only two ranges of slots.
+// Cells are numbered row by row, x first. Along y their number divides the period and the row of a
+// grain follows from its fixed-point y by a multiplication; the rows close into a ring. With cells
+// at least as long as the search range, all partners of a grain stand in its cell and the eight
+// around it; in sorted order the half of them that comes after the grain is only two ranges of
+// slots.
 #pragma once
 
 #include "engine/state.hpp"
@@ -19,13 +20,14 @@ struct SlotRange {
 };
 
 class Cells {
- public:
-  /// Sorts the grains of `state` into cells of at least `range` (m): changes the slots, not the grains. To be
-  /// called by all threads of a team together, or outside of one.
+public:
+  /// Sorts the grains of `state` into cells of at least `range` (m): changes the slots, not the
+  /// grains. To be called by all threads of a team together, or outside of one.
   void sort(State& state, double range);
 
-  /// Calls visit(SlotRange) for the ranges in which the later partners of `slot` stand: each unordered pair of
-  /// grains closer than the range comes up exactly once over all slots, if the period is longer than two ranges.
+  /// Calls visit(SlotRange) for the ranges in which the later partners of `slot` stand: each
+  /// unordered pair of grains closer than the range comes up exactly once over all slots, if the
+  /// period is longer than two ranges.
   template <class Visit>
   void for_each_later_range(std::size_t slot, Visit visit) const {
     const std::size_t cell = cell_of_slot_[slot];
@@ -39,8 +41,9 @@ class Cells {
     visit(SlotRange{start_[next * columns_ + left], start_[next * columns_ + right + 1]});
   }
 
- private:
+private:
   void lay_out(const State& state, double range);
+  double quanta_from_left(Fixed x) const;
   std::uint32_t cell_at(const Grains& grains, std::size_t slot) const;
   void count();
   void permute(Grains& grains);

@@ -42,8 +42,8 @@ double elastic_collision_time(const ElasticLine& line, double reduced_mass, doub
   if (line.exponent == 1.0) return pi * std::sqrt(reduced_mass / line.stiffness);
   // 2 integral from 0 to 1 of dz / sqrt(1 - z^(alpha+1)), by the beta function
   const double inverse_power = 1.0 / (line.exponent + 1.0);
-  const double integral = 2.0 * std::sqrt(pi) * std::tgamma(1.0 + inverse_power)
-                          / std::tgamma(0.5 + inverse_power);
+  const double integral =
+      2.0 * std::sqrt(pi) * std::tgamma(1.0 + inverse_power) / std::tgamma(0.5 + inverse_power);
   return integral * elastic_max_overlap(line, reduced_mass, speed) / speed;
 }
 

@@ -1,7 +1,8 @@
 // What is known of a contact without simulating it. SI units.
 //
-// Source: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995), eqs. (4), (5) and the text around them; for the
-// general elastic law the quadrature of the energy integral, e.g. Landau and Lifshitz, Theory of Elasticity, par. 9.
+// Source: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995), eqs. (4), (5) and the text around them;
+// for the general elastic law the quadrature of the energy integral, e.g. Landau and Lifshitz,
+// Theory of Elasticity, par. 9.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -23,21 +24,22 @@ struct LinearContact {
 /// 1/s, the gamma_N that gives restitution 0 < e_N <= 1 to a linear contact.
 double damping_for_restitution(double restitution, double k_n, double reduced_mass);
 
-/// s, duration of an undamped head-on contact under F = k xi^alpha that begins with the given speed (m/s).
-/// For alpha = 1 it does not depend on the speed.
+/// s, duration of an undamped head-on contact under F = k xi^alpha that begins with the given speed
+/// (m/s). For alpha = 1 it does not depend on the speed.
 double elastic_collision_time(const ElasticLine& line, double reduced_mass, double speed);
 
 /// m, largest overlap of the same contact: a bound for the damped one.
 double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed);
 
-/// s, how long a head-on contact under `normal` lasts: eq. (4) for the linear law, else the elastic time.
+/// s, how long a head-on contact under `normal` lasts: eq. (4) for the linear law, else the elastic
+/// time.
 double collision_time(const NormalLaw& normal, double reduced_mass, double speed);
 
 /// m, chord of a straight passage at the given impact height through a circle of radius `reach`.
 double chord(double reach, double impact_height);
 
-/// m, the chord of a body that has sunk in as deep as in a head-on contact of duration `t_col` (s) that begins with
-/// `speed` (m/s).
+/// m, the chord of a body that has sunk in as deep as in a head-on contact of duration `t_col` (s)
+/// that begins with `speed` (m/s).
 double chord_of_impact(double reach, double speed, double t_col);
 
 }  // namespace riesel

@@ -1,5 +1,5 @@
-// The life of a contact: what is known of two bodies from the step in which they begin to overlap to
-// the step in which they no longer do.
+// The life of a contact: what is known of two bodies from the step in which they begin to overlap
+// to the step in which they no longer do.
 #pragma once
 
 #include <compare>
@@ -9,30 +9,31 @@ namespace riesel {
 
 /// Names a contact independently of where its grains are stored.
 struct ContactName {
-  std::int32_t wall;     ///< index of the wall, or -1 for a contact between free grains
-  std::int32_t grain;    ///< id of the (first) free grain
-  std::int32_t partner;  ///< id of the second grain (larger than `grain`), or index of the wall grain
+  std::int32_t wall;   ///< index of the wall, or -1 for a contact between free grains
+  std::int32_t grain;  ///< id of the (first) free grain
+  std::int32_t
+      partner;  ///< id of the second grain (larger than `grain`), or index of the wall grain
 
   auto operator<=>(const ContactName&) const = default;
 };
 
 inline constexpr std::int32_t no_wall = -1;
 
-/// SI units throughout. Times are resolved within the step: the relative path of the two bodies tells when they
-/// met and when they will part.
+/// SI units throughout. Times are resolved within the step: the relative path of the two bodies
+/// tells when they met and when they will part.
 struct Contact {
   ContactName name{};
-  double begin = 0.0;          ///< s, since step 0
-  double end = 0.0;            ///< s, when the contact ends, or a step from now
-  double entry_rate = 0.0;     ///< m/s, normal approach velocity at the beginning
-  double entry_slip = 0.0;     ///< m/s, slip velocity at the beginning
-  double overlap = 0.0;        ///< m, now
-  double max_overlap = 0.0;    ///< m
-  double slip_path = 0.0;      ///< m, integral of |slip velocity|
-  double elastic_energy = 0.0; ///< J, stored now
-  double normal_loss = 0.0;    ///< J, dissipated by the normal damping so far
-  double friction_loss = 0.0;  ///< J, dissipated by friction so far
-  double impulse_y = 0.0;      ///< kg m/s, given to `grain` along y so far
+  double begin = 0.0;                 ///< s, since step 0
+  double end = 0.0;                   ///< s, when the contact ends, or a step from now
+  double entry_rate = 0.0;            ///< m/s, normal approach velocity at the beginning
+  double entry_slip = 0.0;            ///< m/s, slip velocity at the beginning
+  double overlap = 0.0;               ///< m, now
+  double max_overlap = 0.0;           ///< m
+  double slip_path = 0.0;             ///< m, integral of |slip velocity|
+  double elastic_energy = 0.0;        ///< J, stored now
+  double normal_loss = 0.0;           ///< J, dissipated by the normal damping so far
+  double friction_loss = 0.0;         ///< J, dissipated by friction so far
+  double impulse_y = 0.0;             ///< kg m/s, given to `grain` along y so far
   double impulse_y_times_step = 0.0;  ///< the same, each step's part times the number of the step
 
   double duration() const { return end - begin; }  ///< s

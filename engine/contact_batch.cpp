@@ -19,7 +19,8 @@ RIESEL_VECTOR_KERNEL void touch_loop(const double* const* in, double* const* out
                                      double dt) {
 #pragma omp simd
   for (std::size_t i = 0; i < count; ++i) {
-    const Encounter e{in[0][i], in[1][i], in[2][i], in[3][i], in[4][i], in[5][i], in[6][i], in[7][i]};
+    const Encounter e{in[0][i], in[1][i], in[2][i], in[3][i],
+                      in[4][i], in[5][i], in[6][i], in[7][i]};
     const Touch t = touch(e, normal, slip, mu, attraction, dt);
     out[0][i] = t.fx;
     out[1][i] = t.fy;
@@ -60,7 +61,8 @@ void ContactBatch::touch_all(const ContactModel& model, double dt) {
   for (std::size_t m = 0; m < outputs; ++m) out[m] = output_[m].data();
   std::visit(
       [&](const auto& normal, const auto& slip) {
-        touch_loop(in.data(), out.data(), size(), normal, slip, model.friction, model.attraction, dt);
+        touch_loop(in.data(), out.data(), size(), normal, slip, model.friction, model.attraction,
+                   dt);
       },
       model.normal, model.slip);
 }

@@ -1,4 +1,5 @@
-// The contacts of one slice in one step, side by side, so that their forces are computed by vector instructions.
+// The contacts of one slice in one step, side by side, so that their forces are computed by vector
+// instructions.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -15,10 +16,10 @@ namespace riesel {
 inline constexpr std::uint32_t no_slot = UINT32_MAX;
 
 class ContactBatch {
- public:
+public:
   /// Whose contact it is.
   struct Who {
-    std::uint64_t key;     ///< place in the order of the search
+    std::uint64_t key;  ///< place in the order of the search
     ContactName name;
     std::uint32_t first;   ///< slot
     std::uint32_t second;  ///< slot, or no_slot for a wall grain
@@ -34,7 +35,7 @@ class ContactBatch {
   const Who& who(std::size_t i) const { return who_[i]; }
   Touch touch(std::size_t i) const;
 
- private:
+private:
   static constexpr std::size_t inputs = sizeof(Encounter) / sizeof(double);
   static constexpr std::size_t outputs = sizeof(Touch) / sizeof(double);
 

@@ -1,8 +1,9 @@
 // Keeps the contacts of one slice alive from step to step.
 //
-// The search meets contacts in the same order in every step, so that two ordered lists, those of the last
-// step and those met in this one, are merged as the step goes: what stands in both goes on, what is only in the new one
-// begins, what is only in the old one has ended. No look-up, no cost per pair that does not touch.
+// The search meets contacts in the same order in every step, so that two ordered lists, those of
+// the last step and those met in this one, are merged as the step goes: what stands in both goes
+// on, what is only in the new one begins, what is only in the old one has ended. No look-up, no
+// cost per pair that does not touch.
 #pragma once
 
 #include "engine/contact.hpp"
@@ -16,7 +17,7 @@
 namespace riesel {
 
 class ContactBook {
- public:
+public:
   struct Entry {
     std::uint64_t key;    ///< the place of the contact in the order of the search
     std::uint32_t place;  ///< of the contact, see contact()
@@ -56,7 +57,7 @@ class ContactBook {
     contacts_.push_back(contact);
   }
 
- private:
+private:
   std::uint32_t room() {
     if (free_.empty()) {
       contacts_.emplace_back();

@@ -1,13 +1,13 @@
-// The contact laws: one small type each, with its formula and its source. They are values, inlined into the
-// one contact loop and chosen once per call of that loop.
+// The contact laws: one small type each, with its formula and its source. They are values, inlined
+// into the one contact loop and chosen once per call of that loop.
 //
 // To add a normal law: write its type here and add it to NormalLaw. A type provides
 //   elastic(xi)                    N, the part that stores energy
 //   damping(xi, rate, m_red)       N, the part that dissipates, of the sign of `rate`
 //   stored_energy(xi)              J
 //   elastic_line()                 k and alpha of elastic(xi) = k xi^alpha, for the contact time
-// with xi > 0 the overlap in m, `rate` = d(xi)/dt in m/s and m_red the reduced mass in kg. To add a slip law:
-// the same with SlipLaw; a type provides force(limit, slip, half_step_slip, m_red, dt).
+// with xi > 0 the overlap in m, `rate` = d(xi)/dt in m/s and m_red the reduced mass in kg. To add a
+// slip law: the same with SlipLaw; a type provides force(limit, slip, half_step_slip, m_red, dt).
 //
 // Source, unless said otherwise: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
 #pragma once
@@ -63,8 +63,9 @@ struct HertzKuwabaraKonoLaw {
 
 using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw>;
 
-/// Eq. (2), F_S = -limit sgn(v_S), but never more than the force that stops the slip within the step: what
-/// the equation means as dt -> 0. The slip that a step's kick can stop is that of the leapfrog velocity.
+/// Eq. (2), F_S = -limit sgn(v_S), but never more than the force that stops the slip within the
+/// step: what the equation means as dt -> 0. The slip that a step's kick can stop is that of the
+/// leapfrog velocity.
 struct CappedSlip {
   double force(double limit, double, double half_step_slip, double m_red, double dt) const {
     return -std::max(-limit, std::min(limit, m_red * half_step_slip / dt));
@@ -89,7 +90,8 @@ struct ViscousSlip {
 
 using SlipLaw = std::variant<CappedSlip, LiteralSlip, ViscousSlip>;
 
-/// Near the end of a contact the damping of eq. (1) pulls: either as the equation says, or cut off at zero.
+/// Near the end of a contact the damping of eq. (1) pulls: either as the equation says, or cut off
+/// at zero.
 enum class Attraction { keep, clip };
 
 /// All that two bodies in contact do to each other.

@@ -11,7 +11,7 @@ namespace {
 
 /// Collects the candidates that do overlap.
 class Collector {
- public:
+public:
   Collector(const Slice& slice, const State& state, const StepUnits& units, ContactBatch& batch)
       : slice_(slice), state_(state), grains_(state.grains), units_(units), batch_(batch) {}
 
@@ -41,7 +41,7 @@ class Collector {
         });
   }
 
- private:
+private:
   const Slice& slice_;
   const State& state_;
   const Grains& grains_;

@@ -7,9 +7,9 @@
 
 namespace riesel {
 
-/// Finds which candidates of the slice overlap among `hits` and at the walls, and writes the kicks of the
-/// contacts to slice.kicks and their lives to its contact books. Reads the state, changes only the slice.
-/// A contact whose force is not a usable number is left in slice.trouble.
+/// Finds which candidates of the slice overlap among `hits` and at the walls, and writes the kicks
+/// of the contacts to slice.kicks and their lives to its contact books. Reads the state, changes
+/// only the slice. A contact whose force is not a usable number is left in slice.trouble.
 void resolve_contacts(Slice& slice, const State& state, const ContactModel& model);
 
 }  // namespace riesel

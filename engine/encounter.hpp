@@ -12,11 +12,15 @@ namespace riesel {
 
 /// The numbers of the current step that turn quanta into SI units and back.
 class StepUnits {
- public:
+public:
   explicit StepUnits(const State& state)
-      : dt(state.time_step), time(state.time()), step(static_cast<double>(state.step)),
-        fall_(fall_per_step(state)), fallen_(wrapped_product(fall_, state.step)),
-        metres_(state.box.quantum_x(), state.box.quantum_y()), velocity_(metres_ / dt),
+      : dt(state.time_step),
+        time(state.time()),
+        step(static_cast<double>(state.step)),
+        fall_(fall_per_step(state)),
+        fallen_(wrapped_product(fall_, state.step)),
+        metres_(state.box.quantum_x(), state.box.quantum_y()),
+        velocity_(metres_ / dt),
         kick_(dt * dt / metres_.array()) {}
 
   const double dt, time, step;
@@ -30,7 +34,7 @@ class StepUnits {
   /// quanta per step^2 over m/s^2
   const Eigen::Vector2d& kick_per_acceleration() const { return kick_; }
 
- private:
+private:
   static Eigen::Vector2d scaled(Fixed x, Fixed y, const Eigen::Vector2d& unit) {
     return {static_cast<double>(x) * unit.x(), static_cast<double>(y) * unit.y()};
   }
@@ -76,9 +80,8 @@ inline Encounter encounter(const Grains& g, std::uint32_t i, Fixed line, Fixed y
           .reduced_mass = g.mass[i]};
 }
 
-/// Whether the two bodies touch: the one test that decides about the beginning and the end of a contact.
-inline bool overlapping(const Encounter& e) {
-  return e.x * e.x + e.y * e.y < e.reach * e.reach;
-}
+/// Whether the two bodies touch: the one test that decides about the beginning and the end of a
+/// contact.
+inline bool overlapping(const Encounter& e) { return e.x * e.x + e.y * e.y < e.reach * e.reach; }
 
 }  // namespace riesel

@@ -1,9 +1,9 @@
 // Sums that come out the same in any order.
 //
-// Each term is rounded once, to a multiple of 2^-90 of its unit; the sum of the multiples is a 128-bit
-// integer and exact. So a number reported of many grains or contacts does not depend on how
-// the threads shared them. Range: |sum| < 1e11 units, resolution 8e-28 units: with SI values of grains
-// (energies of 1e-15 ... 1e3 J) both ends are far away.
+// Each term is rounded once, to a multiple of 2^-90 of its unit; the sum of the multiples is a
+// 128-bit integer and exact. So a number reported of many grains or contacts does not depend on how
+// the threads shared them. Range: |sum| < 1e11 units, resolution 8e-28 units: with SI values of
+// grains (energies of 1e-15 ... 1e3 J) both ends are far away.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace riesel {
 __extension__ using Int128 = __int128;
 
 class ExactSum {
- public:
+public:
   /// Adds a finite term, |term| < 1e11.
   void add(double term) { quanta_ += static_cast<Int128>(term * quanta_per_unit); }
   void add(const ExactSum& other) { quanta_ += other.quanta_; }
@@ -33,7 +33,7 @@ class ExactSum {
 
   bool operator==(const ExactSum&) const = default;
 
- private:
+private:
   static constexpr double quanta_per_unit = 0x1p90;
   static constexpr double unit_per_quantum = 0x1p-90;
   Int128 quanta_ = 0;

@@ -16,8 +16,8 @@ constexpr std::int32_t flying = -1;
 /// Values of due_ that are no step.
 constexpr std::int64_t never = -1, in_touch = -2;
 
-/// How far a grain in contact may leave its course, as a part of the mean diameter: more means fewer new courses, but
-/// more neighbours to look at in every step.
+/// How far a grain in contact may leave its course, as a part of the mean diameter: more means
+/// fewer new courses, but more neighbours to look at in every step.
 constexpr double tolerance_per_diameter = 0.004;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
@@ -28,10 +28,12 @@ double mean_diameter(const Grains& grains) {
   return sum / static_cast<double>(grains.size());
 }
 
-/// Bounds are rounded to the safe side by this factor, which is far above the error of the arithmetic.
+/// Bounds are rounded to the safe side by this factor, which is far above the error of the
+/// arithmetic.
 constexpr double generous = 1.0 + 1e-9;
 
-/// The candidates in contact, in order: a wall contact counts once for all wall grains that the grain touches.
+/// The candidates in contact, in order: a wall contact counts once for all wall grains that the
+/// grain touches.
 void list_touching(const Slice& slice, std::vector<std::uint32_t>& list) {
   const auto n_pairs = static_cast<std::uint32_t>(slice.pairs.size());
   list.clear();
@@ -50,8 +52,12 @@ bool beyond(Fixed deviation, Fixed tolerance) {
 }  // namespace
 
 Flights::Flights(State& state, const ContactModel& model, Candidates& candidates)
-    : state_(state), model_(model), candidates_(candidates), slice_(candidates.slices().front()),
-      fall_(fall_per_step(state)), tolerance_(tolerance_per_diameter * mean_diameter(state.grains)),
+    : state_(state),
+      model_(model),
+      candidates_(candidates),
+      slice_(candidates.slices().front()),
+      fall_(fall_per_step(state)),
+      tolerance_(tolerance_per_diameter * mean_diameter(state.grains)),
       tolerance_x_(nearest_fixed(tolerance_ * std::sqrt(0.5) / state.box.quantum_x())),
       tolerance_y_(nearest_fixed(tolerance_ * std::sqrt(0.5) / state.box.quantum_y())) {
   begin(state.step, state.step + 1);
@@ -82,7 +88,8 @@ void Flights::land_all(std::int64_t step) {
   }
 }
 
-/// Forgets all appointments and makes new ones, for candidates that have just been listed. All grains are at `step`.
+/// Forgets all appointments and makes new ones, for candidates that have just been listed. All
+/// grains are at `step`.
 void Flights::begin(std::int64_t step, std::int64_t earliest) {
   const auto n_pairs = static_cast<std::uint32_t>(slice_.pairs.size());
   const auto candidates = n_pairs + static_cast<std::uint32_t>(slice_.near_walls.size());
@@ -167,7 +174,8 @@ void Flights::note_contacts() {
   touching_.swap(still_touching_);
 }
 
-/// Gives a course to grains that have begun a contact, ended their last one, or gone too far from the old course.
+/// Gives a course to grains that have begun a contact, ended their last one, or gone too far from
+/// the old course.
 void Flights::correct_courses(std::int64_t step) {
   changed_.clear();
   for (std::size_t k = 0; k < deflected_.size();) {
@@ -211,15 +219,16 @@ void Flights::make_appointment(std::uint32_t candidate, std::int64_t now, std::i
     due_[candidate] = never;
     return;
   }
-  const auto wait = static_cast<std::int64_t>(
-      std::min(steps, static_cast<double>(Calendar::horizon - 1)));
+  const auto wait =
+      static_cast<std::int64_t>(std::min(steps, static_cast<double>(Calendar::horizon - 1)));
   const std::int64_t due = std::max(earliest, now + wait);
   if (due_[candidate] == due) return;
   due_[candidate] = due;
   calendar_.enter(candidate, due);
 }
 
-/// Steps that the two grains can do on their courses, and within their tolerances, before they can touch.
+/// Steps that the two grains can do on their courses, and within their tolerances, before they can
+/// touch.
 double Flights::free_steps_of_pair(std::uint32_t pair, std::int64_t now) const {
   const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
   const Course a = course(i, now), b = course(j, now);
@@ -228,8 +237,8 @@ double Flights::free_steps_of_pair(std::uint32_t pair, std::int64_t now) const {
   const double y = box.metres_y(wrapped_difference(b.y, a.y));
   const double ux = box.metres_x(wrapped_difference(b.ux, a.ux));
   const double uy = box.metres_y(wrapped_difference(b.uy, a.uy));
-  const double reach = (state_.grains.radius[i] + state_.grains.radius[j]) * generous
-                       + a.tolerance + b.tolerance;
+  const double reach =
+      (state_.grains.radius[i] + state_.grains.radius[j]) * generous + a.tolerance + b.tolerance;
 
   // The first s with |(x, y) + s (ux, uy)| = reach
   const double apart = x * x + y * y - reach * reach;
@@ -242,14 +251,14 @@ double Flights::free_steps_of_pair(std::uint32_t pair, std::int64_t now) const {
   return apart / (closing + std::sqrt(root2)) / generous;
 }
 
-/// The same for a grain and the wall grains in its way: it cannot touch one sooner than it could cover the gap to the
-/// nearest, nor sooner than its straight way across the tube brings it into the wall's reach.
+/// The same for a grain and the wall grains in its way: it cannot touch one sooner than it could
+/// cover the gap to the nearest, nor sooner than its straight way across the tube brings it into
+/// the wall's reach.
 double Flights::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
   const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
   const Course c = course(near.slot, now);
   const Box& box = state_.box;
-  const double reach =
-      (state_.grains.radius[near.slot] + wall.radius) * generous + c.tolerance;
+  const double reach = (state_.grains.radius[near.slot] + wall.radius) * generous + c.tolerance;
   const double ux = box.metres_x(c.ux);
   const double x = box.metres_x(c.x) - wall.line;
 

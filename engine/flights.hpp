@@ -1,15 +1,17 @@
 // Stepping at the cost of the contacts, not of the grains.
 //
-// In rapid flow nearly all grains are in free flight, which the integer kinematics crosses exactly in any
-// number of steps at once. So only the grains that take part in a contact are stepped. The others stand in the
-// store with the step of their last touch, and each candidate (a pair, or a grain near a wall) has an appointment: the
-// step before which it cannot touch as long as the grains keep to their courses. In that step it is looked at, and
-// either a contact begins or a new appointment is made.
+// In rapid flow nearly all grains are in free flight, which the integer kinematics crosses exactly
+// in any number of steps at once. So only the grains that take part in a contact are stepped. The
+// others stand in the store with the step of their last touch, and each candidate (a pair, or a
+// grain near a wall) has an appointment: the step before which it cannot touch as long as the
+// grains keep to their courses. In that step it is looked at, and either a contact begins or a new
+// appointment is made.
 //
-// A grain in contact leaves its course. Appointments with it are made with a tolerance: they hold as long as
-// it stays that close to the course; when it does not, or when its last contact ends, it gets a new course and new
-// appointments. So no contact is missed, and the steps done here are the same, bit by bit, as those of plain stepping.
-// See docs/performance.md for the figures and docs/architecture.md for how this compares with fixed windows.
+// A grain in contact leaves its course. Appointments with it are made with a tolerance: they hold
+// as long as it stays that close to the course; when it does not, or when its last contact ends, it
+// gets a new course and new appointments. So no contact is missed, and the steps done here are the
+// same, bit by bit, as those of plain stepping. See docs/performance.md for the figures and
+// docs/architecture.md for how this compares with fixed windows.
 #pragma once
 
 #include "engine/calendar.hpp"
@@ -23,7 +25,7 @@
 namespace riesel {
 
 class Flights {
- public:
+public:
   /// All grains of `state` must be at its step. One slice only. Keeps references.
   Flights(State& state, const ContactModel& model, Candidates& candidates);
 
@@ -33,7 +35,7 @@ class Flights {
   /// Brings all grains to this step, which must be that of the last step().
   void land_all(std::int64_t step);
 
- private:
+private:
   /// A grain that is stepped: how far it is from the course for which its appointments were made.
   struct Deflected {
     std::uint32_t slot;
@@ -75,7 +77,7 @@ class Flights {
   Candidates& candidates_;
   Slice& slice_;
   const Fixed fall_;
-  const double tolerance_;        // m
+  const double tolerance_;                 // m
   const Fixed tolerance_x_, tolerance_y_;  // quanta, along each axis
 
   std::vector<std::int64_t> since_;         // step of the position in the store, by slot

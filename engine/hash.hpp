@@ -1,4 +1,5 @@
-// 64-bit FNV-1a over plain values: tells equal results from unequal ones. No protection against intent.
+// 64-bit FNV-1a over plain values: tells equal results from unequal ones. No protection against
+// intent.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 namespace riesel {
 
 class Hash {
- public:
+public:
   template <class T>
   void add(T value) {
     static_assert(std::is_arithmetic_v<T>);
@@ -18,7 +19,7 @@ class Hash {
   }
   std::uint64_t value() const { return hash_; }
 
- private:
+private:
   std::uint64_t hash_ = 0xcbf29ce484222325U;
 };
 

@@ -10,7 +10,8 @@ namespace riesel {
 
 namespace {
 
-/// The system looks whether an impact is over every so many steps: what happens meanwhile is free flight.
+/// The system looks whether an impact is over every so many steps: what happens meanwhile is free
+/// flight.
 constexpr std::int64_t steps_between_looks = 16;
 
 /// An impact is given up after so many collision times, plus the time to cross so many wall grains.
@@ -59,8 +60,8 @@ double just_upstream(const ImpactSetup& setup, double x) {
 
 ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
   const double speed = std::hypot(impact.v_x, impact.v_y);
-  const double patience = patience_in_collisions * setup.collision_time
-                          + patience_in_reaches * setup.reach() / speed;
+  const double patience =
+      patience_in_collisions * setup.collision_time + patience_in_reaches * setup.reach() / speed;
   Simulation simulation(start(setup, impact), setup.model, 1);
   ImpactEnd end = ImpactEnd::stuck;
   while (simulation.state().time() < patience) {

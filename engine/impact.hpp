@@ -9,7 +9,8 @@
 
 namespace riesel {
 
-/// What all impacts of a curve share. The wall stands at x = 0, wall grain 0 at y = 0; there is no gravity.
+/// What all impacts of a curve share. The wall stands at x = 0, wall grain 0 at y = 0; there is no
+/// gravity.
 struct ImpactSetup {
   double grain_radius;       ///< m
   double grain_mass;         ///< kg
@@ -24,9 +25,9 @@ struct ImpactSetup {
 
 /// The start of one impact; x points from the wall into the tube.
 struct Impact {
-  double x, y;  ///< m
-  double v_x;   ///< m/s, towards the wall
-  double v_y;   ///< m/s, along it
+  double x, y;       ///< m
+  double v_x;        ///< m/s, towards the wall
+  double v_y;        ///< m/s, along it
   double time_step;  ///< s
 };
 
@@ -53,7 +54,8 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact);
 std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector<Impact>& impacts,
                                      int threads);
 
-/// Where a grain that comes from upstream along y at height x stands just before it touches wall grain 0: m.
+/// Where a grain that comes from upstream along y at height x stands just before it touches wall
+/// grain 0: m.
 double just_upstream(const ImpactSetup& setup, double x);
 
 }  // namespace riesel

@@ -1,4 +1,5 @@
-// How the kicks of contacts reach the velocities: given in one step, taken up at the beginning of the next.
+// How the kicks of contacts reach the velocities: given in one step, taken up at the beginning of
+// the next.
 #pragma once
 
 #include "engine/slice.hpp"

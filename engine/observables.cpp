@@ -37,8 +37,9 @@ ContactTally all_contacts(const State& state, bool of_walls) {
   return sum;
 }
 
-/// J. Contacts between grains do not change the momentum, so the way of the centre of mass follows from its
-/// start, from free fall, and from the impulses of the walls, of which one given at step s acts in n - s steps.
+/// J. Contacts between grains do not change the momentum, so the way of the centre of mass follows
+/// from its start, from free fall, and from the impulses of the walls, of which one given at step s
+/// acts in n - s steps.
 double work_of_gravity(const State& state, double mass, const ContactTally& walls) {
   const auto n = static_cast<double>(state.step);
   const double t = state.time();

@@ -14,14 +14,14 @@ struct Energies {
   double gravity_work = 0.0;   ///< J, done by gravity
   double normal_loss = 0.0;    ///< J, dissipated by the normal damping
   double friction_loss = 0.0;  ///< J, dissipated by friction
-  double residual = 0.0;       ///< J, origin + gravity work - all the rest: the error of the time step
+  double residual = 0.0;  ///< J, origin + gravity work - all the rest: the error of the time step
 };
 
 struct Observables {
-  double time = 0.0;                  ///< s
-  double mean_vx = 0.0, mean_vy = 0.0;  ///< m/s, over grains
+  double time = 0.0;                      ///< s
+  double mean_vx = 0.0, mean_vy = 0.0;    ///< m/s, over grains
   double sigma_vx = 0.0, sigma_vy = 0.0;  ///< m/s, standard deviations over grains
-  double granular_temperature = 0.0;  ///< (m/s)^2, (sigma_vx^2 + sigma_vy^2) / 2
+  double granular_temperature = 0.0;      ///< (m/s)^2, (sigma_vx^2 + sigma_vy^2) / 2
   Energies energies;
   double contacts = 0.0;              ///< per grain, now
   double grain_contacts_begun = 0.0;  ///< cumulative count

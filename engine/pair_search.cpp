@@ -14,9 +14,11 @@ namespace {
 constexpr std::size_t block = 64;  // pairs tested at a time: their results make one 64-bit word
 
 /// result[p] = 1 where pair p may overlap.
-[[gnu::always_inline]] inline void test_block(const std::uint32_t* first, const std::uint32_t* second, const float* reach2,
-                const std::int32_t* x, const std::int32_t* y, CoarseUnits units, std::size_t count,
-                std::uint8_t* result) {
+[[gnu::always_inline]] inline void test_block(const std::uint32_t* first,
+                                              const std::uint32_t* second, const float* reach2,
+                                              const std::int32_t* x, const std::int32_t* y,
+                                              CoarseUnits units, std::size_t count,
+                                              std::uint8_t* result) {
 #pragma omp simd
   for (std::size_t p = 0; p < count; ++p) {
     const std::uint32_t i = first[p], j = second[p];

@@ -1,8 +1,8 @@
 // Which of the candidate pairs overlap? The innermost loop of plain stepping.
 //
 // It looks only at the upper 32 bits of the coordinates: half the memory, twice the lanes, and the
-// nearest image along y is still integer overflow. The answer errs on the side of a hit by a few units of the
-// coarse position; the contact loop then decides with all bits.
+// nearest image along y is still integer overflow. The answer errs on the side of a hit by a few
+// units of the coarse position; the contact loop then decides with all bits.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -26,15 +26,18 @@ struct CoarseUnits {
         y(static_cast<float>(box.quantum_y() * 0x1p32)) {}
   float x, y;  ///< m
 
-  /// (reach + resolution)^2 in m^2, rounded up: no pair closer than `reach` (m) is farther in coarse positions.
+  /// (reach + resolution)^2 in m^2, rounded up: no pair closer than `reach` (m) is farther in
+  /// coarse positions.
   float generous_square(double reach) const {
-    // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7 relative.
+    // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7
+    // relative.
     const double generous = reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y));
     return static_cast<float>(generous * generous * (1.0 + 1e-6));
   }
 };
 
-/// Writes to slice.hits and slice.wall_hits the indices of the candidates that may overlap, in increasing order.
+/// Writes to slice.hits and slice.wall_hits the indices of the candidates that may overlap, in
+/// increasing order.
 void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
                       CoarseUnits units);
 

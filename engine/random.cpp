@@ -9,10 +9,10 @@ namespace riesel {
 
 namespace {
 
-/// 53 random bits to the middle of one of 2^53 equal parts of (0, 1).
+/// 52 random bits to the middle of one of 2^52 equal parts of (0, 1), which a double holds exactly.
 double open_unit(std::uint32_t high, std::uint32_t low) {
-  const std::uint64_t bits = ((static_cast<std::uint64_t>(high) << 32) | low) >> 11;
-  return (static_cast<double>(bits) + 0.5) * 0x1p-53;
+  const std::uint64_t bits = ((static_cast<std::uint64_t>(high) << 32) | low) >> 12;
+  return (static_cast<double>(bits) + 0.5) * 0x1p-52;
 }
 
 }  // namespace
@@ -21,9 +21,8 @@ RandomStream::RandomStream(std::uint64_t seed, Use use)
     : seed_(seed), use_(static_cast<std::uint32_t>(use)) {}
 
 std::array<double, 2> RandomStream::uniform(std::uint64_t whose, std::uint32_t draw) const {
-  const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(whose),
-                                               static_cast<std::uint32_t>(whose >> 32), draw,
-                                               use_}};
+  const r123::Philox4x32::ctr_type counter = {
+      {static_cast<std::uint32_t>(whose), static_cast<std::uint32_t>(whose >> 32), draw, use_}};
   const r123::Philox4x32::key_type key = {
       {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
   const auto bits = r123::Philox4x32()(counter, key);

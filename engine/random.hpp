@@ -13,7 +13,7 @@ namespace riesel {
 enum class Use : std::uint32_t { radius = 1, vacancy = 2, velocity = 3 };
 
 class RandomStream {
- public:
+public:
   RandomStream(std::uint64_t seed, Use use);
 
   /// Two independent numbers in (0, 1).
@@ -21,7 +21,7 @@ class RandomStream {
   /// Two independent numbers with mean 0 and variance 1 (Box and Muller).
   std::array<double, 2> normal(std::uint64_t whose, std::uint32_t draw = 0) const;
 
- private:
+private:
   std::uint64_t seed_;
   std::uint32_t use_;
 };

@@ -9,6 +9,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -16,19 +17,41 @@ namespace riesel {
 
 namespace {
 
-/// `state` if a simulation can start from it, its balances opened.
-State ready(State state) {
-  const Grains& g = state.grains;
-  if (g.size() == 0) throw std::invalid_argument("a simulation needs at least one grain");
-  if (!(state.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
+void require(bool condition, const char* otherwise) {
+  if (!condition) throw std::invalid_argument(otherwise);
+}
+
+void check_grains(const Grains& g) {
+  require(g.size() > 0, "a simulation needs at least one grain");
   std::vector<bool> seen(g.size(), false);
   for (std::size_t i = 0; i < g.size(); ++i) {
-    if (!(g.radius[i] > 0.0) || !(g.mass[i] > 0.0))
-      throw std::invalid_argument("radii and masses must be positive");
+    require(g.radius[i] > 0.0 && g.mass[i] > 0.0, "radii and masses must be positive");
     const auto id = static_cast<std::size_t>(g.id[i]);
-    if (id >= g.size() || seen[id]) throw std::invalid_argument("ids must be a permutation");
+    require(id < g.size() && !seen[id], "ids must be a permutation");
     seen[id] = true;
   }
+}
+
+void check_contacts(const State& state) {
+  const auto grains = static_cast<std::int32_t>(state.grains.size());
+  const auto walls = static_cast<std::int32_t>(state.walls.size());
+  for (const Contact& contact : state.contacts) {
+    const auto& [wall, grain, partner] = contact.name;
+    const bool known_partner = partner >= 0 && (wall != no_wall || partner < grains);
+    require(grain >= 0 && grain < grains && known_partner && wall >= no_wall && wall < walls,
+            "a contact of bodies that do not exist");
+  }
+}
+
+/// `state` if a simulation can start from it, its balances opened.
+State ready(State state) {
+  require(state.box.width > 0.0 && state.box.length > 0.0, "the box must have a size");
+  require(state.time_step > 0.0, "the time step must be positive");
+  require(std::isfinite(state.gravity), "gravity must be finite");
+  for (const WallLattice& wall : state.walls)
+    require(wall.count > 0 && wall.radius > 0.0, "a wall must have grains");
+  check_grains(state.grains);
+  check_contacts(state);
   if (state.step == 0) state.origin = origin_of(state);
   return state;
 }
@@ -45,6 +68,7 @@ RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, F
 
 /// OpenMP may grant fewer threads than asked for, and every slice needs one.
 int team_size(int wanted) {
+  require(wanted > 0, "a simulation needs at least one thread");
   int granted = 1;
 #pragma omp parallel num_threads(wanted)
 #pragma omp single
@@ -55,9 +79,9 @@ int team_size(int wanted) {
 std::string partners(const ContactName& name) {
   const std::string grain = "grain " + std::to_string(name.grain);
   const std::string partner = std::to_string(name.partner);
-  return name.wall == no_wall ? grain + " and grain " + partner
-                              : grain + " and grain " + partner + " of wall "
-                                    + std::to_string(name.wall);
+  return name.wall == no_wall
+             ? grain + " and grain " + partner
+             : grain + " and grain " + partner + " of wall " + std::to_string(name.wall);
 }
 
 }  // namespace
@@ -69,15 +93,19 @@ int useful_threads(std::size_t grains) {
 }
 
 Simulation::Simulation(State state, const ContactModel& model, int threads, Stepping stepping)
-    : state_(ready(std::move(state))), model_(model), fall_(fall_per_step(state_)),
-      stepping_(stepping), candidates_(state_, team_size(threads)) {
+    : state_(ready(std::move(state))),
+      model_(model),
+      fall_(fall_per_step(state_)),
+      stepping_(stepping),
+      candidates_(state_, team_size(threads)) {
   if (stepping == Stepping::windows && threads > 1)
     throw std::invalid_argument("windows are stepped on one thread");
 }
 
 Simulation::~Simulation() = default;
 
-/// One step of all grains, by all threads together, each with its slice: the leapfrog form of velocity Verlet.
+/// One step of all grains, by all threads together, each with its slice: the leapfrog form of
+/// velocity Verlet.
 void Simulation::step(Slice& mine, std::int64_t step) {
   drift(mine, step);
 #pragma omp barrier
@@ -99,7 +127,8 @@ void Simulation::advance(std::int64_t steps) {
   fail_if_in_trouble();
 }
 
-/// Decided by the state. Few contacts: where more than this part of the grains touch, looking at all is cheaper.
+/// Decided by the state. Few contacts: where more than this part of the grains touch, looking at
+/// all is cheaper.
 bool Simulation::flights_pay() const {
   constexpr double most_contacts_per_grain = 0.05;
   if (stepping_ != Stepping::automatic) return stepping_ == Stepping::windows;
@@ -117,11 +146,9 @@ void Simulation::advance_plainly(std::int64_t last) {
     complete = false;  // the same for all
   } else {
     Slice& mine = candidates_.slices()[static_cast<std::size_t>(omp_get_thread_num())];
-    for (std::int64_t next = first; next <= last && !in_trouble(); ++next)
-      step(mine, next);
+    for (std::int64_t next = first; next <= last && !in_trouble(); ++next) step(mine, next);
   }
-  if (!complete)
-    throw RunFailure("the system grants fewer threads than at the start of the run");
+  if (!complete) throw RunFailure("the system grants fewer threads than at the start of the run");
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {
@@ -163,8 +190,8 @@ void Simulation::collect() {
 }
 
 void Simulation::fail_if_in_trouble() const {
-  const std::string when = " at t = " + std::to_string(state_.time()) + " s (step "
-                           + std::to_string(state_.step) + ")";
+  const std::string when =
+      " at t = " + std::to_string(state_.time()) + " s (step " + std::to_string(state_.step) + ")";
   for (const Slice& slice : candidates_.slices()) {
     if (slice.trouble)
       throw RunFailure("the force between " + partners(*slice.trouble) + " is not finite" + when);

@@ -24,30 +24,31 @@ int useful_threads(std::size_t grains);
 
 /// How grains in free flight are moved. The results are the same, bit by bit.
 enum class Stepping {
-  plain,    ///< all grains in each step
-  windows,  ///< grains that touch nothing cross many steps at once; on one thread only
-  automatic ///< windows while few grains touch and there is one thread, else plain
+  plain,     ///< all grains in each step
+  windows,   ///< grains that touch nothing cross many steps at once; on one thread only
+  automatic  ///< windows while few grains touch and there is one thread, else plain
 };
 
 class Simulation {
- public:
-  /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its invariants do not
-  /// hold, the box is too small for the nearest image to be unique, or windows are wanted on several threads.
+public:
+  /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its
+  /// invariants do not hold, the box is too small for the nearest image to be unique, or windows
+  /// are wanted on several threads.
   Simulation(State state, const ContactModel& model, int threads,
              Stepping stepping = Stepping::automatic);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
 
-  /// Does `steps` steps. The result does not depend on the number of threads, nor on how the steps are shared
-  /// between calls. Throws RunFailure when a force is not finite or a grain is lost.
+  /// Does `steps` steps. The result does not depend on the number of threads, nor on how the steps
+  /// are shared between calls. Throws RunFailure when a force is not finite or a grain is lost.
   void advance(std::int64_t steps);
 
   const State& state() const { return state_; }
   const ContactModel& model() const { return model_; }
   int threads() const { return static_cast<int>(candidates_.slices().size()); }
 
- private:
+private:
   void step(Slice& mine, std::int64_t step);
   void advance_plainly(std::int64_t last);
   void advance_by_flights(std::int64_t last);

@@ -14,10 +14,12 @@
 
 namespace riesel {
 
-/// Pairs of slots that can touch before the next sorting, ordered by the first. Arrays of equal size.
+/// Pairs of slots that can touch before the next sorting, ordered by the first. Arrays of equal
+/// size.
 struct CandidatePairs {
   AlignedVector<std::uint32_t> first, second;
-  AlignedVector<float> reach2;  ///< m^2, (sum of radii)^2 plus the resolution of the coarse positions
+  AlignedVector<float>
+      reach2;  ///< m^2, (sum of radii)^2 plus the resolution of the coarse positions
 
   std::size_t size() const { return first.size(); }
   void clear() {
@@ -38,7 +40,8 @@ struct NearWall {
   std::int32_t wall;
 };
 
-/// The place of a wall contact in the order of the search: by place in near_walls, then by wall grain.
+/// The place of a wall contact in the order of the search: by place in near_walls, then by wall
+/// grain.
 constexpr std::uint64_t wall_contact_key(std::size_t place, std::int32_t wall_grain) {
   return static_cast<std::uint64_t>(place) << 32 | static_cast<std::uint32_t>(wall_grain);
 }
@@ -62,8 +65,8 @@ struct Slice {
   std::vector<Kick> kicks;     ///< of this step, by contacts of the slice on grains of any slice
   std::vector<Kick> received;  ///< of this step, by contacts of any slice on grains of the slice
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
-  double farthest = 0.0;       ///< m, largest own displacement relative to the drift since the sorting
-  double budget = 0.0;         ///< m, displacement that leaves the candidates valid; equal in all slices
+  double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
+  double budget = 0.0;    ///< m, displacement that leaves the candidates valid; equal in all slices
 
   Tally tally;                         ///< of contacts that began or ended in the last advance
   std::optional<ContactName> trouble;  ///< a contact whose force is no usable number

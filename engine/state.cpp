@@ -15,7 +15,7 @@ void add(Hash& hash, const Grains& g, std::size_t i) {
 
 void add(Hash& hash, const Contact& c) {
   for (const auto part : {c.name.wall, c.name.grain, c.name.partner}) hash.add(part);
-  for (const auto part : {c.begin, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path,
+  for (const auto part : {c.begin, c.end, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path,
                           c.normal_loss, c.friction_loss, c.impulse_y, c.impulse_y_times_step})
     hash.add(part);
 }
@@ -51,8 +51,8 @@ void add_grain(State& state, const Grain& grain) {
   g.x[i] = state.box.fixed_x(grain.x);
   g.y[i] = state.box.fixed_y(grain.y);
   g.ux[i] = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x());
-  g.uy[i] = nearest_fixed(grain.vy * state.time_step / state.box.quantum_y())
-            - fall_per_step(state) / 2;
+  g.uy[i] =
+      nearest_fixed(grain.vy * state.time_step / state.box.quantum_y()) - fall_per_step(state) / 2;
   g.radius[i] = grain.radius;
   g.mass[i] = grain.mass;
   g.id[i] = static_cast<std::int32_t>(i);

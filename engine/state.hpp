@@ -1,8 +1,9 @@
 // The state of a simulation: everything that the future depends on, and nothing else.
 //
-// Time is the number of steps done. At step n a grain has its position X(n); its displacement per step
-// U, which is the leapfrog velocity w(n-1/2) dt seen from a frame that falls freely since step 0; and the
-// kick K(n), the contact acceleration at step n times dt^2, which the next step adds to U. Hence
+// Time is the number of steps done. At step n a grain has its position X(n); its displacement per
+// step U, which is the leapfrog velocity w(n-1/2) dt seen from a frame that falls freely since step
+// 0; and the kick K(n), the contact acceleration at step n times dt^2, which the next step adds to
+// U. Hence
 //
 //   displacement in the step n-1 -> n   D = U + G n               G = gravity dt^2, along y only
 //   velocity at step n                  v dt = U + G n + (G + K) / 2
@@ -24,9 +25,9 @@
 
 namespace riesel {
 
-/// The free grains, a structure of arrays. The slot of a grain changes when the store is sorted, its id
-/// does not. Invariants: all arrays have the same size; ids are a permutation of 0 ... size-1; radius and
-/// mass are positive.
+/// The free grains, a structure of arrays. The slot of a grain changes when the store is sorted,
+/// its id does not. Invariants: all arrays have the same size; ids are a permutation of 0 ...
+/// size-1; radius and mass are positive.
 struct Grains {
   AlignedVector<Fixed> x, y;            ///< position, quanta of the box's axes
   AlignedVector<Fixed> ux, uy;          ///< U: displacement per step in the falling frame, quanta
@@ -48,9 +49,9 @@ struct Origin {
 struct State {
   Box box{};
   std::vector<WallLattice> walls;
-  double gravity = 0.0;     ///< m/s^2, along +y
-  double time_step = 0.0;   ///< s
-  std::int64_t step = 0;    ///< steps done
+  double gravity = 0.0;    ///< m/s^2, along +y
+  double time_step = 0.0;  ///< s
+  std::int64_t step = 0;   ///< steps done
   Grains grains;
   std::vector<Contact> contacts;  ///< those that last, ordered by (wall, grain, partner)
   Tally tally;                    ///< what the ended contacts did since step 0

@@ -1,7 +1,7 @@
 // What the ended contacts of a run did, summed since step 0.
 //
-// Every member is a count, a maximum or an exact sum, so that tallies of several threads can be merged in
-// any order.
+// Every member is a count, a maximum or an exact sum, so that tallies of several threads can be
+// merged in any order.
 #pragma once
 
 #include "engine/contact.hpp"
@@ -20,8 +20,9 @@ struct ContactTally {
   ExactSum slip_path;        ///< m
   ExactSum normal_loss;      ///< J
   ExactSum friction_loss;    ///< J
-  /// kg m/s, impulse along y on the first grain of each contact; and the same with each step's part weighted
-  /// by the number of the step: for the walls the two tell how far the grains have fallen (gravity_work).
+  /// kg m/s, impulse along y on the first grain of each contact; and the same with each step's part
+  /// weighted by the number of the step: for the walls the two tell how far the grains have fallen
+  /// (gravity_work).
   ExactSum impulse_y;
   ExactSum impulse_y_times_step;
 

@@ -1,7 +1,7 @@
 // A corrugated wall: a row of equal, fixed grains, known in closed form.
 //
-// Which wall grains are near follows from index arithmetic on the fixed-point ring; nothing is stored per wall
-// grain, and the wall of a long tube costs as much memory as that of a short one.
+// Which wall grains are near follows from index arithmetic on the fixed-point ring; nothing is
+// stored per wall grain, and the wall of a long tube costs as much memory as that of a short one.
 #pragma once
 
 #include "engine/box.hpp"
@@ -25,7 +25,8 @@ struct WallLattice {
   }
 };
 
-/// Calls visit(k, y) for all wall grains whose y is within `reach` (m) of `y`, and a few more, in increasing k.
+/// Calls visit(k, y) for all wall grains whose y is within `reach` (m) of `y`, and a few more, in
+/// increasing k.
 template <class Visit>
 void for_each_wall_grain_within(const WallLattice& wall, const Box& box, Fixed y, double reach,
                                 Visit visit) {

@@ -131,7 +131,8 @@ SettingsTable run_settings() {
        .kind = Kind::choice,
        .fallback = "auto",
        .choices = {"auto", "plain", "windows"},
-       .doc = "Whether all grains are moved in each step (`plain`), or those in free flight cross many "
+       .doc = "Whether all grains are moved in each step (`plain`), or those in free flight cross "
+              "many "
               "steps at once (`windows`, on one thread). The results do not depend on it."},
   };
 }

@@ -117,7 +117,8 @@ std::string unknown_key_remedy(const std::string& key, const std::string& scenar
   if (const auto remedy = other_scenario_remedy(key, scenario, tables)) return *remedy;
   if (const auto remedy = mistyped_remedy(key, table)) return *remedy;
   const auto section = section_of(key);
-  if (section.empty() || !has_section(table, section)) return "expected " + enumerate(top_level_names(table));
+  if (section.empty() || !has_section(table, section))
+    return "expected " + enumerate(top_level_names(table));
   return fmt::format("the keys of {} are {}", section, enumerate(names_of(table, section)));
 }
 

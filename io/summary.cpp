@@ -41,13 +41,11 @@ std::string to_json(const FlowSummary& s) {
                      {"dv_y", s.balance.dv_y},
                      {"n_dot_dv_y", s.balance.n_dot_dv_y},
                      {"gravity", s.balance.gravity}};
-  json["energy"] = {{"initial", s.energy.initial},
-                    {"kinetic", s.energy.kinetic},
-                    {"elastic", s.energy.elastic},
-                    {"gravity_work", s.energy.gravity_work},
-                    {"normal_loss", s.energy.normal_loss},
-                    {"friction_loss", s.energy.friction_loss},
-                    {"residual", s.energy.residual}};
+  json["energy"] = {
+      {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},
+      {"elastic", s.energy.elastic},         {"gravity_work", s.energy.gravity_work},
+      {"normal_loss", s.energy.normal_loss}, {"friction_loss", s.energy.friction_loss},
+      {"residual", s.energy.residual}};
   json["validity"] = {{"max_overlap_ratio", s.validity.max_overlap_ratio},
                       {"v_crit", s.validity.v_crit}};
   return text_of(json);

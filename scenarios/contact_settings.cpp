@@ -11,8 +11,8 @@ namespace riesel::scenarios {
 
 namespace {
 
-/// The restitution of a system is that of a grain of `grains.mass` with the wall, as in the paper, unless
-/// `restitution_of` says that two such grains are meant.
+/// The restitution of a system is that of a grain of `grains.mass` with the wall, as in the paper,
+/// unless `restitution_of` says that two such grains are meant.
 double linear_damping(const io::Settings& settings) {
   settings.require_exactly_one({"contact.damping", "contact.restitution"});
   if (settings.has("contact.damping")) return settings.number("contact.damping");
@@ -48,7 +48,7 @@ SlipLaw slip_law(const io::Settings& settings) {
     settings.reject("contact.restitution", problem,
                     "choose it larger, or restitution_of: wall, where damping counts most");
   settings.reject("contact.damping", problem,
-                  fmt::format("choose less than {:.4g} 1/s, which is critical for the heaviest pair",
+                  fmt::format("choose it below {:.4g} 1/s, which is critical for the heaviest pair",
                               2.0 * std::sqrt(contact.k_n / contact.reduced_mass)));
 }
 
@@ -58,8 +58,8 @@ ContactModel contact_model(const io::Settings& settings) {
   return {.normal = normal_law(settings),
           .slip = slip_law(settings),
           .friction = settings.number("contact.friction"),
-          .attraction = settings.text("contact.attraction") == "clip" ? Attraction::clip
-                                                                      : Attraction::keep};
+          .attraction =
+              settings.text("contact.attraction") == "clip" ? Attraction::clip : Attraction::keep};
 }
 
 double collision_time(const io::Settings& settings, const ContactModel& model,

@@ -6,8 +6,8 @@
 
 namespace riesel::scenarios {
 
-/// s, shortest duration of a head-on contact with the given reduced mass (kg). Rejects a contact that would not
-/// rebound.
+/// s, shortest duration of a head-on contact with the given reduced mass (kg). Rejects a contact
+/// that would not rebound.
 double collision_time(const io::Settings& settings, const ContactModel& model, double reduced_mass);
 
 /// s, collision time divided by run.steps_per_collision.

@@ -50,11 +50,8 @@ void add_point(const io::Settings& settings, ImpactCurve& curve, double v_x, dou
   curve.points.push_back(
       {.v_x = v_x, .v_y = v_y, .first_impact = curve.impacts.size(), .impacts = starts.size()});
   for (const double y : starts)
-    curve.impacts.push_back({.x = x,
-                             .y = y,
-                             .v_x = v_x,
-                             .v_y = v_y,
-                             .time_step = time_step(settings, shortest)});
+    curve.impacts.push_back(
+        {.x = x, .y = y, .v_x = v_x, .v_y = v_y, .time_step = time_step(settings, shortest)});
 }
 
 }  // namespace riesel::scenarios

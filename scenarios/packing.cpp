@@ -35,20 +35,20 @@ struct Lattice {
   }
 };
 
-/// The lattice with room for n grains whose sites are farthest apart. `radius` (m) keeps the outer columns off
-/// the walls.
+/// The lattice with room for n grains whose sites are farthest apart. `radius` (m) keeps the outer
+/// columns off the walls.
 Lattice widest_lattice(const State& empty, std::size_t n, double radius) {
   const double wall = empty.walls.front().radius;
   const double width = empty.box.width - 2.0 * (wall + radius);
   Lattice best{};
   for (std::size_t columns = 1; columns <= n; ++columns) {
     const std::size_t rows = (n + columns - 1) / columns;
-    const Lattice lattice{
-        .columns = columns,
-        .rows = rows,
-        .x_first = columns == 1 ? 0.5 * empty.box.width : wall + radius,
-        .x_spacing = columns == 1 ? 0.0 : width / static_cast<double>(columns - 1),
-        .y_spacing = empty.box.length / static_cast<double>(rows)};
+    const Lattice lattice{.columns = columns,
+                          .rows = rows,
+                          .x_first = columns == 1 ? 0.5 * empty.box.width : wall + radius,
+                          .x_spacing =
+                              columns == 1 ? 0.0 : width / static_cast<double>(columns - 1),
+                          .y_spacing = empty.box.length / static_cast<double>(rows)};
     if (best.columns == 0 || lattice.closest() > best.closest()) best = lattice;
     if (columns > 1 && 2.0 * lattice.x_spacing < best.closest()) break;  // only narrower from here
   }
@@ -63,7 +63,8 @@ std::vector<Place> occupied_sites(const Lattice& lattice, std::size_t n, std::ui
   const auto end = lots.begin() + static_cast<std::ptrdiff_t>(n);
   std::nth_element(lots.begin(), end - 1, lots.end());
   std::vector<std::size_t> chosen;
-  std::transform(lots.begin(), end, std::back_inserter(chosen), [](auto& lot) { return lot.second; });
+  std::transform(lots.begin(), end, std::back_inserter(chosen),
+                 [](auto& lot) { return lot.second; });
   std::sort(chosen.begin(), chosen.end());
 
   std::vector<Place> places;
@@ -71,12 +72,13 @@ std::vector<Place> occupied_sites(const Lattice& lattice, std::size_t n, std::ui
   return places;
 }
 
-/// Lets soft grains push each other apart. Their radii are a little too large, so that what overlaps a little in
-/// the end does not overlap in truth.
+/// Lets soft grains push each other apart. Their radii are a little too large, so that what
+/// overlaps a little in the end does not overlap in truth.
 class Relaxation {
- public:
+public:
   Relaxation(const State& empty, const std::vector<Place>& places, const std::vector<double>& radii)
-      : radii_(radii), simulation_(start(empty, places, radii), model(), useful_threads(radii.size())) {}
+      : radii_(radii),
+        simulation_(start(empty, places, radii), model(), useful_threads(radii.size())) {}
 
   /// False if overlaps remain.
   bool succeeds() {
@@ -97,7 +99,7 @@ class Relaxation {
     return places;
   }
 
- private:
+private:
   static constexpr double inflation = 2e-3;
   static constexpr double restitution = 0.1;
   static constexpr double steps_per_collision = 30.0;
@@ -107,8 +109,8 @@ class Relaxation {
   static constexpr double stiffness = 1.0, mass = 1.0;
 
   static ContactModel model() {
-    return {.normal = LinearLaw{stiffness,
-                                damping_for_restitution(restitution, stiffness, 0.5 * mass)},
+    return {.normal =
+                LinearLaw{stiffness, damping_for_restitution(restitution, stiffness, 0.5 * mass)},
             .slip = CappedSlip{},
             .friction = 0.0,
             .attraction = Attraction::clip};
@@ -118,8 +120,7 @@ class Relaxation {
                      const std::vector<double>& radii) {
     State state = empty;
     state.gravity = 0.0;
-    state.time_step =
-        collision_time(model().normal, 0.5 * mass, 0.0) / steps_per_collision;
+    state.time_step = collision_time(model().normal, 0.5 * mass, 0.0) / steps_per_collision;
     for (std::size_t i = 0; i < places.size(); ++i)
       add_grain(state, {.x = places[i].x,
                         .y = places[i].y,

@@ -1,8 +1,9 @@
 // The start of the tube: grains at random places without overlap.
 //
-// Up to an area fraction of about 0.7 the grains stand on a staggered lattice with vacancies at random, wide enough for
-// the largest of them. Beyond its reach the lattice is too narrow: large grains overlap at first and the engine itself
-// pushes them apart, with contacts so inelastic that the heat goes at once, until nothing overlaps any more.
+// Up to an area fraction of about 0.7 the grains stand on a staggered lattice with vacancies at
+// random, wide enough for the largest of them. Beyond its reach the lattice is too narrow: large
+// grains overlap at first and the engine itself pushes them apart, with contacts so inelastic that
+// the heat goes at once, until nothing overlaps any more.
 #pragma once
 
 #include "engine/state.hpp"
@@ -17,8 +18,8 @@ struct Place {
   double x, y;  ///< m
 };
 
-/// Places for grains of the given radii (m) in a box with two corrugated walls whose lattices stand in `empty`
-/// (a state without grains). Nothing if they do not fit.
+/// Places for grains of the given radii (m) in a box with two corrugated walls whose lattices stand
+/// in `empty` (a state without grains). Nothing if they do not fit.
 std::optional<std::vector<Place>> pack(const State& empty, const std::vector<double>& radii,
                                        std::uint64_t seed);
 

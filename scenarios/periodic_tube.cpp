@@ -1,8 +1,9 @@
-// Many grains fall through a vertical tube with corrugated walls, periodic along the fall: Fig. 6 of
-// Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
+// Many grains fall through a vertical tube with corrugated walls, periodic along the fall: Fig. 6
+// of Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
 //
-// Started slowly, the grains reach a steady state in which collisions with the walls balance gravity. Started
-// fast, they may reach another one, which the paper shows to be an artefact of soft grains.
+// Started slowly, the grains reach a steady state in which collisions with the walls balance
+// gravity. Started fast, they may reach another one, which the paper shows to be an artefact of
+// soft grains.
 #include "engine/closed_forms.hpp"
 #include "engine/random.hpp"
 #include "scenarios/contact_settings.hpp"
@@ -49,7 +50,8 @@ io::SettingsTable own_settings() {
        .unit = "1",
        .fallback = "0.55",
        .range = io::between(0.001, 0.9),
-       .doc = "Area of the free grains divided by width times length of the tube; met to one grain."},
+       .doc =
+           "Area of the free grains divided by width times length of the tube; met to one grain."},
       {.key = "wall.grain_diameter",
        .unit = "m",
        .fallback = "0.66 mm",
@@ -65,7 +67,8 @@ io::SettingsTable own_settings() {
        .unit = "m",
        .fallback = "20 mm",
        .range = io::positive(),
-       .doc = "Distance between the two wall lines, on which the centres of the wall grains stand."},
+       .doc =
+           "Distance between the two wall lines, on which the centres of the wall grains stand."},
       {.key = "tube.length",
        .unit = "m",
        .fallback = "100 mm",
@@ -157,8 +160,9 @@ void reject_what_has_no_room(const io::Settings& settings, const State& empty) {
   const double largest = settings.number("grains.diameter") * largest_relative_diameter(settings);
   const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
   if (free_width < largest)
-    settings.reject("tube.width", "too narrow for the grains between the wall grains",
-                    fmt::format("choose more than {:.6g} m", largest + empty.box.width - free_width));
+    settings.reject(
+        "tube.width", "too narrow for the grains between the wall grains",
+        fmt::format("choose more than {:.6g} m", largest + empty.box.width - free_width));
   if (empty.box.length < 4.0 * largest * (1.0 - 1e-12))
     settings.reject("tube.length", "too short for a periodic tube of grains of this size",
                     fmt::format("choose at least four grain diameters, {:.6g} m", 4.0 * largest));
@@ -167,7 +171,7 @@ void reject_what_has_no_room(const io::Settings& settings, const State& empty) {
   if (wanted * empty.box.width > densest * free_width)
     settings.reject("grains.area_fraction", "more than can be packed between the wall grains",
                     fmt::format("choose at most {:.3f}, and less for grains of unequal size",
-                                densest * free_width / empty.box.width));
+                                std::floor(1e3 * densest * free_width / empty.box.width) / 1e3));
 }
 
 /// Velocities as set, exactly: that of the centre of mass, and the mean square of the random part.
@@ -198,8 +202,7 @@ void set_velocities(const io::Settings& settings, std::vector<Grain>& grains) {
 
 std::vector<Grain> start_grains(const io::Settings& settings, const State& empty) {
   const std::vector<double> radii = draw_radii(settings, empty.box);
-  const auto places =
-      pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
+  const auto places = pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
   if (!places)
     settings.reject("grains.area_fraction", "no start without overlaps was found",
                     "choose a smaller fraction, or grains of more equal size");
@@ -232,8 +235,8 @@ Problem prepare(const io::Settings& settings) {
   const ContactModel model = contact_model(settings);
   const std::vector<Grain> grains = start_grains(settings, state);
 
-  const auto lightest = std::min_element(
-      grains.begin(), grains.end(), [](auto& a, auto& b) { return a.mass < b.mass; });
+  const auto lightest = std::min_element(grains.begin(), grains.end(),
+                                         [](auto& a, auto& b) { return a.mass < b.mass; });
   const double shortest = collision_time(settings, model, 0.5 * lightest->mass);
   reject_what_does_not_rebound(settings, model, grains);
   state.time_step = time_step(settings, shortest);
@@ -249,8 +252,9 @@ Problem prepare(const io::Settings& settings) {
 
 Scenario periodic_tube() {
   return {.name = "periodic_tube",
-          .summary = "Grains fall through a periodic vertical tube with corrugated walls: steady mean "
-                     "velocity (Fig. 6).",
+          .summary =
+              "Grains fall through a periodic vertical tube with corrugated walls: steady mean "
+              "velocity (Fig. 6).",
           .own_settings = own_settings(),
           .prepare = prepare};
 }

@@ -1,8 +1,8 @@
-// A scenario turns settings into a problem for the engine. One scenario is one .cpp file, with the .yaml
-// beside it that reproduces a figure of the paper; all of them stand in one table.
+// A scenario turns settings into a problem for the engine. One scenario is one .cpp file, with the
+// .yaml beside it that reproduces a figure of the paper; all of them stand in one table.
 //
-// To add one: write its .cpp with a function that returns its Scenario, declare that function in table.cpp and
-// add it to the table there.
+// To add one: write its .cpp with a function that returns its Scenario, declare that function in
+// table.cpp and add it to the table there.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -37,9 +37,9 @@ using Problem = std::variant<Flow, ImpactCurve>;
 
 struct Scenario {
   std::string name;
-  std::string summary;                           ///< one sentence, with the figure it reproduces
-  io::SettingsTable own_settings;                ///< besides the common ones
-  Problem (*prepare)(const io::Settings&);       ///< throws SettingsError for what cannot be
+  std::string summary;                      ///< one sentence, with the figure it reproduces
+  io::SettingsTable own_settings;           ///< besides the common ones
+  Problem (*prepare)(const io::Settings&);  ///< throws SettingsError for what cannot be
 };
 
 /// All scenarios, in the order in which they are listed to the user.
@@ -51,7 +51,8 @@ const Scenario& named(const std::string& name);
 /// The settings of each scenario, common rows included: what io::Settings wants.
 const io::SettingsTables& settings_tables();
 
-/// The contact model of a problem: fixed by the settings alone, so that a resumed run finds it again.
+/// The contact model of a problem: fixed by the settings alone, so that a resumed run finds it
+/// again.
 ContactModel contact_model(const io::Settings& settings);
 
 }  // namespace riesel::scenarios

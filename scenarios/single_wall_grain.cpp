@@ -1,7 +1,9 @@
-// One grain grazes one wall grain: Figs. 2 and 3 of Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
+// One grain grazes one wall grain: Figs. 2 and 3 of Schaefer and Wolf, Phys. Rev. E 51, 6154
+// (1995).
 //
-// The free grain comes along y at a fixed height above the wall line and loses axial velocity to friction. Above
-// v_crit = chord / t_col it passes before the contact can push it away, and the loss falls again.
+// The free grain comes along y at a fixed height above the wall line and loses axial velocity to
+// friction. Above v_crit = chord / t_col it passes before the contact can push it away, and the
+// loss falls again.
 #include "engine/closed_forms.hpp"
 #include "scenarios/impact_settings.hpp"
 
@@ -13,11 +15,12 @@ namespace {
 
 io::SettingsTable own_settings() {
   io::SettingsTable rows = impact_settings();
-  rows.push_back({.key = "impact.height",
-                  .unit = "m",
-                  .fallback = "0.82 mm",
-                  .range = io::non_negative(),
-                  .doc = "Distance of the free grain's centre from the wall line before the impact."});
+  rows.push_back(
+      {.key = "impact.height",
+       .unit = "m",
+       .fallback = "0.82 mm",
+       .range = io::non_negative(),
+       .doc = "Distance of the free grain's centre from the wall line before the impact."});
   return rows;
 }
 

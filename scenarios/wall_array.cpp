@@ -1,7 +1,9 @@
-// One grain hits an endless row of wall grains: Figs. 4 and 5 of Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
+// One grain hits an endless row of wall grains: Figs. 4 and 5 of Schaefer and Wolf, Phys. Rev. E
+// 51, 6154 (1995).
 //
-// Means over starting places spread over one wavelength of the wall. At high axial velocity a grain touches two and more
-// wall grains before it leaves, and the loss of axial velocity rises again: the paper's emergency brake.
+// Means over starting places spread over one wavelength of the wall. At high axial velocity a grain
+// touches two and more wall grains before it leaves, and the loss of axial velocity rises again:
+// the paper's emergency brake.
 #include "engine/closed_forms.hpp"
 #include "scenarios/impact_settings.hpp"
 
@@ -18,11 +20,13 @@ io::SettingsTable own_settings() {
        .unit = "m",
        .fallback = "0.66 mm",
        .range = io::positive(),
-       .doc = "Distance between the centres of neighbouring wall grains (the wavelength of the wall)."},
+       .doc = "Distance between the centres of neighbouring wall grains (the wavelength of the "
+              "wall)."},
       {.key = "impact.height",
        .unit = "m",
        .range = io::positive(),
-       .doc = "Distance of the free grain's centre from the wall line at the start. By default the sum of "
+       .doc = "Distance of the free grain's centre from the wall line at the start. By default the "
+              "sum of "
               "the radii, where nothing can touch yet."},
       {.key = "impact.starts",
        .kind = io::Kind::integer,
@@ -70,8 +74,9 @@ Problem prepare(const io::Settings& settings) {
 
 Scenario wall_array() {
   return {.name = "wall_array",
-          .summary = "A grain hits an endless row of wall grains: loss of axial velocity and number of "
-                     "contacts (Figs. 4 and 5).",
+          .summary =
+              "A grain hits an endless row of wall grains: loss of axial velocity and number of "
+              "contacts (Figs. 4 and 5).",
           .own_settings = own_settings(),
           .prepare = prepare};
 }

@@ -28,7 +28,8 @@ class Tube(CommandTest):
     def test_the_directory_holds_the_files_of_a_run(self):
         names = {path.name for path in self.out.iterdir()}
         self.assertEqual(names - {".lock"},
-                         {"effective.yaml", "run.h5", "checkpoint.h5", "summary.json"})
+                         {"effective.yaml", "run.h5", "checkpoint.h5", "checkpoint.h5.previous",
+                          "summary.json"})
 
     def test_the_summary_has_the_names_of_the_contract_and_finite_values(self):
         summary = self.summary(self.out)

@@ -113,7 +113,8 @@ TEST_CASE("malformed integers") {
 
 TEST_CASE("wrong choices, booleans and texts") {
   CHECK(tube_error("run: {stepping: palin}")
-        == "f.yaml:4:17: run.stepping: expected auto, plain or windows, got 'palin'; did you mean 'plain'?");
+        == "f.yaml:4:17: run.stepping: expected auto, plain or windows, got 'palin'; did you mean "
+           "'plain'?");
   CHECK(tube_error("run: {stepping: Plain}").find("did you mean 'plain'?") != std::string::npos);
   CHECK(tube_error("run: {stepping: windmill}").find("; choose one of them") != std::string::npos);
   for (const std::string value : {"yes", "on", "True", "1"}) {

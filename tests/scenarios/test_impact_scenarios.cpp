@@ -91,12 +91,12 @@ TEST_CASE("a height at which the grain would miss the wall grain is refused") {
   const std::string height = GENERATE("0.83 mm", "2 mm");
   check_mentions(
       complaint(single_yaml, {"impact.height=" + height}),
-      {"--set impact.height=" + height, "impact.height:", "without touching", "0.000830 m"});
+      {"--set impact.height=" + height, "impact.height:", "without touching", "0.00083 m"});
 }
 
 TEST_CASE("a height at which the grain would overlap the array from the start is refused") {
   check_mentions(complaint(array_yaml, {"impact.height=0.82 mm"}),
-                 {"--set impact.height=0.82 mm", "impact.height:", "overlap", "0.000830 m"});
+                 {"--set impact.height=0.82 mm", "impact.height:", "overlap", "0.00083 m"});
   CHECK(complaint(array_yaml, {"impact.height=0.83 mm"}) == "accepted");
   CHECK(complaint(array_yaml, {"impact.height=1.5 mm"}) == "accepted");
 }
