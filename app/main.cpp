@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include <cstdio>
 #include <exception>
 #include <functional>
 #include <new>
@@ -88,7 +89,7 @@ private:
   /// The argument is required, but asked for only after CLI11 has complained of unknown options,
   /// which say more.
   void set_command(CLI::App& subcommand, const CLI::Option& argument,
-                   std::function<int()> command) {
+                   const std::function<int()>& command) {
     subcommand.callback([this, &argument, command] {
       if (argument.count() == 0) throw CLI::RequiredError(argument.get_name());
       command_ = command;
@@ -103,14 +104,29 @@ private:
   std::function<int()> command_;
 };
 
-int fail(int status, const std::string& message) {
-  fmt::print(stderr, "riesel: {}\n", message);
+int fail(int status, const char* message) noexcept {
+  std::fprintf(stderr, "riesel: %s\n", message);
   return status;
 }
 
-int call(const std::function<int()>& command) {
+/// Reads the command line and does what it says.
+int run_program(int argc, char** argv) {
+  CommandLine line(argc, argv);
   try {
-    return command();
+    line.program().parse(argc, argv);
+    if (!line.command()) throw CLI::RequiredError::Subcommand(1);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_text = line.program().exit(error) == 0;
+    return asked_for_text ? app::exit_done : app::exit_bad_input;
+  }
+  return line.command()();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
   } catch (const io::SettingsError& error) {
     return fail(app::exit_bad_input, error.what());
   } catch (const app::UnusableInput& error) {
@@ -120,18 +136,4 @@ int call(const std::function<int()>& command) {
   } catch (const std::exception& error) {
     return fail(app::exit_failed, error.what());
   }
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  CommandLine line(argc, argv);
-  try {
-    line.program().parse(argc, argv);
-    if (!line.command()) throw CLI::RequiredError::Subcommand(1);
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for_text = line.program().exit(error) == 0;
-    return asked_for_text ? app::exit_done : app::exit_bad_input;
-  }
-  return call(line.command());
 }

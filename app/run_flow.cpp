@@ -57,14 +57,14 @@ struct Past {
 
 class FlowRun {
 public:
-  FlowRun(const io::Settings& settings, const ContactModel& model, State state,
-          RunDirectory directory, const Arguments& arguments, const Past& past)
-      : settings_(settings),
-        past_(past),
+  FlowRun(io::Settings settings, const ContactModel& model, State state, RunDirectory directory,
+          const Arguments& arguments, Past past)
+      : settings_(std::move(settings)),
+        past_(std::move(past)),
         directory_(std::move(directory)),
-        schedule_(settings, state.time_step),
-        threads_(threads_for(settings, state.grains.size())),
-        simulation_(std::move(state), model, threads_, stepping_of(settings)),
+        schedule_(settings_, state.time_step),
+        threads_(threads_for(settings_, state.grains.size())),
+        simulation_(std::move(state), model, threads_, stepping_of(settings_)),
         file_(open(arguments)),
         first_step_(simulation_.state().step) {}
 

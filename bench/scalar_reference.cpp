@@ -78,16 +78,28 @@ bool ScalarReference::moved_too_far() const {
 void ScalarReference::rebuild() {
   for (double& y : y_) y -= length_ * std::floor(y / length_);
   const double range = 2.0 * *std::max_element(radius_.begin(), radius_.end()) + skin_;
-  const auto columns = static_cast<std::size_t>(std::max(1.0, width_ / range));
-  const auto rows = static_cast<std::size_t>(std::max(3.0, length_ / range));
-  const auto cell_of = [&](std::size_t i) {
-    const auto c = static_cast<std::size_t>(std::clamp(x_[i] / width_, 0.0, 1.0 - 1e-12)
-                                            * static_cast<double>(columns));
-    const auto r = static_cast<std::size_t>(y_[i] / length_ * static_cast<double>(rows)) % rows;
-    return r * columns + c;
-  };
+  columns_ = static_cast<std::size_t>(std::max(1.0, width_ / range));
+  rows_ = static_cast<std::size_t>(std::max(3.0, length_ / range));
+  sort_by_cell();
+  first_.assign(1, 0);
+  neighbours_.clear();
+  for (std::size_t i = 0; i < n_; ++i) {
+    list_neighbours(i);
+    first_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+  }
+  x_built_ = x_;
+  y_built_ = y_;
+}
 
-  // Sorted by cell, so that neighbours lie together.
+std::size_t ScalarReference::cell_of(std::size_t i) const {
+  const double across = std::clamp(x_[i] / width_, 0.0, 1.0 - 1e-12);
+  const auto column = static_cast<std::size_t>(across * static_cast<double>(columns_));
+  const auto row = static_cast<std::size_t>(y_[i] / length_ * static_cast<double>(rows_)) % rows_;
+  return row * columns_ + column;
+}
+
+/// So that neighbours lie together.
+void ScalarReference::sort_by_cell() {
   std::vector<std::size_t> order(n_), cell(n_);
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = 0; i < n_; ++i) cell[i] = cell_of(i);
@@ -98,30 +110,25 @@ void ScalarReference::rebuild() {
     for (std::size_t i = 0; i < n_; ++i) sorted[i] = (*values)[order[i]];
     values->swap(sorted);
   }
-  std::vector<std::size_t> start(columns * rows + 1, 0);
-  for (std::size_t i = 0; i < n_; ++i) ++start[cell[i] + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
+  start_.assign(columns_ * rows_ + 1, 0);
+  for (std::size_t i = 0; i < n_; ++i) ++start_[cell[i] + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+}
 
-  first_.assign(1, 0);
-  neighbours_.clear();
-  for (std::size_t i = 0; i < n_; ++i) {
-    const std::size_t home = cell_of(i), row = home / columns, column = home % columns;
-    for (std::size_t dr = 0; dr < 3; ++dr)
-      for (std::size_t c = column == 0 ? 0 : column - 1; c <= std::min(column + 1, columns - 1);
-           ++c) {
-        const std::size_t other = (row + rows + dr - 1) % rows * columns + c;
-        for (std::size_t j = start[other]; j < start[other + 1]; ++j) {
-          if (j <= i) continue;
-          const double dx = x_[j] - x_[i], dy = nearest(y_[j] - y_[i]);
-          const double reach = radius_[i] + radius_[j] + skin_;
-          if (dx * dx + dy * dy < reach * reach)
-            neighbours_.push_back(static_cast<std::uint32_t>(j));
-        }
-      }
-    first_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+/// Those with a larger index in the nine cells around grain i.
+void ScalarReference::list_neighbours(std::size_t i) {
+  const std::size_t home = cell_of(i), row = home / columns_, column = home % columns_;
+  const std::size_t left = column == 0 ? 0 : column - 1;
+  const std::size_t right = std::min(column + 1, columns_ - 1);
+  for (std::size_t shift = 0; shift < 3; ++shift) {
+    const std::size_t other = (row + rows_ + shift - 1) % rows_ * columns_;
+    for (std::size_t j = std::max(i + 1, start_[other + left]); j < start_[other + right + 1];
+         ++j) {
+      const double dx = x_[j] - x_[i], dy = nearest(y_[j] - y_[i]);
+      const double reach = radius_[i] + radius_[j] + skin_;
+      if (dx * dx + dy * dy < reach * reach) neighbours_.push_back(static_cast<std::uint32_t>(j));
+    }
   }
-  x_built_ = x_;
-  y_built_ = y_;
 }
 
 void ScalarReference::forces() {

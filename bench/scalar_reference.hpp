@@ -23,6 +23,9 @@ public:
 private:
   void step();
   void rebuild();
+  std::size_t cell_of(std::size_t i) const;
+  void sort_by_cell();
+  void list_neighbours(std::size_t i);
   bool moved_too_far() const;
   void forces();
   void pair_force(std::size_t i, std::size_t j);
@@ -33,6 +36,10 @@ private:
   double length_, width_, gravity_, dt_, skin_, wall_radius_, wall_spacing_, k_n_, gamma_n_, mu_;
   std::vector<double> x_, y_, vx_, vy_, fx_, fy_, radius_, mass_;
   std::vector<double> x_built_, y_built_;
+
+  // The cells of the last rebuild
+  std::size_t columns_ = 1, rows_ = 1;
+  std::vector<std::size_t> start_;
   std::vector<std::uint32_t> first_, neighbours_;
 };
 

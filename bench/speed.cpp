@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <string>
@@ -26,10 +27,8 @@ struct Size {
 };
 
 /// The tube at area fraction 0.55, stretched.
-constexpr Size sizes[] = {{"1.4 k", 0.020, 0.100},
-                          {"10 k", 0.020, 0.714},
-                          {"100 k", 0.0632, 2.259},
-                          {"1 M", 0.200, 7.140}};
+constexpr std::array sizes = {Size{"1.4 k", 0.020, 0.100}, Size{"10 k", 0.020, 0.714},
+                              Size{"100 k", 0.0632, 2.259}, Size{"1 M", 0.200, 7.140}};
 
 scenarios::Flow tube(const Size& size) {
   const std::string text =

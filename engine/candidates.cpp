@@ -138,7 +138,7 @@ void Candidates::list_pairs(const State& state, Slice& mine) {
     });
 }
 
-void Candidates::list_near_walls(const State& state, Slice& mine) {
+void Candidates::list_near_walls(const State& state, Slice& mine) const {
   mine.near_walls.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
     const double x = state.box.metres_x(state.grains.x[i]);

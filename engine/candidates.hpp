@@ -49,7 +49,7 @@ private:
   void renew(State& state, Slice& mine, std::int64_t step);
   void start_over(const State& state, std::int64_t step);
   void list_pairs(const State& state, Slice& mine);
-  void list_near_walls(const State& state, Slice& mine);
+  void list_near_walls(const State& state, Slice& mine) const;
   static void list_received(const Grains& grains, Slice& mine);
   void measure_motion(const State& state, Slice& mine, std::int64_t step) const;
   double squared_speed(const State& state, std::size_t slot) const;

@@ -6,6 +6,7 @@
 #include "engine/contact.hpp"
 #include "engine/contact_force.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -40,7 +41,8 @@ private:
   static constexpr std::size_t outputs = sizeof(Touch) / sizeof(double);
 
   std::vector<Who> who_;
-  AlignedVector<double> input_[inputs], output_[outputs];  // one array per member
+  std::array<AlignedVector<double>, inputs> input_;    // one array for each member of Encounter
+  std::array<AlignedVector<double>, outputs> output_;  // and of Touch
 };
 
 }  // namespace riesel

@@ -3,6 +3,7 @@
 #include "engine/vector_kernel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -37,7 +38,7 @@ constexpr std::size_t block = 64;  // pairs tested at a time: their results make
                                            std::size_t first_pair,
                                            std::vector<std::uint32_t>& hits) {
   for (std::size_t word = 0; word < count; word += sizeof(std::uint64_t)) {
-    std::uint64_t bytes;
+    std::uint64_t bytes = 0;
     std::memcpy(&bytes, result + word, sizeof bytes);
     for (; bytes != 0; bytes &= bytes - 1)
       hits.push_back(static_cast<std::uint32_t>(
@@ -48,13 +49,13 @@ constexpr std::size_t block = 64;  // pairs tested at a time: their results make
 RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
                                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
   hits.clear();
-  alignas(cache_line) std::uint8_t result[block];
+  alignas(cache_line) std::array<std::uint8_t, block> result{};
   for (std::size_t p = 0; p < pairs.size(); p += block) {
     const std::size_t count = std::min(block, pairs.size() - p);
-    if (count < block) std::memset(result, 0, block);
+    if (count < block) result.fill(0);
     test_block(&pairs.first[p], &pairs.second[p], &pairs.reach2[p], positions.x.data(),
-               positions.y.data(), units, count, result);
-    collect(result, count, p, hits);
+               positions.y.data(), units, count, result.data());
+    collect(result.data(), count, p, hits);
   }
 }
 

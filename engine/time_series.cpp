@@ -155,7 +155,8 @@ double random_walk_slope_error(std::span<const double> series) {
   const double mean_step = mean_of(steps);
   for (double& step : steps) step -= mean_step;
   const double step_variance = product(steps, steps) / static_cast<double>(blocks - 2);
-  const auto block_length = static_cast<double>(series.size() / blocks);
+  const std::size_t whole_length = series.size() / blocks;
+  const auto block_length = static_cast<double>(whole_length);
   const double walk_variance = 1.5 * step_variance / block_length;
   return std::sqrt(1.2 * walk_variance / static_cast<double>(series.size()));
 }

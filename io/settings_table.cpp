@@ -118,8 +118,8 @@ std::string to_string(const Range& range, const std::string& unit) {
   if (has_low && has_high && !range.low_open && !range.high_open) {
     return fmt::format("from {} to {}", range.low, end(range.high));
   }
-  const auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", end(range.low));
-  const auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", end(range.high));
+  auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", end(range.low));
+  auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", end(range.high));
   if (has_low && has_high) return low + " and " + high;
   if (has_low) return low;
   if (has_high) return high;

@@ -113,10 +113,10 @@ void print_stationary_table(int count) {
             "err | 2 err |");
   std::puts("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
   for (const double phi : {0.0, 0.5, 0.9, 0.99}) {
-    char label[8];
-    std::snprintf(label, sizeof label, "%.2f", phi);
+    std::array<char, 8> label{};
+    std::snprintf(label.data(), label.size(), "%.2f", phi);
     for (const std::size_t n : {200U, 1000U, 10000U}) {
-      print_stationary(label, n, (1.0 + phi) / (1.0 - phi), count,
+      print_stationary(label.data(), n, (1.0 + phi) / (1.0 - phi), count,
                        [&] { return autoregressive(n, phi); });
     }
   }
@@ -178,9 +178,9 @@ void print_power_table(int count) {
   for (const double gain : {4.0, 8.0, 12.0, 16.0, 20.0, 24.0}) {
     // sqrt(19/n) is the error of the mean over the whole run, in units of the noise.
     const double slope = gain * std::sqrt(19.0 / static_cast<double>(n));
-    char label[64];
-    std::snprintf(label, sizeof label, "line that gains %.0f errors of the mean", gain);
-    line(label, 100, 1.0, [slope](double s) { return 100.0 + slope * (s - 0.5); });
+    std::array<char, 64> label{};
+    std::snprintf(label.data(), label.size(), "line that gains %.0f errors of the mean", gain);
+    line(label.data(), 100, 1.0, [slope](double s) { return 100.0 + slope * (s - 0.5); });
   }
   print_verdicts("random walk from 0", 0, count, [] { return random_walk(n); });
   print_verdicts("random walk about 1000", 0, count, [] {
