@@ -124,7 +124,7 @@ SettingsTable run_settings() {
        .kind = Kind::integer_or_auto,
        .fallback = "auto",
        .range = between(1, 1024),
-       .doc = "Threads to use; `auto` takes what the machine or OMP_NUM_THREADS offers. The "
+       .doc = "Threads to use; `auto` takes as many as pay for the number of grains. The "
               "results do "
               "not depend on it."},
       {.key = "run.stepping",
