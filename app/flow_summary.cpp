@@ -11,25 +11,19 @@ namespace riesel::app {
 
 namespace {
 
-struct Population {
-  double mean_radius = 0.0, mass = 0.0;
-};
-
-Population population(const Grains& grains) {
-  ExactSum radius, mass;  // the slots have no fixed order
-  for (const double r : grains.radius) radius.add(r);
-  for (const double m : grains.mass) mass.add(m);
-  return {.mean_radius = radius.value() / static_cast<double>(grains.size()), .mass = mass.value()};
+double total_mass(const Grains& grains) {
+  ExactSum sum;  // the slots have no fixed order
+  for (const double mass : grains.mass) sum.add(mass);
+  return sum.value();
 }
 
 /// m/s, above which a grain that meets the wall with the typical random velocity passes a wall
 /// grain sooner than the contact can push it away: chord over t_col.
-double critical_velocity(const State& state, const ContactModel& model, const Population& grains,
-                         double sigma_vx) {
-  const double mass = grains.mass / static_cast<double>(state.grains.size());
+double critical_velocity(const State& state, const ContactModel& model, double sigma_vx) {
+  const double mass = total_mass(state.grains) / static_cast<double>(state.grains.size());
   const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
   const double t_col = collision_time(model.normal, mass, speed);
-  const double reach = grains.mean_radius + state.walls.front().radius;
+  const double reach = 0.5 * mean_diameter(state.grains) + state.walls.front().radius;
   return chord_of_impact(reach, speed, t_col) / t_col;
 }
 
@@ -40,7 +34,7 @@ double mean_from(const std::vector<double>& series, std::size_t first) {
 
 /// Eq. (9), from what has happened between row `first` and the last row.
 io::FlowSummary::Balance balance(const io::RunFile& file, std::size_t first, double interval,
-                                 const State& state, double mass) {
+                                 const State& state) {
   const std::vector<double> contacts = file.series("wall_contacts");
   const std::vector<double> impulse = file.series("wall_impulse_y");
   io::FlowSummary::Balance b;
@@ -50,7 +44,7 @@ io::FlowSummary::Balance balance(const io::RunFile& file, std::size_t first, dou
   if (duration <= 0.0 || count <= 0.0) return b;
   const auto n = static_cast<double>(state.grains.size());
   b.n_dot = count / (n * duration);
-  b.dv_y = -(impulse.back() - impulse[first]) / (mass / n) / count;
+  b.dv_y = -(impulse.back() - impulse[first]) / (total_mass(state.grains) / n) / count;
   b.n_dot_dv_y = b.n_dot * b.dv_y;
   return b;
 }
@@ -59,7 +53,6 @@ io::FlowSummary::Balance balance(const io::RunFile& file, std::size_t first, dou
 
 io::FlowSummary summarise(const io::RunFile& file, const State& state, const ContactModel& model,
                           const Observables& last, double interval) {
-  const Population grains = population(state.grains);
   const std::vector<double> velocity = file.series("mean_vy");
   const SteadyState steady = assess_steady_state(velocity, state.gravity * interval);
 
@@ -73,11 +66,11 @@ io::FlowSummary summarise(const io::RunFile& file, const State& state, const Con
   if (steady.transient_end < velocity.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = mean_from(file.series("granular_temperature"), steady.transient_end);
-    s.balance = balance(file, steady.transient_end, interval, state, grains.mass);
-    s.validity.v_crit = critical_velocity(state, model, grains,
-                                          mean_from(file.series("sigma_vx"), steady.transient_end));
+    s.balance = balance(file, steady.transient_end, interval, state);
+    s.validity.v_crit =
+        critical_velocity(state, model, mean_from(file.series("sigma_vx"), steady.transient_end));
   }
-  s.validity.max_overlap_ratio = last.max_overlap / (2.0 * grains.mean_radius);
+  s.validity.max_overlap_ratio = last.max_overlap / mean_diameter(state.grains);
   const Energies& e = last.energies;
   s.energy = {.initial = state.origin.kinetic,
               .kinetic = e.kinetic,

@@ -17,12 +17,6 @@ constexpr double skin_per_diameter = 0.25;
 /// and again.
 constexpr double smallest_useful_budget = 0.2;
 
-double mean_diameter(const Grains& grains) {
-  double sum = 0.0;
-  for (const double radius : grains.radius) sum += 2.0 * radius;
-  return sum / static_cast<double>(grains.size());
-}
-
 double largest(const std::vector<Slice>& slices, double Slice::*member) {
   double most = 0.0;
   for (const Slice& slice : slices) most = std::max(most, slice.*member);

@@ -43,41 +43,38 @@ private:
   Eigen::Vector2d metres_, velocity_, kick_;
 };
 
-/// Two free grains as they meet in this step.
-inline Encounter encounter(const Grains& g, std::uint32_t i, std::uint32_t j,
-                           const StepUnits& units) {
-  const Eigen::Vector2d separation =
-      units.metres(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i]));
-  const Eigen::Vector2d half_step =
-      units.velocity(wrapped_difference(g.ux[j], g.ux[i]), wrapped_difference(g.uy[j], g.uy[i]));
-  const Eigen::Vector2d last_kick = units.velocity(wrapped_difference(g.kick_x[j], g.kick_x[i]),
-                                                   wrapped_difference(g.kick_y[j], g.kick_y[i]));
+/// From the motion in SI units; `last_kick` is what the relative velocity (m/s) gained in a step by
+/// the accelerations of the step before.
+inline Encounter encounter(const Eigen::Vector2d& separation, const Eigen::Vector2d& half_step,
+                           const Eigen::Vector2d& last_kick, double reach, double reduced_mass) {
   return {.x = separation.x(),
           .y = separation.y(),
           .vx = half_step.x() + 0.5 * last_kick.x(),
           .vy = half_step.y() + 0.5 * last_kick.y(),
           .half_vx = half_step.x(),
           .half_vy = half_step.y(),
-          .reach = g.radius[i] + g.radius[j],
-          .reduced_mass = g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j])};
+          .reach = reach,
+          .reduced_mass = reduced_mass};
+}
+
+/// Two free grains as they meet in this step.
+inline Encounter encounter(const Grains& g, std::uint32_t i, std::uint32_t j,
+                           const StepUnits& units) {
+  return encounter(
+      units.metres(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i])),
+      units.velocity(wrapped_difference(g.ux[j], g.ux[i]), wrapped_difference(g.uy[j], g.uy[i])),
+      units.velocity(wrapped_difference(g.kick_x[j], g.kick_x[i]),
+                     wrapped_difference(g.kick_y[j], g.kick_y[i])),
+      g.radius[i] + g.radius[j], g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j]));
 }
 
 /// A free grain and a fixed wall grain at (line, y).
 inline Encounter encounter(const Grains& g, std::uint32_t i, Fixed line, Fixed y,
                            double wall_radius, const StepUnits& units) {
-  const Eigen::Vector2d separation =
-      units.metres(wrapped_difference(line, g.x[i]), wrapped_difference(y, g.y[i]));
-  const Eigen::Vector2d half_step = -units.velocity(g.ux[i], units.falling(g.uy[i]));
-  const Eigen::Vector2d last_kick =
-      -units.velocity(g.kick_x[i], wrapped_sum(g.kick_y[i], units.fall()));
-  return {.x = separation.x(),
-          .y = separation.y(),
-          .vx = half_step.x() + 0.5 * last_kick.x(),
-          .vy = half_step.y() + 0.5 * last_kick.y(),
-          .half_vx = half_step.x(),
-          .half_vy = half_step.y(),
-          .reach = g.radius[i] + wall_radius,
-          .reduced_mass = g.mass[i]};
+  return encounter(units.metres(wrapped_difference(line, g.x[i]), wrapped_difference(y, g.y[i])),
+                   -units.velocity(g.ux[i], units.falling(g.uy[i])),
+                   -units.velocity(g.kick_x[i], wrapped_sum(g.kick_y[i], units.fall())),
+                   g.radius[i] + wall_radius, g.mass[i]);
 }
 
 /// Whether the two bodies touch: the one test that decides about the beginning and the end of a

@@ -22,12 +22,6 @@ constexpr double tolerance_per_diameter = 0.004;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-double mean_diameter(const Grains& grains) {
-  double sum = 0.0;
-  for (const double radius : grains.radius) sum += 2.0 * radius;
-  return sum / static_cast<double>(grains.size());
-}
-
 /// Bounds are rounded to the safe side by this factor, which is far above the error of the
 /// arithmetic.
 constexpr double generous = 1.0 + 1e-9;

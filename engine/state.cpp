@@ -76,6 +76,12 @@ Grain grain_at(const State& state, std::size_t slot) {
   };
 }
 
+double mean_diameter(const Grains& grains) {
+  ExactSum radii;
+  for (const double radius : grains.radius) radii.add(radius);
+  return 2.0 * radii.value() / static_cast<double>(grains.size());
+}
+
 Grains ordered_by_id(const Grains& grains) {
   Grains ordered;
   ordered.resize(grains.size());

@@ -74,6 +74,9 @@ void add_grain(State& state, const Grain& grain);
 /// The grain in `slot`, y in [0, length).
 Grain grain_at(const State& state, std::size_t slot);
 
+/// m; the same bits for any order of the slots.
+double mean_diameter(const Grains& grains);
+
 /// A copy in which the slots are ordered by id.
 Grains ordered_by_id(const Grains& grains);
 
