@@ -1,91 +1,220 @@
-// The first suite: particle-steps per second of the tube of scenarios/periodic_tube.yaml, from 1.4
-// thousand to a million grains, beside a straightforward scalar code in the same run.
+// The benchmark suite: measures the cases of cases.cpp, prints a table, keeps the results as JSON.
+// docs/suite.md tells what is measured and how to read it.
 //
-//   build/bench/bench/speed [seconds per measurement]
-#include "bench/scalar_reference.hpp"
-#include "engine/simulation.hpp"
-#include "io/build_info.hpp"
-#include "io/settings.hpp"
-#include "scenarios/scenario.hpp"
+//   build/bench/bench/speed              a few minutes
+//   build/bench/bench/speed --quick      less than a minute
+//
+// Exit status: 1 if hashes that must be equal are not, or the run fails; 2 for a wrong command
+// line.
+#include "bench/commands.hpp"
+#include "bench/other_rows.hpp"
+#include "io/durable_file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <cstdlib>
-#include <string>
-#include <vector>
+#include <exception>
+#include <functional>
 
 namespace {
 
 using namespace riesel;
+using namespace riesel::bench;
 
-struct Size {
-  const char* name;
-  double width, length;  // m
+/// What the command line says.
+struct Options {
+  bool quick = false;
+  std::vector<std::string> cases, sizes;  ///< to measure; empty: all
+  std::string cache = RIESEL_BENCH_STATES;
+  std::string out;  ///< empty: the usual place
+
+  Effort effort() const {
+    return quick ? Effort{.repetitions = 3, .work = 0.1} : Effort{.repetitions = 5, .work = 1.0};
+  }
+  bool wants_case(const std::string& name) const { return wants(cases, name); }
+  /// The larger sizes only if asked for, or in the full suite.
+  bool wants_size(const Size& size) const {
+    constexpr int longest_of_quick = 7;
+    return sizes.empty() ? !quick || size.copies <= longest_of_quick : wants(sizes, size.name);
+  }
+  /// Of the cases that are about files and processes.
+  Size bulk() const { return size_named(!sizes.empty() ? sizes.front() : quick ? "100k" : "1M"); }
+
+private:
+  static bool wants(const std::vector<std::string>& wanted, const std::string& name) {
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+  }
 };
 
-/// The tube at area fraction 0.55, stretched.
-constexpr std::array sizes = {Size{"1.4 k", 0.020, 0.100}, Size{"10 k", 0.020, 0.714},
-                              Size{"100 k", 0.0632, 2.259}, Size{"1 M", 0.200, 7.140}};
-
-scenarios::Flow tube(const Size& size) {
-  const std::string text =
-      fmt::format("{{scenario: periodic_tube, contact: {{stiffness: 2000, restitution: 0.92}}, "
-                  "tube: {{width: {}, length: {}}}, run: {{duration: 1}}}}",
-                  size.width, size.length);
-  const auto settings = io::Settings::from_text(text, "benchmark", scenarios::settings_tables());
-  return std::get<scenarios::Flow>(scenarios::named("periodic_tube").prepare(settings));
+/// Before anything is timed.
+void make_all_states(const Options& options, const StartStates& states) {
+  for (const FlowCase& one : flow_cases())
+    for (const Size& size : one.sizes)
+      if (options.wants_case(one.name) && options.wants_size(size)) states.checkpoint(one, size);
+  if (options.wants_case("checkpoint")) states.checkpoint(flow_case("tube_start"), options.bulk());
 }
 
-/// Particle-steps per second: the median of several measurements after a warm-up.
-template <class System>
-double speed(System& system, std::size_t grains, double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto chunk = std::max<std::int64_t>(10, 2'000'000 / static_cast<std::int64_t>(grains));
-  // Long enough for the lattice to melt where that takes seconds only.
-  system.advance(
-      std::clamp<std::int64_t>(300'000'000 / static_cast<std::int64_t>(grains), 200, 3000));
-  std::vector<double> measured;
-  for (int repetition = 0; repetition < 5; ++repetition) {
-    std::int64_t steps = 0;
-    double spent = 0.0;
-    const auto start = Clock::now();
-    while (spent < seconds / 5.0) {
-      system.advance(chunk);
-      steps += chunk;
-      spent = std::chrono::duration<double>(Clock::now() - start).count();
-    }
-    measured.push_back(static_cast<double>(grains) * static_cast<double>(steps) / spent);
+/// As much as plain stepping of a million grains moves per step, and far more than any cache holds.
+void measure_bandwidths(const Options& options, Results& results) {
+  for (const std::size_t mib : {std::size_t{96}, std::size_t{1536}}) {
+    if (options.quick && mib > 96) continue;
+    const auto measured = measure_bandwidth(mib << 20U, 2 * options.effort().repetitions);
+    results.bandwidth.insert(results.bandwidth.end(), measured.begin(), measured.end());
   }
-  std::sort(measured.begin(), measured.end());
-  return measured[measured.size() / 2];
 }
 
-double engine_speed(const scenarios::Flow& flow, int threads, Stepping stepping, double seconds) {
-  Simulation simulation(flow.state, flow.model, threads, stepping);
-  return speed(simulation, flow.state.grains.size(), seconds);
+void measure_all(const Options& options, const StartStates& states, Results& results) {
+  const Effort effort = options.effort();
+  print_heading();
+  for (const ImpactCase& one : impact_cases())
+    if (options.wants_case(one.name)) measure_impacts(one, effort, results);
+  for (const FlowCase& one : flow_cases())
+    for (const Size& size : one.sizes)
+      if (options.wants_case(one.name) && options.wants_size(size))
+        measure_flow(one, size, states, effort, results);
+  if (options.wants_case("checkpoint")) measure_checkpoint(options.bulk(), states, effort, results);
+  if (options.wants_case("start_up")) measure_start_up(options.bulk(), effort, results);
 }
+
+int run_suite(const Options& options) {
+  const StartStates states(options.cache);
+  make_all_states(options, states);
+  Results results{.machine = this_machine(), .quick = options.quick};
+  measure_bandwidths(options, results);
+  print_machine(results);
+  measure_all(options, states, results);
+
+  const std::filesystem::path out = options.out.empty() ? usual_place(results, RIESEL_BENCH_RESULTS)
+                                                        : std::filesystem::path(options.out);
+  if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
+  io::write_durably(out, to_json(results).dump(1) + "\n");
+  fmt::print("\nkept in {}\n", out.string());
+  for (const std::string& disagreement : results.disagreements)
+    fmt::print(stderr, "speed: not the same bits: {}\n", disagreement);
+  return results.disagreements.empty() ? 0 : 1;
+}
+
+void list_cases() {
+  for (const ImpactCase& one : impact_cases()) fmt::print("{}\n", one.name);
+  for (const FlowCase& one : flow_cases()) {
+    fmt::print("{}:", one.name);
+    for (const Size& size : one.sizes) fmt::print(" {}", size.name);
+    fmt::print("\n");
+  }
+  fmt::print("checkpoint\nstart_up\n");
+}
+
+std::vector<std::string> known_cases() {
+  std::vector<std::string> names = {"checkpoint", "start_up"};
+  for (const ImpactCase& one : impact_cases()) names.push_back(one.name);
+  for (const FlowCase& one : flow_cases()) names.push_back(one.name);
+  return names;
+}
+
+std::vector<std::string> known_sizes() {
+  std::vector<std::string> names;
+  for (const Size& size : flow_cases().front().sizes) names.push_back(size.name);
+  return names;
+}
+
+/// The command line: the suite itself and the subcommands that serve it.
+class CommandLine {
+public:
+  CommandLine() {
+    program_.require_subcommand(0, 1);
+    program_.add_flag("--quick", options_.quick, "Small sizes, short repetitions, fewer of them");
+    program_.add_option("--case", options_.cases, "Measure this case; may be repeated")
+        ->check(CLI::IsMember(known_cases()));
+    program_.add_option("--size", options_.sizes, "Measure this size; may be repeated")
+        ->check(CLI::IsMember(known_sizes()));
+    program_.add_option("--out", options_.out, "The file of the results");
+    program_.add_option("--states", options_.cache, "The folder in which start states are kept");
+    program_.add_subcommand("list", "List the cases and their sizes")->callback([this] {
+      command_ = [] {
+        list_cases();
+        return 0;
+      };
+    });
+    add_state();
+    add_advance();
+    add_start_up();
+  }
+
+  CLI::App& program() { return program_; }
+  const std::function<int()>& command() const { return command_; }
+
+private:
+  void add_case_and_size(CLI::App& command) {
+    command.add_option("case", case_)->required()->check(CLI::IsMember(known_cases()));
+    command.add_option("size", size_)->required()->check(CLI::IsMember(known_sizes()));
+  }
+
+  void add_state() {
+    CLI::App& command =
+        *program_.add_subcommand("state", "Make a start state and tell where it is");
+    add_case_and_size(command);
+    command.add_option("--set", overrides_, "Change a setting: key.path=value; may be repeated");
+    command.callback([this] {
+      command_ = [this] {
+        make_state(StartStates(options_.cache), case_, size_, overrides_);
+        return 0;
+      };
+    });
+  }
+
+  void add_advance() {
+    CLI::App& command = *program_.add_subcommand("advance", "Step a checkpoint and tell the time");
+    command.add_option("checkpoint", advance_.checkpoint)->required();
+    command.add_option("--stepping", advance_.variant.stepping)
+        ->transform(CLI::CheckedTransformer(steppings()));
+    command.add_option("--threads", advance_.variant.threads, "0: as many as pay");
+    command.add_option("--warm-up", advance_.warm_up, "Steps before those that are timed");
+    command.add_option("--steps", advance_.steps)->check(CLI::PositiveNumber);
+    command.callback([this] {
+      command_ = [this] {
+        advance(advance_);
+        return 0;
+      };
+    });
+  }
+
+  void add_start_up() {
+    CLI::App& command =
+        *program_.add_subcommand("start-up", "From settings to the first step done");
+    add_case_and_size(command);
+    command.add_option("--threads", threads_, "0: as many as pay");
+    command.callback([this] {
+      command_ = [this] {
+        start_up(case_, size_, threads_);
+        return 0;
+      };
+    });
+  }
+
+  CLI::App program_{"The benchmark suite of riesel"};
+  Options options_;
+  std::string case_, size_;
+  std::vector<std::string> overrides_;
+  AdvanceOptions advance_{.checkpoint = {},
+                          .variant = {.name = {}, .stepping = Stepping::automatic, .threads = 0}};
+  int threads_ = 0;
+  std::function<int()> command_ = [this] { return run_suite(options_); };
+};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const double seconds = argc > 1 ? std::atof(argv[1]) : 2.0;
-  fmt::print("riesel {} {}, {} {}\n", build_info().version, build_info().git_commit,
-             build_info().compiler, build_info().flags);
-  fmt::print("million particle-steps per second (median of five), slow tube, k_N = 2000 N/m\n\n");
-  fmt::print("{:>8} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "grains", "scalar", "plain 1", "plain 2",
-             "windows", "plain/scalar");
-  for (const Size& size : sizes) {
-    const scenarios::Flow flow = tube(size);
-    bench::ScalarReference reference(flow.state, flow.model);
-    const double scalar = speed(reference, flow.state.grains.size(), seconds);
-    const double one = engine_speed(flow, 1, Stepping::plain, seconds);
-    const double two = engine_speed(flow, 2, Stepping::plain, seconds);
-    const double windows = engine_speed(flow, 1, Stepping::windows, seconds);
-    fmt::print("{:>8} {:>10.1f} {:>10.1f} {:>10.1f} {:>10.1f} {:>10.2f}\n", size.name, scalar / 1e6,
-               one / 1e6, two / 1e6, windows / 1e6, one / scalar);
-    std::fflush(stdout);
+  try {
+    CommandLine command_line;
+    try {
+      command_line.program().parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return command_line.program().exit(error) == 0 ? 0 : 2;
+    }
+    return command_line.command()();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "speed: {}\n", error.what());
+    return 1;
   }
 }

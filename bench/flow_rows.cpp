@@ -1,0 +1,176 @@
+#include "bench/flow_rows.hpp"
+
+#include "bench/child.hpp"
+#include "bench/scalar_reference.hpp"
+#include "bench/traffic.hpp"
+#include "io/checkpoint.hpp"
+#include "io/settings.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace riesel::bench {
+
+namespace {
+
+constexpr std::size_t fewest_for_memory = 5000;        // below, a process is larger than its grains
+constexpr std::size_t fewest_for_bandwidth = 500'000;  // below, caches hold a part of them
+
+/// What a row is about to be.
+struct Contender {
+  Variant variant;
+  std::unique_ptr<Simulation> simulation;
+  std::uint64_t hash_after_warm_up = 0;
+  double contacts = 0.0;  ///< per grain, summed over the repetitions
+};
+
+/// Steps are the same for all variants and do not depend on the clock, so that the hashes of two
+/// machines can be compared.
+struct Plan {
+  std::int64_t warm_up, steps;
+  int repetitions;
+
+  Plan(const FlowCase& one, const Effort& effort, double grains)
+      : warm_up(std::llround(std::clamp(2e6 / grains, 20.0, 1000.0))),
+        steps(
+            std::llround(std::max(one.work * effort.work / grains, grains > 2e6 ? 100.0 : 200.0))),
+        repetitions(grains > 5e5 ? std::min(effort.repetitions, 3) : effort.repetitions) {}
+};
+
+std::string name_of(Stepping stepping) {
+  const auto& all = steppings();
+  return std::find_if(all.begin(), all.end(), [&](auto& one) { return one.second == stepping; })
+      ->first;
+}
+
+class FlowComparison {
+public:
+  FlowComparison(const FlowCase& one, const Size& size, const StartStates& states,
+                 const Effort& effort)
+      : name_(one.name),
+        size_(size.name),
+        path_(states.checkpoint(one, size)),
+        start_(io::read_checkpoint(path_)),
+        model_(scenarios::contact_model(
+            io::Settings::from_text(start_.settings, one.name, scenarios::settings_tables()))),
+        grains_(start_.state.grains.size()),
+        plan_(one, effort, static_cast<double>(grains_)),
+        reference_(start_.state, model_) {
+    for (const Variant& variant : timed_variants()) contenders_.push_back(warmed_up(variant));
+    reference_.advance(plan_.warm_up);
+  }
+
+  void measure(Results& results) {
+    std::vector<Measurement> measurements;
+    measurements.emplace_back(
+        [this] { return seconds_of([&] { reference_.advance(plan_.steps); }); });
+    for (Contender& contender : contenders_)
+      measurements.emplace_back([this, &contender] { return timed(contender); });
+    const std::vector<Timing> timings = in_turns(measurements, plan_.repetitions);
+
+    results.rows.push_back(row("scalar", 1, timings[0]));
+    print(results.rows.back());
+    for (std::size_t i = 0; i < contenders_.size(); ++i) {
+      results.rows.push_back(row(contenders_[i], timings[i + 1], results.bandwidth));
+      print(results.rows.back());
+    }
+    compare_hashes(results.disagreements);
+  }
+
+private:
+  Contender warmed_up(const Variant& variant) const {
+    Contender contender{.variant = variant, .simulation = {}};
+    if (variant.threads == 0) contender.variant.threads = useful_threads(grains_);
+    contender.simulation = std::make_unique<Simulation>(
+        start_.state, model_, contender.variant.threads, variant.stepping);
+    contender.simulation->advance(plan_.warm_up);
+    contender.hash_after_warm_up = state_hash(contender.simulation->state());
+    return contender;
+  }
+
+  double timed(Contender& contender) const {
+    const double seconds = seconds_of([&] { contender.simulation->advance(plan_.steps); });
+    contender.contacts += static_cast<double>(contender.simulation->state().contacts.size())
+                          / static_cast<double>(grains_);
+    return seconds;
+  }
+
+  Row row(const std::string& variant, int threads, const Timing& timing) const {
+    return {.case_name = name_,
+            .size = size_,
+            .variant = variant,
+            .grains = grains_,
+            .threads = threads,
+            .unit = "particle-steps",
+            .work = static_cast<double>(grains_) * static_cast<double>(plan_.steps),
+            .timing = timing,
+            .steps_before = plan_.warm_up};
+  }
+
+  Row row(const Contender& contender, const Timing& timing,
+          const std::vector<Bandwidth>& bandwidth) const {
+    Row result = row(contender.variant.name, contender.variant.threads, timing);
+    result.state_hash = contender.hash_after_warm_up;
+    result.contacts_per_grain = contender.contacts / static_cast<double>(plan_.repetitions);
+    if (*result.contacts_per_grain > 0.0)
+      result.ns_per_contact = 1e9 * timing.median() / result.work / *result.contacts_per_grain;
+    add_memory(contender.variant, result);
+    if (contender.variant.stepping == Stepping::plain && grains_ >= fewest_for_bandwidth)
+      add_bandwidth(bandwidth, result);
+    return result;
+  }
+
+  void add_memory(const Variant& variant, Row& row) const {
+    if (grains_ < fewest_for_memory) return;
+    const auto answer =
+        ask_child({"advance", path_.string(), "--stepping", name_of(variant.stepping), "--threads",
+                   std::to_string(variant.threads), "--steps", "20"});
+    row.bytes_per_grain = answer["memory"]["bytes_per_grain"].get<double>();
+    row.peak_bytes_per_grain = answer["memory"]["peak_bytes_per_grain"].get<double>();
+  }
+
+  void add_bandwidth(const std::vector<Bandwidth>& measured, Row& row) const {
+    const double traffic = plain_traffic(contenders_.front().simulation->state());
+    const auto limit = bandwidth_for(measured, row.threads, traffic * static_cast<double>(grains_));
+    row.bytes_per_particle_step = traffic;
+    if (limit) row.bandwidth_share = traffic * row.rate() / *limit;
+  }
+
+  void compare_hashes(std::vector<std::string>& disagreements) const {
+    const auto complain = [&](const std::string& variant, const char* when) {
+      disagreements.push_back(fmt::format("{} {}: {} and {} differ {}", name_, size_,
+                                          contenders_.front().variant.name, variant, when));
+    };
+    const std::uint64_t early = contenders_.front().hash_after_warm_up;
+    const std::uint64_t late = state_hash(contenders_.front().simulation->state());
+    for (const Contender& other : contenders_) {
+      if (other.hash_after_warm_up != early) complain(other.variant.name, "after the warm-up");
+      if (state_hash(other.simulation->state()) != late) complain(other.variant.name, "at the end");
+    }
+    for (const Variant& variant : further_variants())
+      if (warmed_up(variant).hash_after_warm_up != early)
+        complain(variant.name, "after the warm-up");
+  }
+
+  std::string name_, size_;
+  std::filesystem::path path_;
+  io::Checkpoint start_;
+  ContactModel model_;
+  std::size_t grains_;
+  Plan plan_;
+  ScalarReference reference_;
+  std::vector<Contender> contenders_;
+};
+
+}  // namespace
+
+void measure_flow(const FlowCase& one, const Size& size, const StartStates& states,
+                  const Effort& effort, Results& results) {
+  FlowComparison(one, size, states, effort).measure(results);
+}
+
+}  // namespace riesel::bench
