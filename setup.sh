@@ -11,6 +11,8 @@ build_packages=(
   python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
+# Another code, to compare speeds with (docs/suite.md); nothing else needs it.
+peer_packages=(lammps openmpi-bin)
 
 riesel=build/release/app/riesel
 run_input=scenarios/periodic_tube.yaml
@@ -28,6 +30,7 @@ Usage: ./setup.sh COMMAND
   lint       check formatting, C++ and shell scripts (clang-format, clang-tidy, shellcheck)
   format     let clang-format rewrite the C++ sources
   packages   install the Debian packages that are missing
+  peers      install LAMMPS too, for bench/peers/run.py
   help       this text
 END
 }
@@ -150,6 +153,7 @@ case $command in
     cpp_files | xargs clang-format -i
     ;;
   packages) install_packages "${build_packages[@]}" ;;
+  peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)
     usage >&2

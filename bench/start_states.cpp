@@ -20,7 +20,7 @@ namespace {
 /// To be raised when states are made differently: it goes into their names.
 constexpr int recipe = 1;
 
-io::Settings settings_of(const FlowCase& one, std::vector<std::string> overrides) {
+io::Settings settings_of(const FlowCase& one, const std::vector<std::string>& overrides) {
   return io::Settings::from_text(one.settings, one.name, scenarios::settings_tables(), overrides);
 }
 
@@ -115,7 +115,7 @@ std::filesystem::path StartStates::checkpoint(const FlowCase& one, const Size& s
   const io::Settings settings =
       size.copies == 1 ? settings_of(one, overrides) : longer(one, overrides, size.copies);
   const std::string name = fmt::format("{}-{}", one.name, size.name);
-  const auto path = folder_ / fmt::format("{}-{:016x}.h5", name, fingerprint(one, settings));
+  auto path = folder_ / fmt::format("{}-{:016x}.h5", name, fingerprint(one, settings));
   if (std::filesystem::exists(path)) return path;
 
   if (one.relaxation == 0.0) {

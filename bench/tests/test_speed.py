@@ -1,0 +1,135 @@
+"""The suite's program: what its results hold, and what it says to a wrong command line. Nothing here depends on how fast
+anything is. The program is the one that the environment variable SPEED names."""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SPEED = os.path.abspath(os.environ["SPEED"])
+
+TOP = {"format", "format_version", "date", "quick", "machine", "build", "bandwidth", "hashes_agree", "disagreements", "rows"}
+MACHINE = {"name", "cpu", "cores", "caches", "memory", "load_average"}
+BUILD = {"version", "commit", "changed", "compiler", "flags", "build_type"}
+ROW = {"case", "size", "variant", "grains", "threads", "unit", "work", "seconds", "per_second", "contacts_per_grain",
+       "ns_per_contact", "bytes_per_grain", "peak_bytes_per_grain", "bytes_per_particle_step", "bandwidth_share",
+       "steps_before", "state_hash"}
+
+
+def speed(*arguments, cwd=None):
+    return subprocess.run([SPEED, *map(str, arguments)], check=False, cwd=cwd, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE)
+
+
+class Suite(unittest.TestCase):
+    """One run of the suite, of its smallest cases, looked at from several sides."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        folder = pathlib.Path(cls.folder.name)
+        cls.done = speed("--quick", "--case", "single_wall_grain", "--case", "tube_start", "--case", "checkpoint",
+                         "--case", "start_up", "--size", "1.4k", "--states", folder / "states", "--out",
+                         folder / "results.json")
+        if cls.done.returncode != 0:
+            raise AssertionError(cls.done.stderr)
+        cls.results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
+        cls.rows = {(row["case"], row["variant"]): row for row in cls.results["rows"]}
+        cls.states = sorted(path.name for path in (folder / "states").iterdir())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_all_keys_are_there(self):
+        self.assertEqual(set(self.results), TOP)
+        self.assertEqual(set(self.results["machine"]), MACHINE)
+        self.assertEqual(set(self.results["build"]), BUILD)
+        for row in self.results["rows"]:
+            self.assertEqual(set(row), ROW)
+
+    def test_all_variants_are_there(self):
+        flow = [variant for case, variant in self.rows if case == "tube_start"]
+        self.assertEqual(flow, ["scalar", "plain 1", "plain 2", "windows 1", "automatic"])
+        self.assertEqual({case for case, _ in self.rows}, {"single_wall_grain", "tube_start", "checkpoint", "start_up"})
+
+    def test_the_same_bits_whatever_the_stepping(self):
+        self.assertTrue(self.results["hashes_agree"])
+        hashes = {row["state_hash"] for (case, _), row in self.rows.items() if case == "tube_start"} - {None}
+        self.assertEqual(len(hashes), 1)
+
+    def test_numbers_follow_from_the_repetitions(self):
+        for row in self.results["rows"]:
+            seconds = row["seconds"]
+            self.assertEqual(len(seconds["all"]), 3)
+            self.assertEqual(seconds["median"], sorted(seconds["all"])[1])
+            self.assertEqual(seconds["min"], min(seconds["all"]))
+            self.assertAlmostEqual(row["per_second"]["median"] * seconds["median"] / row["work"], 1.0)
+            self.assertAlmostEqual(row["per_second"]["max"] * seconds["min"] / row["work"], 1.0)
+
+    def test_contacts_are_counted(self):
+        row = self.rows["tube_start", "windows 1"]
+        steps = row["work"] / row["grains"]
+        per_contact = 1e9 * row["seconds"]["median"] / steps / (row["contacts_per_grain"] * row["grains"])
+        self.assertAlmostEqual(row["ns_per_contact"] / per_contact, 1.0)
+
+    def test_bandwidth_of_one_and_two_threads(self):
+        self.assertEqual([b["threads"] for b in self.results["bandwidth"]], [1, 2])
+        for b in self.results["bandwidth"]:
+            # The arrays a, b and c; a is read before it is written.
+            self.assertAlmostEqual(b["bytes_per_second"] * b["seconds"]["min"], b["working_set"] * 4 / 3, delta=64)
+
+    def test_states_are_kept_and_nothing_else(self):
+        self.assertEqual(len(self.states), 1)
+        self.assertRegex(self.states[0], r"^tube_start-1\.4k-[0-9a-f]{16}\.h5$")
+
+
+class Subcommands(unittest.TestCase):
+    """What the comparison with other codes calls."""
+
+    def test_a_state_is_made_once_and_stepped_to_the_same_bits(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def state():
+                return json.loads(speed("--states", folder, "state", "tube_start", "1.4k", "--set", "contact.slip=viscous",
+                                        "--set", "contact.slip_damping=2e5").stdout)
+
+            first = state()
+            made = pathlib.Path(first["checkpoint"]).stat().st_mtime_ns
+            self.assertEqual(state(), first)
+            self.assertEqual(pathlib.Path(first["checkpoint"]).stat().st_mtime_ns, made)
+            self.assertEqual(first["gamma_t"], 2e5)
+            self.assertEqual(first["k_n"], 2000)
+
+            hashes = set()
+            for stepping, threads in (("plain", 1), ("plain", 2), ("windows", 1)):
+                answer = json.loads(speed("advance", first["checkpoint"], "--stepping", stepping, "--threads", threads,
+                                          "--warm-up", 30, "--steps", 70).stdout)
+                self.assertEqual(answer["steps"], 70)
+                hashes.add(answer["state"]["state_hash"])
+            self.assertEqual(len(hashes), 1)
+            self.assertNotEqual(hashes, {first["state"]["state_hash"]})
+
+
+class Mistakes(unittest.TestCase):
+
+    def check(self, status, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            done = speed("--states", "states", *arguments, cwd=folder)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertNotEqual(done.stderr, "")
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_unknown_names(self):
+        self.check(2, "--case", "no_such_case")
+        self.check(2, "--size", "2k")
+        self.check(2, "state", "tube_start", "2k")
+        self.check(2, "advance", "nothing.h5", "--stepping", "backwards")
+
+    def test_a_checkpoint_that_is_not_there(self):
+        self.check(1, "advance", "nothing.h5")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,116 @@
+// Long tubes are copies of a short one: that they hold the same flow.
+#include "bench/start_states.hpp"
+#include "bench/timing.hpp"
+#include "bench/traffic.hpp"
+#include "engine/closed_forms.hpp"
+#include "engine/observables.hpp"
+
+#if __has_include(<catch2/catch_test_macros.hpp>)
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+using Catch::Approx;
+#else
+#include <catch2/catch.hpp>
+#endif
+
+#include <cmath>
+#include <numbers>
+
+using namespace riesel;
+using namespace riesel::bench;
+
+namespace {
+
+/// A small tube with a grain at each site of a lattice, moving in all directions.
+State small_tube() {
+  State state;
+  state.box = {.width = 10e-3, .length = 8e-3};
+  state.walls = {{.line = 0.0, .radius = 0.33e-3, .count = 4},
+                 {.line = 10e-3, .radius = 0.33e-3, .count = 4}};
+  state.gravity = 10.0;
+  state.time_step = 1e-6;
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 7; ++column) {
+      const double angle = 2.0 * std::numbers::pi * (0.37 * row + 0.61 * column);
+      add_grain(state, {.x = 1e-3 + 1.3e-3 * column,
+                        .y = 0.7e-3 + 1.3e-3 * row,
+                        .vx = 0.5 * std::cos(angle),
+                        .vy = 1.0 + 0.5 * std::sin(angle),
+                        .radius = 0.5e-3,
+                        .mass = 1e-6});
+    }
+  return state;
+}
+
+ContactModel elastic() { return {.normal = LinearLaw{2000.0, 0.0}, .slip = CappedSlip{}}; }
+
+}  // namespace
+
+TEST_CASE("copies stand one after the other, and so do their walls") {
+  const State tile = small_tube();
+  const State three = repeated(tile, 3);
+  REQUIRE(three.grains.size() == 3 * tile.grains.size());
+  CHECK(three.box.length == Approx(3.0 * tile.box.length));
+  CHECK(three.walls[1].spacing(three.box) == Approx(tile.walls[1].spacing(tile.box)));
+  for (std::size_t i = 0; i < three.grains.size(); ++i) {
+    const Grain copy = grain_at(three, i), original = grain_at(tile, i % tile.grains.size());
+    const auto number = static_cast<double>(i / tile.grains.size());
+    CHECK(copy.x == Approx(original.x));
+    CHECK(copy.y == Approx(original.y + number * tile.box.length));
+    CHECK(copy.radius == original.radius);
+    CHECK(copy.mass == original.mass);
+  }
+}
+
+TEST_CASE("copies have nearly the same velocities, but each grain its own") {
+  const State tile = small_tube();
+  const State many = repeated(tile, 50);
+  const Observables before = observe(tile), after = observe(many);
+  CHECK(after.mean_vy == Approx(before.mean_vy).margin(0.005));
+  // A change of a tenth adds a hundredth to the temperature.
+  CHECK(after.granular_temperature / before.granular_temperature == Approx(1.01).margin(0.01));
+  CHECK(grain_at(many, 0).vx != grain_at(many, tile.grains.size()).vx);
+}
+
+TEST_CASE("a state that has been stepped is copied with its positions and velocities of now") {
+  Simulation simulation(small_tube(), elastic(), 1);
+  simulation.advance(500);
+  const State copy = repeated(simulation.state(), 1);
+  const double change = 0.1 * std::sqrt(observe(simulation.state()).granular_temperature);
+  for (std::size_t i = 0; i < copy.grains.size(); ++i) {
+    const Grain now = grain_at(simulation.state(), i), then = grain_at(copy, i);
+    CHECK(then.x == Approx(now.x));
+    CHECK(then.y == Approx(now.y));
+    CHECK(std::abs(then.vx - now.vx) < 5.0 * change);
+    CHECK(std::abs(then.vy - now.vy) < 5.0 * change);
+  }
+}
+
+TEST_CASE("contenders are measured in turns") {
+  std::string order;
+  const auto contender = [&](char name, double seconds) {
+    return [&order, name, seconds] {
+      order += name;
+      return seconds;
+    };
+  };
+  const auto timings = in_turns({contender('a', 1.0), contender('b', 2.0)}, 3);
+  CHECK(order == "ababab");
+  CHECK(timings[1].seconds == std::vector{2.0, 2.0, 2.0});
+}
+
+TEST_CASE("least and median of repetitions") {
+  CHECK(Timing{{3.0, 1.0, 2.0}}.least() == 1.0);
+  CHECK(Timing{{3.0, 1.0, 2.0}}.median() == 2.0);
+  CHECK(Timing{{4.0, 1.0, 2.0, 10.0}}.median() == 3.0);
+}
+
+TEST_CASE("the traffic of grains that are far from each other is that of flying and looking") {
+  State state = small_tube();
+  state.walls.clear();
+  state.box.length = 1.0;
+  for (std::size_t i = 0; i < state.grains.size(); ++i)
+    state.grains.y[i] = state.box.fixed_y(0.02 * static_cast<double>(i));
+  // 8 + 16 + 8 for each axis, and both coarse coordinates once more.
+  CHECK(plain_traffic(state) == 2 * 32 + 8);
+}
