@@ -17,7 +17,7 @@ namespace riesel::bench {
 
 namespace {
 
-constexpr std::size_t fewest_for_memory = 5000;        // below, a process is larger than its grains
+constexpr std::size_t fewest_for_memory = 50'000;      // below, a process is larger than its grains
 constexpr std::size_t fewest_for_bandwidth = 500'000;  // below, caches hold a part of them
 
 /// What a row is about to be.
@@ -29,7 +29,7 @@ struct Contender {
 };
 
 /// Steps are the same for all variants and do not depend on the clock, so that the hashes of two
-/// machines can be compared.
+/// machines can be compared. At least as many as lie between several sortings, but for the largest.
 struct Plan {
   std::int64_t warm_up, steps;
   int repetitions;
@@ -38,7 +38,9 @@ struct Plan {
       : warm_up(std::llround(std::clamp(2e6 / grains, 20.0, 1000.0))),
         steps(
             std::llround(std::max(one.work * effort.work / grains, grains > 2e6 ? 100.0 : 200.0))),
-        repetitions(grains > 5e5 ? std::min(effort.repetitions, 3) : effort.repetitions) {}
+        repetitions(std::min(effort.repetitions, grains > 2e6   ? 2
+                                                 : grains > 5e5 ? 3
+                                                                : 5)) {}
 };
 
 std::string name_of(Stepping stepping) {

@@ -64,6 +64,17 @@ void measure_bandwidths(const Options& options, Results& results) {
   }
 }
 
+/// All variants of a case are alive at the same time.
+bool fits(const FlowCase& one, const Size& size, const Machine& machine) {
+  constexpr double grains_per_copy = 1400.0, bytes_per_grain = 2500.0;  // of all variants together
+  const double needed = size.copies * grains_per_copy * bytes_per_grain;
+  const bool enough = needed < static_cast<double>(machine.memory);
+  if (!enough)
+    fmt::print(stderr, "{} {}: left out, as it takes some {:.0f} GiB of memory\n", one.name,
+               size.name, needed / 0x1p30);
+  return enough;
+}
+
 void measure_all(const Options& options, const StartStates& states, Results& results) {
   const Effort effort = options.effort();
   print_heading();
@@ -71,7 +82,8 @@ void measure_all(const Options& options, const StartStates& states, Results& res
     if (options.wants_case(one.name)) measure_impacts(one, effort, results);
   for (const FlowCase& one : flow_cases())
     for (const Size& size : one.sizes)
-      if (options.wants_case(one.name) && options.wants_size(size))
+      if (options.wants_case(one.name) && options.wants_size(size)
+          && fits(one, size, results.machine))
         measure_flow(one, size, states, effort, results);
   if (options.wants_case("checkpoint")) measure_checkpoint(options.bulk(), states, effort, results);
   if (options.wants_case("start_up")) measure_start_up(options.bulk(), effort, results);

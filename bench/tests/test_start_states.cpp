@@ -54,9 +54,9 @@ TEST_CASE("copies stand one after the other, and so do their walls") {
   CHECK(three.walls[1].spacing(three.box) == Approx(tile.walls[1].spacing(tile.box)));
   for (std::size_t i = 0; i < three.grains.size(); ++i) {
     const Grain copy = grain_at(three, i), original = grain_at(tile, i % tile.grains.size());
-    const auto number = static_cast<double>(i / tile.grains.size());
+    const std::size_t number = i / tile.grains.size();
     CHECK(copy.x == Approx(original.x));
-    CHECK(copy.y == Approx(original.y + number * tile.box.length));
+    CHECK(copy.y == Approx(original.y + static_cast<double>(number) * tile.box.length));
     CHECK(copy.radius == original.radius);
     CHECK(copy.mass == original.mass);
   }
