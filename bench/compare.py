@@ -109,6 +109,17 @@ def print_inner(results):
         print(f"{case:18} {size:>5}  {name:22} {ratio}")
 
 
+def print_growth(results):
+    """How the cost of a particle-step grows with the number of grains."""
+    print(f"\n{'case':18} {'variant':12} cost of a particle-step: largest size over the cheapest one")
+    for case, variants in flow_rows(results).items():
+        for variant, rows in variants.items():
+            if len(rows) > 1:
+                largest, best = max(rows, key=lambda r: r["grains"]), max(rows, key=lambda r: r["per_second"]["median"])
+                growth = best["per_second"]["median"] / largest["per_second"]["median"]
+                print(f"{case:18} {variant:12} {growth:6.2f}  ({largest['size']} over {best['size']})")
+
+
 def print_between(a, b):
     print(f"\nB against A\n{'case':18} {'size':>5}  {'variant':22} {'B / A':>8}  span")
     for key, row in b["rows"].items():
@@ -193,6 +204,7 @@ def main():
     for name, results in files:
         print(f"{name}: ", end="")
         print_inner(results)
+        print_growth(results)
         print()
     if arguments.b:
         print_between(files[0][1], files[1][1])

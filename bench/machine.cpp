@@ -57,11 +57,13 @@ void triad(int threads, std::int64_t count, double* a, const double* b, const do
 
 std::string Machine::name() const {
   std::string result;
+  int open = 0;  // parentheses, as in "(R)": what is in them is left out
   for (const char c : fmt::format("{} {} cores", cpu, cores)) {
     const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) != 0)
+    open += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (std::isalnum(byte) != 0 && open == 0)
       result += static_cast<char>(std::tolower(byte));
-    else if (!result.empty() && result.back() != '-')
+    else if (!result.empty() && result.back() != '-' && open == 0)
       result += '-';
   }
   return result;

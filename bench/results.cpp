@@ -111,20 +111,24 @@ void print(const Row& row) {
   std::fflush(stdout);
 }
 
+nlohmann::ordered_json origin(const Machine& machine) {
+  return {{"machine", json(machine)}, {"build", json_of_build()}};
+}
+
 nlohmann::ordered_json to_json(const Results& results) {
   Json bandwidth = Json::array(), rows = Json::array();
   for (const Bandwidth& b : results.bandwidth) bandwidth.push_back(json(b));
   for (const Row& row : results.rows) rows.push_back(json(row));
-  return {{"format", "riesel benchmark"},
-          {"format_version", 1},
-          {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
-          {"quick", results.quick},
-          {"machine", json(results.machine)},
-          {"build", json_of_build()},
-          {"bandwidth", bandwidth},
-          {"hashes_agree", results.disagreements.empty()},
-          {"disagreements", results.disagreements},
-          {"rows", rows}};
+  Json all = {{"format", "riesel benchmark"},
+              {"format_version", 1},
+              {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+              {"quick", results.quick}};
+  all.update(origin(results.machine));
+  all.update({{"bandwidth", bandwidth},
+              {"hashes_agree", results.disagreements.empty()},
+              {"disagreements", results.disagreements},
+              {"rows", rows}});
+  return all;
 }
 
 std::filesystem::path usual_place(const Results& results, const std::filesystem::path& folder) {

@@ -48,6 +48,9 @@ void print_machine(const Results& results);
 void print_heading();
 void print(const Row& row);
 
+/// Where results come from: {"machine": ..., "build": ...}.
+nlohmann::ordered_json origin(const Machine& machine);
+
 nlohmann::ordered_json to_json(const Results& results);
 
 /// bench/results/<machine>-<commit>.json, with "-changed" where the sources were.

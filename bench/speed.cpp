@@ -148,6 +148,12 @@ public:
         return 0;
       };
     });
+    program_.add_subcommand("origin", "Tell the machine and the build")->callback([this] {
+      command_ = [] {
+        fmt::print("{}\n", origin(this_machine()).dump(2));
+        return 0;
+      };
+    });
     add_state();
     add_advance();
     add_start_up();

@@ -156,24 +156,32 @@ def parse():
     parser.add_argument("--size", action="append", choices=SIZES, help="default: 1.4k and 10k")
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--seconds", type=float, default=2.0, help="that a repetition takes LAMMPS on one core")
-    parser.add_argument("--out", type=Path, help="JSON file for the results")
+    parser.add_argument("--out", type=Path, help="default: bench/results/peers-<machine>-<commit>.json")
     return parser.parse_args()
+
+
+def usual_place(origin):
+    build = origin["build"]
+    name = f"peers-{origin['machine']['name']}-{build['commit'][:7]}{'-changed' if build['changed'] else ''}.json"
+    return HERE.parent / "results" / name
 
 
 def main():
     options = parse()
     riesel, lammps = Riesel(options.speed), Lammps(pinned)
-    print(f"LAMMPS {lammps.version}")
+    origin = riesel.ask("origin")
     results = {"format": "riesel peers", "format_version": 1,
                "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
-               "lammps": lammps.version, "cases": []}
+               **origin, "lammps": lammps.version, "cases": []}
+    print(f"riesel {origin['build']['commit'][:7]}, LAMMPS {lammps.version}\n{origin['machine']['cpu']}, "
+          f"{origin['machine']['cores']} cores, load {origin['machine']['load_average'][0]:.2f}")
     for case in options.case or CASES:
         for size in options.size or SIZES[:2]:
             results["cases"].append(compare_case(riesel, lammps, case, size, options))
-    if options.out:
-        options.out.parent.mkdir(parents=True, exist_ok=True)
-        options.out.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-        print(f"\nkept in {options.out}")
+    out = options.out or usual_place(origin)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    print(f"\nkept in {out}")
     return 0 if all(case["agreement"]["agree"] for case in results["cases"]) else 1
 
 
