@@ -146,16 +146,22 @@ def flow_rows(results):
 def draw_speeds(plt, files, path):
     """Million particle-steps per second over the number of grains, a panel for each case."""
     cases = list(dict.fromkeys(case for _, results in files for case in flow_rows(results)))
-    figure, panels = plt.subplots(1, len(cases), figsize=(3.2 * len(cases), 3.4), sharey=True, squeeze=False)
-    for axes, case in zip(panels[0], cases):
+    columns = min(3, len(cases))
+    rows_of_panels = -(-len(cases) // columns)
+    figure, panels = plt.subplots(rows_of_panels, columns, figsize=(3.2 * columns + 1.5, 2.9 * rows_of_panels),
+                                  sharex=True, sharey=True, squeeze=False)
+    lines = {}
+    for axes, case in zip(panels.flat, cases):
         for (name, results), style in zip(files, ("-o", "--s")):
             for color, (variant, rows) in enumerate(flow_rows(results).get(case, {}).items()):
-                axes.plot([r["grains"] for r in rows], [r["per_second"]["median"] * 1e-6 for r in rows], style,
-                          color=f"C{color}", markersize=3, label=variant if name == "A" else f"{variant} ({name})")
-        axes.set(title=case, xscale="log", yscale="log", xlabel="grains")
-    panels[0][0].set_ylabel("million particle-steps / s")
-    panels[0][0].legend(fontsize=6)
-    save(figure, path)
+                label = variant if len(files) == 1 else f"{variant}, {name}"
+                lines[label], = axes.plot([r["grains"] for r in rows], [r["per_second"]["median"] * 1e-6 for r in rows],
+                                          style, color=f"C{color}", markersize=3)
+        axes.set(title=case, xscale="log", yscale="log", xlim=(1e3, 1e7), xlabel="grains")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("million particle-steps / s")
+    figure.legend(lines.values(), lines.keys(), fontsize=7, loc="center right")
+    save(figure, path, right=1.0 - 1.4 / figure.get_figwidth())
 
 
 def draw_ratios(plt, files, path):
@@ -174,8 +180,8 @@ def draw_ratios(plt, files, path):
     save(figure, path)
 
 
-def save(figure, path):
-    figure.tight_layout()
+def save(figure, path, right=1.0):
+    figure.tight_layout(rect=(0.0, 0.0, right, 1.0))
     figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
     print(f"drawn: {path}")
 

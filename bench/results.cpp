@@ -99,6 +99,7 @@ void print_heading() {
              "{:18} {:>5} {:>9} {:10} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6}  {}\n",
              "case", "size", "grains", "variant", "median", "best", "contacts", "ns", "bytes",
              "part", "state hash");
+  std::fflush(stdout);
 }
 
 void print(const Row& row) {

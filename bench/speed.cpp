@@ -33,10 +33,10 @@ struct Options {
     return quick ? Effort{.repetitions = 3, .work = 0.1} : Effort{.repetitions = 5, .work = 1.0};
   }
   bool wants_case(const std::string& name) const { return wants(cases, name); }
-  /// The larger sizes only if asked for, or in the full suite.
+  /// The largest only if asked for by name.
   bool wants_size(const Size& size) const {
-    constexpr int longest_of_quick = 7;
-    return sizes.empty() ? !quick || size.copies <= longest_of_quick : wants(sizes, size.name);
+    const int longest = quick ? size_named("10k").copies : size_named("1M").copies;
+    return sizes.empty() ? size.copies <= longest : wants(sizes, size.name);
   }
   /// Of the cases that are about files and processes.
   Size bulk() const { return size_named(!sizes.empty() ? sizes.front() : quick ? "100k" : "1M"); }
@@ -57,8 +57,8 @@ void make_all_states(const Options& options, const StartStates& states) {
 
 /// As much as plain stepping of a million grains moves per step, and far more than any cache holds.
 void measure_bandwidths(const Options& options, Results& results) {
-  for (const std::size_t mib : {std::size_t{96}, std::size_t{1536}}) {
-    if (options.quick && mib > 96) continue;
+  for (const std::size_t mib : {std::size_t{160}, std::size_t{1536}}) {
+    if (options.quick && mib > 160) continue;
     const auto measured = measure_bandwidth(mib << 20U, 2 * options.effort().repetitions);
     results.bandwidth.insert(results.bandwidth.end(), measured.begin(), measured.end());
   }

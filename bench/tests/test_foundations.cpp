@@ -1,4 +1,7 @@
-// Long tubes are copies of a short one: that they hold the same flow.
+// What measurements rest on: that long tubes hold the flow of the short one of which they are
+// copies, that the scalar reference does the same physics as the engine, how repetitions are
+// counted.
+#include "bench/scalar_reference.hpp"
 #include "bench/start_states.hpp"
 #include "bench/timing.hpp"
 #include "bench/traffic.hpp"
@@ -25,8 +28,8 @@ namespace {
 State small_tube() {
   State state;
   state.box = {.width = 10e-3, .length = 8e-3};
-  state.walls = {{.line = 0.0, .radius = 0.33e-3, .count = 4},
-                 {.line = 10e-3, .radius = 0.33e-3, .count = 4}};
+  state.walls = {{.line = 0.0, .radius = 0.33e-3, .count = 8},
+                 {.line = 10e-3, .radius = 0.33e-3, .count = 8}};
   state.gravity = 10.0;
   state.time_step = 1e-6;
   for (int row = 0; row < 6; ++row)
@@ -113,4 +116,18 @@ TEST_CASE("the traffic of grains that are far from each other is that of flying 
     state.grains.y[i] = state.box.fixed_y(0.02 * static_cast<double>(i));
   // 8 + 16 + 8 for each axis, and both coarse coordinates once more.
   CHECK(plain_traffic(state) == 2 * 32 + 8);
+}
+
+TEST_CASE("the scalar reference brakes at the walls as the engine does") {
+  const ContactModel model{
+      .normal = LinearLaw{2000.0, 3000.0}, .slip = CappedSlip{}, .friction = 0.5};
+  const State start = small_tube();
+  Simulation simulation(start, model, 1);
+  ScalarReference reference(start, model);
+  simulation.advance(2000);
+  reference.advance(2000);
+  const double before = observe(start).mean_vy, after = observe(simulation.state()).mean_vy;
+  REQUIRE(simulation.state().tally.walls.begun > 5);
+  REQUIRE(simulation.state().tally.grains.begun > 5);
+  CHECK(std::abs(reference.mean_vy() - after) < 0.01 * std::abs(after - before));
 }
