@@ -1,4 +1,5 @@
-"""The LAMMPS data file against what riesel itself writes of the same state in SI units."""
+"""The LAMMPS data file against what riesel itself writes of the same state in SI units; and what is read from LAMMPS's
+answer. LAMMPS itself is not needed."""
 
 import os
 import pathlib
@@ -12,6 +13,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "peers"))
+from lammps import read_answer  # noqa: E402
 from lammps_data import read_state, write_lammps_data  # noqa: E402
 
 RIESEL = os.path.abspath(os.environ["RIESEL"])
@@ -77,6 +79,33 @@ class LammpsData(unittest.TestCase):
         self.assertEqual(places, {(x, y) for x in (0.0, 10.0) for y in np.arange(8) * 1.25})
         np.testing.assert_allclose(walls[:, 2], 0.66e-3)
         self.assertEqual(len(walls), 16)
+
+
+ANSWER = """\
+Step c_vx c_vy c_kinetic c_contacts
+       0  0.001 0.99 0.00102 150
+      20  0.002 0.98 0.00101 152
+Loop time of 9.5 on 1 procs for 20 steps with 1565 atoms
+Neighbor list builds = 1
+Dangerous builds = 1
+Step c_vx c_vy c_kinetic c_contacts
+      20  0.002 0.98 0.00101 152
+     220 -3e-05 0.97 0.00100 158
+Loop time of 0.25 on 1 procs for 200 steps with 1565 atoms
+Neighbor list builds = 4
+Dangerous builds = 2
+"""
+
+
+class LammpsAnswer(unittest.TestCase):
+
+    def test_the_last_run_counts_but_all_dangers(self):
+        answer = read_answer(ANSWER, grains=1000, steps=200)
+        self.assertEqual(answer["seconds"], 0.25)
+        self.assertEqual(answer["particle_steps_per_second"], 800_000)
+        self.assertEqual(answer["dangerous_builds"], 3)
+        self.assertEqual(answer["state"], {"mean_vx": -3e-05, "mean_vy": 0.97, "kinetic_energy": 0.001,
+                                           "contacts_of_grains": 158})
 
 
 if __name__ == "__main__":
