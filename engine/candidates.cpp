@@ -1,5 +1,7 @@
 #include "engine/candidates.hpp"
 
+#include "engine/contact_loop.hpp"
+
 #include <omp.h>
 
 #include <algorithm>
@@ -10,9 +12,6 @@ namespace riesel {
 
 namespace {
 
-/// The skin as a part of the mean diameter: more means more pairs to test, less means more
-/// sortings.
-constexpr double skin_per_diameter = 0.25;
 /// Below this part of the full budget it is better to sort anew than to look at displacements again
 /// and again.
 constexpr double smallest_useful_budget = 0.2;
@@ -23,22 +22,25 @@ double largest(const std::vector<Slice>& slices, double Slice::*member) {
   return most;
 }
 
-std::int32_t coarse_difference(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-}
-
 }  // namespace
 
-Candidates::Candidates(State& state, int threads)
+Candidates::Candidates(State& state, int threads, double skin_per_diameter)
     : units_(state.box), slices_(static_cast<std::size_t>(threads)), fall_(fall_per_step(state)) {
   const Grains& grains = state.grains;
-  skin_ = skin_per_diameter * mean_diameter(grains);
   max_radius_ = *std::max_element(grains.radius.begin(), grains.radius.end());
   double largest_partner = max_radius_;
   for (const WallLattice& wall : state.walls)
     largest_partner = std::max(largest_partner, wall.radius);
-  if (state.box.length <= 2.0 * (max_radius_ + largest_partner + skin_))
+  const double reach = max_radius_ + largest_partner;
+  const double diameter = mean_diameter(grains);
+  if (state.box.length <= 2.0 * (reach + short_skin * diameter))
     throw std::invalid_argument("the period is too short for the nearest image to be unique");
+  const double longest_skin = 0.499 * state.box.length - reach;
+  skin_ = std::max(short_skin * diameter, std::min(skin_per_diameter * diameter, longest_skin));
+  for (const WallLattice& wall : state.walls)
+    if (2.0 * (max_radius_ + wall.radius) / wall.spacing(state.box)
+        > static_cast<double>(NearWall::most_partners - 2))
+      throw std::invalid_argument("the grains of a wall are too close together");
 
 #pragma omp parallel num_threads(threads)
   renew(state, slices_[static_cast<std::size_t>(omp_get_thread_num())], state.step);
@@ -65,12 +67,16 @@ bool Candidates::look_again(State& state, Slice& mine, std::int64_t step) {
     mine.budget = left;
     return false;
   }
+  sort_anew(state, mine, step);
+  return true;
+}
+
+void Candidates::sort_anew(State& state, Slice& mine, std::int64_t step) {
 #pragma omp single
   lasting_ = contacts();
   renew(state, mine, step);
 #pragma omp single
   give_back(state, lasting_);
-  return true;
 }
 
 void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
@@ -95,8 +101,7 @@ void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
 void Candidates::start_over(const State& state, std::int64_t step) {
   const Grains& grains = state.grains;
   for (auto* positions : {&coarse_, &coarse_when_sorted_}) {
-    positions->x.resize(grains.size());
-    positions->y.resize(grains.size());
+    positions->resize(grains.size());
   }
   for (std::size_t s = 0; s < slices_.size(); ++s) {
     slices_[s].begin = grains.size() * s / slices_.size();
@@ -110,26 +115,17 @@ void Candidates::start_over(const State& state, std::int64_t step) {
       wrapped_sum(grains.uy.front(), nearest_fixed(sum / static_cast<double>(grains.size())));
 }
 
+/// First the pairs within the longest reach, then of them those within their own.
 void Candidates::list_pairs(const State& state, Slice& mine) {
   const Grains& grains = state.grains;
-  const float farthest2 = units_.generous_square(2.0 * max_radius_ + skin_);
-  CandidatePairs& pairs = mine.pairs;
-  pairs.clear();
-  for (std::size_t i = mine.begin; i < mine.end; ++i)
-    cells_.for_each_later_range(i, [&](SlotRange range) {
-      for (std::size_t j = range.begin; j < range.end; ++j) {
-        const float dx =
-            static_cast<float>(coarse_difference(coarse_.x[j], coarse_.x[i])) * units_.x;
-        const float dy =
-            static_cast<float>(coarse_difference(coarse_.y[j], coarse_.y[i])) * units_.y;
-        const float distance2 = dx * dx + dy * dy;
-        if (distance2 >= farthest2) continue;
-        const double reach = grains.radius[i] + grains.radius[j];
-        if (distance2 < units_.generous_square(reach + skin_))
-          pairs.add(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
-                    units_.generous_square(reach));
-      }
-    });
+  find_close(cells_, {mine.begin, mine.end}, coarse_, units_,
+             units_.generous_square(2.0 * max_radius_ + skin_), mine.close);
+  mine.pairs.clear();
+  for (const auto& [i, j] : mine.close) {
+    const double reach = grains.radius[i] + grains.radius[j];
+    if (coarse_.squared_distance(i, j, units_) < units_.generous_square(reach + skin_))
+      mine.pairs.add(i, j, units_.generous_square(reach));
+  }
 }
 
 void Candidates::list_near_walls(const State& state, Slice& mine) const {
@@ -168,9 +164,8 @@ double Candidates::squared_speed(const State& state, std::size_t slot) const {
 
 void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t step) const {
   const std::int64_t steps = step - sorted_at_;
-  const Fixed sum_of_steps = steps * (sorted_at_ + 1 + step) / 2;
-  const std::int32_t drift = upper_half(
-      wrapped_sum(wrapped_product(steps, drift_y_), wrapped_product(sum_of_steps, fall_)));
+  const std::int32_t drift = upper_half(wrapped_sum(
+      wrapped_product(steps, drift_y_), wrapped_product(sum_of_steps(sorted_at_, step), fall_)));
   float farthest2 = 0.0F;
   mine.fastest2 = 0.0;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
@@ -188,44 +183,42 @@ void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t st
 std::vector<Contact> Candidates::contacts() const {
   std::vector<Contact> all;
   for (const Slice& slice : slices_)
-    for (const ContactBook* book : {&slice.pair_contacts, &slice.wall_contacts})
-      for (const ContactBook::Entry& entry : book->entries()) all.push_back(book->contact(entry));
+    for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
+      for (std::size_t i = 0; i < live->size(); ++i) all.push_back(live->contact(i));
   std::sort(all.begin(), all.end(),
             [](const Contact& a, const Contact& b) { return a.name < b.name; });
   return all;
 }
 
-/// Enters contacts into the books. One whose bodies are no candidates any more has ended: the grain
+/// Hands contacts to the slices. One whose bodies are no candidates any more has ended: the grain
 /// is so fast that it left in a single step. Returns how many have.
 std::size_t Candidates::give_back(const State& state, const std::vector<Contact>& contacts) {
   std::vector<std::uint32_t> slot_of(contacts.empty() ? 0 : state.grains.size());
   for (std::size_t slot = 0; slot < slot_of.size(); ++slot)
     slot_of[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
 
-  using Keyed = std::pair<std::uint64_t, const Contact*>;
-  std::vector<std::vector<Keyed>> pairs(slices_.size()), walls(slices_.size());
+  for (Slice& slice : slices_) {
+    slice.pair_contacts.clear();
+    slice.wall_contacts.clear();
+  }
   std::size_t ended = 0;
   for (const Contact& contact : contacts) {
     const bool of_wall = contact.name.wall != no_wall;
     const std::uint32_t grain = slot_of[static_cast<std::size_t>(contact.name.grain)];
     const auto found =
-        of_wall ? wall_key(grain, contact.name)
-                : pair_key(grain, slot_of[static_cast<std::size_t>(contact.name.partner)]);
-    if (found) {
-      (of_wall ? walls : pairs)[found->slice].push_back({found->key, &contact});
-    } else {
+        of_wall ? near_wall_of(grain, contact.name.wall)
+                : pair_of(grain, slot_of[static_cast<std::size_t>(contact.name.partner)]);
+    if (!found) {
       slices_.front().tally.end(contact);
       ++ended;
+      continue;
     }
-  }
-  const auto enter = [](ContactBook& book, std::vector<Keyed>& keyed) {
-    std::sort(keyed.begin(), keyed.end());
-    book.clear();
-    for (const auto& [key, contact] : keyed) book.add(key, *contact);
-  };
-  for (std::size_t s = 0; s < slices_.size(); ++s) {
-    enter(slices_[s].pair_contacts, pairs[s]);
-    enter(slices_[s].wall_contacts, walls[s]);
+    Slice& slice = slices_[found->slice];
+    const Meeting meeting = of_wall
+                                ? meeting_at_wall(slice, state, found->index, contact.name.partner)
+                                : meeting_of_pair(slice, state.grains, found->index);
+    note_lasting(slice, meeting);
+    (of_wall ? slice.wall_contacts : slice.pair_contacts).add(meeting, contact);
   }
   return ended;
 }
@@ -236,29 +229,30 @@ std::size_t Candidates::slice_of(std::uint32_t slot) const {
   return static_cast<std::size_t>(after - slices_.begin());
 }
 
-std::optional<Candidates::KeyInSlice> Candidates::pair_key(std::uint32_t a, std::uint32_t b) const {
+std::optional<Candidates::Place> Candidates::pair_of(std::uint32_t a, std::uint32_t b) const {
   for (const auto& [first, second] : {std::pair{a, b}, std::pair{b, a}}) {
     const std::size_t s = slice_of(first);
     const CandidatePairs& pairs = slices_[s].pairs;
     const auto [low, high] = std::equal_range(pairs.first.begin(), pairs.first.end(), first);
     for (auto p = static_cast<std::size_t>(low - pairs.first.begin());
          p < static_cast<std::size_t>(high - pairs.first.begin()); ++p)
-      if (pairs.second[p] == second) return KeyInSlice{.slice = s, .key = p};
+      if (pairs.second[p] == second)
+        return Place{.slice = s, .index = static_cast<std::uint32_t>(p)};
   }
   return std::nullopt;
 }
 
-std::optional<Candidates::KeyInSlice> Candidates::wall_key(std::uint32_t slot,
-                                                           const ContactName& name) const {
+std::optional<Candidates::Place> Candidates::near_wall_of(std::uint32_t slot,
+                                                          std::int32_t wall) const {
   const std::size_t s = slice_of(slot);
   const auto& near = slices_[s].near_walls;
-  const auto place = std::find_if(near.begin(), near.end(), [&](const NearWall& n) {
-    return n.slot == slot && n.wall == name.wall;
-  });
-  if (place == near.end()) return std::nullopt;
-  return KeyInSlice{
-      .slice = s,
-      .key = wall_contact_key(static_cast<std::size_t>(place - near.begin()), name.partner)};
+  const auto first =
+      std::lower_bound(near.begin(), near.end(), slot,
+                       [](const NearWall& n, std::uint32_t x) { return n.slot < x; });
+  for (auto n = first; n != near.end() && n->slot == slot; ++n)
+    if (n->wall == wall)
+      return Place{.slice = s, .index = static_cast<std::uint32_t>(n - near.begin())};
+  return std::nullopt;
 }
 
 }  // namespace riesel

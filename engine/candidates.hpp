@@ -21,8 +21,14 @@ namespace riesel {
 
 class Candidates {
 public:
-  /// Sorts `state` and takes over its contacts.
-  Candidates(State& state, int threads);
+  /// The skin as a part of the mean diameter: more means more pairs to test, less means more
+  /// sortings. This one serves plain stepping.
+  static constexpr double short_skin = 0.25;
+
+  /// Sorts `state` and takes over its contacts. Throws std::invalid_argument if the box is too
+  /// short for the nearest image to be unique, wall grains are too close together, or a contact of
+  /// the state cannot be one.
+  Candidates(State& state, int threads, double skin_per_diameter);
 
   std::vector<Slice>& slices() { return slices_; }
   const std::vector<Slice>& slices() const { return slices_; }
@@ -39,6 +45,15 @@ public:
   /// what it changes is complete when it returns.
   bool look_again(State& state, Slice& mine, std::int64_t step);
 
+  /// Sorts and lists all candidates anew; else as look_again().
+  void sort_anew(State& state, Slice& mine, std::int64_t step);
+
+  /// The candidates hold while no grain has moved by half the skin from where it was when they were
+  /// listed, relative to a common motion: free fall with a displacement per step of drift_y()
+  /// (quanta) in the falling frame.
+  double skin() const { return skin_; }  ///< m
+  Fixed drift_y() const { return drift_y_; }
+
   /// The grains of `mine` that received kicks have new velocities: keeps the bound on the speeds.
   void note_speeds(const State& state, Slice& mine) const;
 
@@ -54,16 +69,16 @@ private:
   void measure_motion(const State& state, Slice& mine, std::int64_t step) const;
   double squared_speed(const State& state, std::size_t slot) const;
 
-  /// Where in the books a contact stands.
-  struct KeyInSlice {
+  /// Where a candidate is listed.
+  struct Place {
     std::size_t slice;
-    std::uint64_t key;
+    std::uint32_t index;
   };
 
   std::size_t give_back(const State& state, const std::vector<Contact>& contacts);
   std::size_t slice_of(std::uint32_t slot) const;
-  std::optional<KeyInSlice> pair_key(std::uint32_t a, std::uint32_t b) const;
-  std::optional<KeyInSlice> wall_key(std::uint32_t slot, const ContactName& name) const;
+  std::optional<Place> pair_of(std::uint32_t a, std::uint32_t b) const;
+  std::optional<Place> near_wall_of(std::uint32_t slot, std::int32_t wall) const;
 
   double skin_;  // m
   double max_radius_;

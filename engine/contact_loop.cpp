@@ -1,7 +1,5 @@
 #include "engine/contact_loop.hpp"
 
-#include "engine/encounter.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,115 +7,107 @@ namespace riesel {
 
 namespace {
 
-/// Collects the candidates that do overlap.
-class Collector {
-public:
-  Collector(const Slice& slice, const State& state, const StepUnits& units, ContactBatch& batch)
-      : slice_(slice), state_(state), grains_(state.grains), units_(units), batch_(batch) {}
-
-  void pair(std::uint32_t p) {
-    const std::uint32_t i = slice_.pairs.first[p], j = slice_.pairs.second[p];
-    const Encounter e = encounter(grains_, i, j, units_);
-    if (!overlapping(e)) return;
-    const auto [a, b] = std::minmax(grains_.id[i], grains_.id[j]);
-    batch_.add({.key = p, .name = {no_wall, a, b}, .first = i, .second = j}, e);
+void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
+  for (const std::uint32_t p : slice.hits) {
+    const std::uint32_t i = slice.pairs.first[p], j = slice.pairs.second[p];
+    if (!overlapping(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i]),
+                     g.radius[i] + g.radius[j], units))
+      continue;
+    begin_contact(slice, slice.pair_contacts, meeting_of_pair(slice, g, p));
   }
+}
 
-  void wall(std::uint32_t place) {
-    const NearWall& near = slice_.near_walls[place];
-    const WallLattice& lattice = state_.walls[static_cast<std::size_t>(near.wall)];
-    const Fixed line = state_.box.fixed_x(lattice.line);
-    const double reach = grains_.radius[near.slot] + lattice.radius;
-    for_each_wall_grain_within(
-        lattice, state_.box, grains_.y[near.slot], reach, [&](std::int64_t k, Fixed y) {
-          const Encounter e = encounter(grains_, near.slot, line, y, lattice.radius, units_);
-          if (!overlapping(e)) return;
-          const ContactName name{near.wall, grains_.id[near.slot], static_cast<std::int32_t>(k)};
-          batch_.add({.key = wall_contact_key(place, name.partner),
-                      .name = name,
-                      .first = near.slot,
-                      .second = no_slot},
-                     e);
+void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
+  const Grains& g = state.grains;
+  for (const std::uint32_t place : slice.wall_hits) {
+    const NearWall& near = slice.near_walls[place];
+    for_each_touched_wall_grain(
+        state, near, g.x[near.slot], g.y[near.slot], units, [&](std::int64_t k) {
+          begin_contact(slice, slice.wall_contacts, meeting_at_wall(slice, state, place, k));
         });
   }
-
-private:
-  const Slice& slice_;
-  const State& state_;
-  const Grains& grains_;
-  const StepUnits& units_;
-  ContactBatch& batch_;
-};
-
-/// Carries the life of a contact on by one step.
-void live(Contact& c, bool begins, const ContactBatch::Who& who, const Touch& t,
-          const StepUnits& units) {
-  if (begins) {
-    c.name = who.name;
-    c.begin = units.time - t.since;
-    c.entry_rate = t.rate;
-    c.entry_slip = t.slip;
-  }
-  c.end = units.time + t.until;
-  c.overlap = t.overlap;
-  c.max_overlap = std::max(c.max_overlap, t.overlap);
-  c.slip_path += std::abs(t.slip) * units.dt;
-  c.elastic_energy = t.elastic_energy;
-  c.normal_loss += t.normal_power * units.dt;
-  c.friction_loss += t.friction_power * units.dt;
-  if (who.second == no_slot) {
-    const double impulse = t.fy * units.dt;
-    c.impulse_y += impulse;
-    c.impulse_y_times_step += impulse * units.step;
-  }
-}
-
-/// Kicks are integers: a force that is not a number, or beyond all bounds, must not become one.
-bool usable(double kick) { return std::abs(kick) < 0x1p62; }
-
-void kick(Slice& slice, const Grains& grains, std::uint32_t slot, double fx, double fy,
-          const StepUnits& units, const ContactName& name) {
-  const double per_mass = 1.0 / grains.mass[slot];
-  const double x = fx * per_mass * units.kick_per_acceleration().x();
-  const double y = fy * per_mass * units.kick_per_acceleration().y();
-  if (usable(x) && usable(y))
-    slice.kicks.push_back({slot, nearest_fixed(x), nearest_fixed(y)});
-  else
-    slice.trouble = name;
-}
-
-/// Kicks and lives of the contacts in the batch, which are ordered by key.
-void settle(Slice& slice, const Grains& grains, ContactBook& book, const StepUnits& units) {
-  const ContactBatch& batch = slice.batch;
-  book.begin_step();
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    const ContactBatch::Who& who = batch.who(i);
-    const Touch t = batch.touch(i);
-    const auto [contact, begins] = book.meet(who.key, slice.tally);
-    if (begins) ++slice.tally.of(who.name).begun;
-    live(contact, begins, who, t, units);
-    kick(slice, grains, who.first, t.fx, t.fy, units, who.name);
-    if (who.second != no_slot) kick(slice, grains, who.second, -t.fx, -t.fy, units, who.name);
-  }
-  book.end_step(slice.tally);
 }
 
 }  // namespace
 
+Meeting meeting_of_pair(const Slice& slice, const Grains& g, std::uint32_t pair) {
+  const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
+  const auto [a, b] = std::minmax(g.id[i], g.id[j]);
+  return {.name = {no_wall, a, b},
+          .candidate = pair,
+          .first = i,
+          .second = j,
+          .line = 0,
+          .y = 0,
+          .reach = g.radius[i] + g.radius[j],
+          .mass_first = g.mass[i],
+          .mass_second = g.mass[j]};
+}
+
+Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t near_wall,
+                        std::int64_t k) {
+  const NearWall& near = slice.near_walls[near_wall];
+  const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
+  const Grains& g = state.grains;
+  return {.name = {near.wall, g.id[near.slot], static_cast<std::int32_t>(k)},
+          .candidate = near_wall,
+          .first = near.slot,
+          .second = near.slot,
+          .line = state.box.fixed_x(wall.line),
+          .y = wall.place(k),
+          .reach = g.radius[near.slot] + wall.radius,
+          .mass_first = g.mass[near.slot],
+          .mass_second = 0.0};
+}
+
+void note_lasting(Slice& slice, const Meeting& meeting) {
+  if (meeting.name.wall == no_wall) {
+    float& reach2 = slice.pairs.reach2[meeting.candidate];
+    reach2 = -std::abs(reach2);
+  } else {
+    slice.near_walls[meeting.candidate].partners |= NearWall::bit(meeting.name.partner);
+  }
+}
+
+void note_over(Slice& slice, const Meeting& meeting) {
+  if (meeting.name.wall == no_wall) {
+    float& reach2 = slice.pairs.reach2[meeting.candidate];
+    reach2 = std::abs(reach2);
+  } else {
+    slice.near_walls[meeting.candidate].partners &= ~NearWall::bit(meeting.name.partner);
+  }
+}
+
+void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting) {
+  ++slice.tally.of(meeting.name).begun;
+  note_lasting(slice, meeting);
+  contacts.begin(meeting);
+}
+
 void resolve_contacts(Slice& slice, const State& state, const ContactModel& model) {
   const StepUnits units(state);
-  Collector collector(slice, state, units, slice.batch);
+  begin_pairs(slice, state.grains, units);
+  begin_at_walls(slice, state, units);
+  for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts}) {
+    contacts->step(bodies(state.grains), units, model);
+    complete_step(slice, *contacts, [](std::size_t) {});
+  }
+
   slice.kicks.clear();
-
-  slice.batch.clear();
-  for (const std::uint32_t p : slice.hits) collector.pair(p);
-  slice.batch.touch_all(model, units.dt);
-  settle(slice, state.grains, slice.pair_contacts, units);
-
-  slice.batch.clear();
-  for (const std::uint32_t place : slice.wall_hits) collector.wall(place);
-  slice.batch.touch_all(model, units.dt);
-  settle(slice, state.grains, slice.wall_contacts, units);
+  const auto kick = [&](std::int64_t slot, Fixed x, Fixed y) {
+    slice.kicks.push_back({static_cast<std::uint32_t>(slot), x, y});
+  };
+  const LiveContacts& pairs = slice.pair_contacts;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const ContactKick k = pairs.kick(i);
+    kick(pairs.first(i), k.first_x, k.first_y);
+    kick(pairs.second(i), k.second_x, k.second_y);
+  }
+  const LiveContacts& walls = slice.wall_contacts;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const ContactKick k = walls.kick(i);
+    kick(walls.first(i), k.first_x, k.first_y);
+  }
 }
 
 }  // namespace riesel

@@ -1,15 +1,61 @@
-// The contact loop: every contact of a slice in one step, its force, its life and its kicks.
+// From candidates that may touch to the kicks of contacts: beginning, lasting, end.
 #pragma once
 
 #include "engine/contact_law.hpp"
+#include "engine/encounter.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
+#include "engine/wall_lattice.hpp"
+
+#include <cstdint>
 
 namespace riesel {
 
-/// Finds which candidates of the slice overlap among `hits` and at the walls, and writes the kicks
-/// of the contacts to slice.kicks and their lives to its contact books. Reads the state, changes
-/// only the slice. A contact whose force is not a usable number is left in slice.trouble.
+/// A pair of free grains in contact, with their slots as places.
+Meeting meeting_of_pair(const Slice& slice, const Grains& grains, std::uint32_t pair);
+
+/// A grain near a wall in contact with grain `k` of it.
+Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t near_wall,
+                        std::int64_t k);
+
+/// The contact lasts: nobody needs to look for it.
+void note_lasting(Slice& slice, const Meeting& meeting);
+/// It has ended.
+void note_over(Slice& slice, const Meeting& meeting);
+
+/// Begins in the step that is being done.
+void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting);
+
+/// Calls touches(k) for the wall grains that `near`, at (x, y), overlaps and is not in contact with
+/// yet.
+template <class Touches>
+void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed x, Fixed y,
+                                 const StepUnits& units, Touches touches) {
+  const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
+  const Fixed from_line = wrapped_difference(state.box.fixed_x(wall.line), x);
+  const double reach = state.grains.radius[near.slot] + wall.radius;
+  for_each_wall_grain_within(wall, state.box, y, reach, [&](std::int64_t k, Fixed there) {
+    if ((near.partners & NearWall::bit(k)) != 0) return;
+    if (overlapping(from_line, wrapped_difference(there, y), reach, units)) touches(k);
+  });
+}
+
+/// Completes a step of `contacts`: tells trouble, counts those that have ended and removes them;
+/// calls ended(i) before contact i goes.
+template <class Ended>
+void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
+  if (contacts.trouble()) slice.trouble = contacts.trouble();
+  const auto& indices = contacts.ended();
+  for (auto i = indices.rbegin(); i != indices.rend(); ++i) {
+    slice.tally.end(contacts.contact(*i));
+    note_over(slice, contacts.meeting(*i));
+    ended(*i);
+    contacts.remove(*i);
+  }
+}
+
+/// One step of the contacts of `slice`: those that last, and those that begin among its hits. The
+/// grains are at the step of `state`; the kicks are in the slice then.
 void resolve_contacts(Slice& slice, const State& state, const ContactModel& model);
 
 }  // namespace riesel

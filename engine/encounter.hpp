@@ -4,81 +4,105 @@
 #include "engine/contact_force.hpp"
 #include "engine/state.hpp"
 
-#include <Eigen/Core>
-
 #include <cstdint>
 
 namespace riesel {
 
 /// The numbers of the current step that turn quanta into SI units and back.
-class StepUnits {
-public:
+struct StepUnits {
   explicit StepUnits(const State& state)
       : dt(state.time_step),
-        time(state.time()),
-        step(static_cast<double>(state.step)),
-        fall_(fall_per_step(state)),
-        fallen_(wrapped_product(fall_, state.step)),
-        metres_(state.box.quantum_x(), state.box.quantum_y()),
-        velocity_(metres_ / dt),
-        kick_(dt * dt / metres_.array()) {}
-
-  const double dt, time, step;
-
-  Eigen::Vector2d metres(Fixed x, Fixed y) const { return scaled(x, y, metres_); }
-  /// m/s, from displacements per step
-  Eigen::Vector2d velocity(Fixed ux, Fixed uy) const { return scaled(ux, uy, velocity_); }
-  /// displacement per step along y, from one in the falling frame
-  Fixed falling(Fixed uy) const { return wrapped_sum(uy, fallen_); }
-  Fixed fall() const { return fall_; }
-  /// quanta per step^2 over m/s^2
-  const Eigen::Vector2d& kick_per_acceleration() const { return kick_; }
-
-private:
-  static Eigen::Vector2d scaled(Fixed x, Fixed y, const Eigen::Vector2d& unit) {
-    return {static_cast<double>(x) * unit.x(), static_cast<double>(y) * unit.y()};
+        fall(fall_per_step(state)),
+        metre_x(state.box.quantum_x()),
+        metre_y(state.box.quantum_y()),
+        velocity_x(metre_x / dt),
+        velocity_y(metre_y / dt),
+        kick_x(dt * dt / metre_x),
+        kick_y(dt * dt / metre_y) {
+    move_to(state.step);
   }
 
-  Fixed fall_, fallen_;
-  Eigen::Vector2d metres_, velocity_, kick_;
+  void move_to(std::int64_t new_step) {
+    step = static_cast<double>(new_step);
+    time = step * dt;
+    fallen = wrapped_product(fall, new_step);
+  }
+
+  double dt;                      ///< s
+  Fixed fall;                     ///< gravity per step^2: quanta per step
+  double metre_x, metre_y;        ///< m per quantum
+  double velocity_x, velocity_y;  ///< m/s per quantum per step
+  double kick_x, kick_y;          ///< quanta per step^2 over m/s^2
+
+  double step;   ///< steps done
+  double time;   ///< s
+  Fixed fallen;  ///< gravity so far: quanta per step
 };
 
-/// From the motion in SI units; `last_kick` is what the relative velocity (m/s) gained in a step by
-/// the accelerations of the step before.
-inline Encounter encounter(const Eigen::Vector2d& separation, const Eigen::Vector2d& half_step,
-                           const Eigen::Vector2d& last_kick, double reach, double reduced_mass) {
-  return {.x = separation.x(),
-          .y = separation.y(),
-          .vx = half_step.x() + 0.5 * last_kick.x(),
-          .vy = half_step.y() + 0.5 * last_kick.y(),
-          .half_vx = half_step.x(),
-          .half_vy = half_step.y(),
+/// The motion of bodies, by place in these arrays; as in Grains.
+struct Bodies {
+  const Fixed *x, *y, *ux, *uy, *kick_x, *kick_y;
+};
+
+inline Bodies bodies(const Grains& g) {
+  return {.x = g.x.data(),
+          .y = g.y.data(),
+          .ux = g.ux.data(),
+          .uy = g.uy.data(),
+          .kick_x = g.kick_x.data(),
+          .kick_y = g.kick_y.data()};
+}
+
+/// Position and motion of one body relative to another, in quanta.
+struct RelativeMotion {
+  Fixed x, y, ux, uy, kick_x, kick_y;
+};
+
+/// Of body j as seen from body i.
+[[gnu::always_inline]] inline RelativeMotion relative_motion(const Bodies& b, std::int64_t i,
+                                                             std::int64_t j) {
+  return {.x = wrapped_difference(b.x[j], b.x[i]),
+          .y = wrapped_difference(b.y[j], b.y[i]),
+          .ux = wrapped_difference(b.ux[j], b.ux[i]),
+          .uy = wrapped_difference(b.uy[j], b.uy[i]),
+          .kick_x = wrapped_difference(b.kick_x[j], b.kick_x[i]),
+          .kick_y = wrapped_difference(b.kick_y[j], b.kick_y[i])};
+}
+
+/// Of a wall grain at rest at (line, y) as seen from body i.
+[[gnu::always_inline]] inline RelativeMotion
+relative_motion(const Bodies& b, std::int64_t i, Fixed line, Fixed y, const StepUnits& units) {
+  return {.x = wrapped_difference(line, b.x[i]),
+          .y = wrapped_difference(y, b.y[i]),
+          .ux = wrapped_difference(0, b.ux[i]),
+          .uy = wrapped_difference(0, wrapped_sum(b.uy[i], units.fallen)),
+          .kick_x = wrapped_difference(0, b.kick_x[i]),
+          .kick_y = wrapped_difference(0, wrapped_sum(b.kick_y[i], units.fall))};
+}
+
+/// `reach` is the sum of the radii (m), `reduced_mass` in kg. The kick of the step before takes the
+/// velocity from the half step to the full one.
+[[gnu::always_inline]] inline Encounter encounter(const RelativeMotion& m, double reach,
+                                                  double reduced_mass, const StepUnits& units) {
+  const double half_vx = real(m.ux) * units.velocity_x;
+  const double half_vy = real(m.uy) * units.velocity_y;
+  return {.x = real(m.x) * units.metre_x,
+          .y = real(m.y) * units.metre_y,
+          .vx = half_vx + 0.5 * (real(m.kick_x) * units.velocity_x),
+          .vy = half_vy + 0.5 * (real(m.kick_y) * units.velocity_y),
+          .half_vx = half_vx,
+          .half_vy = half_vy,
           .reach = reach,
           .reduced_mass = reduced_mass};
 }
 
-/// Two free grains as they meet in this step.
-inline Encounter encounter(const Grains& g, std::uint32_t i, std::uint32_t j,
-                           const StepUnits& units) {
-  return encounter(
-      units.metres(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i])),
-      units.velocity(wrapped_difference(g.ux[j], g.ux[i]), wrapped_difference(g.uy[j], g.uy[i])),
-      units.velocity(wrapped_difference(g.kick_x[j], g.kick_x[i]),
-                     wrapped_difference(g.kick_y[j], g.kick_y[i])),
-      g.radius[i] + g.radius[j], g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j]));
+/// Whether two bodies, the second at (x, y) from the first, touch: the one test that decides about
+/// the beginning and the end of a contact.
+[[gnu::always_inline]] inline bool overlapping(Fixed x, Fixed y, double reach,
+                                               const StepUnits& units) {
+  const double dx = real(x) * units.metre_x;
+  const double dy = real(y) * units.metre_y;
+  return dx * dx + dy * dy < reach * reach;
 }
-
-/// A free grain and a fixed wall grain at (line, y).
-inline Encounter encounter(const Grains& g, std::uint32_t i, Fixed line, Fixed y,
-                           double wall_radius, const StepUnits& units) {
-  return encounter(units.metres(wrapped_difference(line, g.x[i]), wrapped_difference(y, g.y[i])),
-                   -units.velocity(g.ux[i], units.falling(g.uy[i])),
-                   -units.velocity(g.kick_x[i], wrapped_sum(g.kick_y[i], units.fall())),
-                   g.radius[i] + wall_radius, g.mass[i]);
-}
-
-/// Whether the two bodies touch: the one test that decides about the beginning and the end of a
-/// contact.
-inline bool overlapping(const Encounter& e) { return e.x * e.x + e.y * e.y < e.reach * e.reach; }
 
 }  // namespace riesel

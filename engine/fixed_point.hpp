@@ -11,6 +11,7 @@
 // Signed overflow is undefined in C++, so the sums go through unsigned integers, where it is not.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace riesel {
@@ -36,7 +37,35 @@ constexpr Fixed wrapped_product(Fixed a, Fixed b) {
 /// The upper half of a coordinate: what the search for neighbours looks at.
 constexpr std::int32_t upper_half(Fixed a) { return static_cast<std::int32_t>(a >> 32); }
 
-/// Nearest integer to `quanta` (ties to even); |quanta| must be below 2^63.
-inline Fixed nearest_fixed(double quanta) { return static_cast<Fixed>(__builtin_llrint(quanta)); }
+/// The nearest double, as by static_cast, in operations that vectorise everywhere: the halves of
+/// the number are put where the exponents 2^84 and 2^52 make them worth 2^32 and 1.
+[[gnu::always_inline]] inline double real(Fixed a) {
+  constexpr double upper_origin = 0x1p84, lower_origin = 0x1p52, sign = 0x1p63;
+  const auto bits = static_cast<std::uint64_t>(a);
+  const auto upper = std::bit_cast<double>((bits >> 32) ^ std::uint64_t{0x4530000080000000});
+  const auto lower =
+      std::bit_cast<double>((bits & 0xffffffffU) | std::uint64_t{0x4330000000000000});
+  return (upper - (upper_origin + sign + lower_origin)) + lower;
+}
+
+/// Nearest integer to `quanta` (ties to even); |quanta| must be below 2^63. What llrint() gives,
+/// in additions that vectorise everywhere: a number is rounded by adding 1.5 * 2^52, which leaves
+/// no bits for fractions, first its upper part, then what remains.
+[[gnu::always_inline]] inline Fixed nearest_fixed(double quanta) {
+  constexpr double shift = 0x1.8p52;
+  const auto integer = [=](double shifted) {
+    return std::bit_cast<Fixed>(shifted) - std::bit_cast<Fixed>(shift);
+  };
+  const double upper = quanta * 0x1p-26 + shift;
+  const double lower = quanta - (upper - shift) * 0x1p26 + shift;
+  return wrapped_sum(wrapped_product(integer(upper), Fixed{1} << 26), integer(lower));
+}
+
+/// (since + 1) + (since + 2) + ... + now: how often the fall per step^2 adds to y in these steps,
+/// in a frame that falls since step 0. 0 <= since <= now.
+[[gnu::always_inline]] inline std::int64_t sum_of_steps(std::int64_t since, std::int64_t now) {
+  const auto twice = static_cast<std::uint64_t>((now - since) * (since + 1 + now));
+  return static_cast<std::int64_t>(twice >> 1);
+}
 
 }  // namespace riesel

@@ -7,16 +7,20 @@
 // grains keep to their courses. In that step it is looked at, and either a contact begins or a new
 // appointment is made.
 //
-// A grain in contact leaves its course. Appointments with it are made with a tolerance: they hold
-// as long as it stays that close to the course; when it does not, or when its last contact ends, it
-// gets a new course and new appointments. So no contact is missed, and the steps done here are the
-// same, bit by bit, as those of plain stepping. See docs/performance.md for the figures and
-// docs/architecture.md for how this compares with fixed windows.
+// A grain in contact leaves its course. Most appointments are made with a tolerance: they hold as
+// long as both grains stay that close to their courses, in contact or not. Those of pairs that are
+// too close for that are exact, and made anew when one of the two is deflected. A grain that goes
+// beyond the tolerance, or whose last contact ends, gets a new course and new appointments. So no
+// contact is missed, and the steps done here are the same, bit by bit, as those of plain stepping.
+// See docs/performance.md for the figures and docs/architecture.md for how this compares with fixed
+// windows.
 #pragma once
 
 #include "engine/calendar.hpp"
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
+#include "engine/deflected_grains.hpp"
+#include "engine/free_flight.hpp"
 #include "engine/state.hpp"
 
 #include <cstdint>
@@ -26,73 +30,77 @@ namespace riesel {
 
 class Flights {
 public:
-  /// All grains of `state` must be at its step. One slice only. Keeps references.
+  /// A skin that serves flights, as a part of the mean diameter: pairs far apart cost no more than
+  /// an appointment.
+  static constexpr double skin_per_diameter = 0.6;
+
+  /// All grains of `state` must be at its step. One slice only; nobody else uses the candidates
+  /// afterwards. Keeps references.
   Flights(State& state, const ContactModel& model, Candidates& candidates);
 
-  /// One step of all that does not fly.
+  /// One step of all that does not fly. The store is a state again after land() only.
   void step(std::int64_t step);
-
   /// Brings all grains to this step, which must be that of the last step().
-  void land_all(std::int64_t step);
+  void land(std::int64_t step);
+  /// To be called between land() and the next step().
+  void take_off();
 
 private:
-  /// A grain that is stepped: how far it is from the course for which its appointments were made.
-  struct Deflected {
-    std::uint32_t slot;
-    std::int32_t contacts;  // that last
-    bool fresh;             // its appointments are not yet made for this course
-    Fixed x, y, ux, uy;     // actual minus course
-  };
-  /// The straight path (in the falling frame) that a grain is expected to follow, now.
-  struct Course {
-    Fixed x, y, ux, uy;
-    double tolerance;  // m
-  };
-
   void begin(std::int64_t step, std::int64_t earliest);
   void link();
-  void move_deflected(std::int64_t step);
+  void renew(std::int64_t step);
+  std::int64_t first_to_leave_skin() const;
+  double room_in_skin() const;
+  std::int64_t leaves_skin(std::uint32_t slot, std::int64_t now) const;
+
   void keep_appointments(std::int64_t step);
-  void note_contacts();
+  void look_at_pair(std::uint32_t pair);
+  void look_at_wall(std::uint32_t near_wall);
+  void step_contacts();
   void correct_courses(std::int64_t step);
 
-  void make_appointment(std::uint32_t candidate, std::int64_t now, std::int64_t earliest);
-  double free_steps_of_pair(std::uint32_t pair, std::int64_t now) const;
+  void take_up(LiveContacts& contacts, std::size_t contact, std::int64_t step);
+  DeflectedGrains::Place deflect(std::uint32_t slot, std::int64_t step);
+  void let_go(std::int64_t place);
+  void set_course(DeflectedGrains::Place place, std::int64_t step);
+  void reconsider(std::uint32_t candidate);
+  template <class Visit>
+  void for_each_candidate_of(std::uint32_t slot, Visit visit) const;
+  void make_appointments(std::int64_t now, std::int64_t earliest);
+  void enter(std::uint32_t candidate, std::int64_t free_steps, std::int64_t now,
+             std::int64_t earliest);
   double free_steps_at_wall(const NearWall& near, std::int64_t now) const;
 
-  Course course(std::uint32_t slot, std::int64_t now) const;
-  Fixed flight_x(std::uint32_t slot, std::int64_t step) const;
-  Fixed flight_y(std::uint32_t slot, std::int64_t step) const;
-  void bring_to(std::uint32_t slot, std::int64_t step);
-  bool strays(const Deflected& deflected) const;
-  Deflected on_new_course(std::uint32_t slot, std::int32_t contacts) const;
-  Deflected& deflect(std::uint32_t slot);
-  void take_up(std::uint32_t candidate);
-  void let_go(std::uint32_t candidate);
-  template <class Visit>
-  void for_each_grain_of(std::uint32_t candidate, Visit visit) const;
+  Courses courses() const;
+  Fixed course_x(std::uint32_t slot, std::int64_t step) const;
+  Fixed course_y(std::uint32_t slot, std::int64_t step) const;
+  Motion motion(std::uint32_t slot, std::int64_t step) const;
+  void put_down(std::uint32_t slot, const Motion& motion, std::int64_t step);
 
   State& state_;
   const ContactModel& model_;
   Candidates& candidates_;
   Slice& slice_;
-  const Fixed fall_;
+  StepUnits units_;
   const double tolerance_;                 // m
   const Fixed tolerance_x_, tolerance_y_;  // quanta, along each axis
 
-  std::vector<std::int64_t> since_;         // step of the position in the store, by slot
-  std::vector<std::int32_t> deflected_at_;  // place in deflected_, or `flying`, by slot
-  std::vector<Deflected> deflected_;
-  std::vector<std::uint32_t> changed_;  // slots with a new course
+  DeflectedGrains deflected_;
+  std::vector<std::int32_t> place_;         // in deflected_, or `flying`, by slot
+  AlignedVector<double> stray_;             // m, how far off its course a grain may be, by slot
+  AlignedVector<std::int64_t> since_;       // step of the course in the store, by slot
+  std::vector<Fixed> sorted_x_, sorted_y_;  // positions when the candidates were listed, by slot
+  std::int64_t sorted_at_ = 0;              // step of that
+  std::int64_t hold_until_ = 0;             // step until which the candidates hold for sure
+  std::vector<DeflectedGrains::Place> let_go_;  // of this step: a contact has ended
 
   // Candidates are numbered: the pairs first, then the grains near walls.
   Calendar calendar_;
-  std::vector<std::int64_t> due_;                  // step of the appointment, by candidate
+  std::vector<std::int64_t> due_;                  // step of the appointment, or `never`
+  std::vector<std::uint8_t> exact_;                // appointments without tolerance
   std::vector<std::uint32_t> first_link_, links_;  // the candidates of each slot
-  std::vector<std::uint32_t> touching_;            // candidates in contact, ordered
-  std::vector<std::uint32_t> looked_at_;           // in this step, ordered
-  std::vector<std::uint32_t> still_touching_;      // after it, ordered
-  std::vector<std::uint32_t> loose_;               // looked at and not in contact
+  std::vector<std::uint32_t> pairs_, walls_;       // that need a new appointment
+  Forecast forecast_;
 };
 
 }  // namespace riesel

@@ -23,26 +23,24 @@ constexpr std::size_t block = 64;  // pairs tested at a time: their results make
 #pragma omp simd
   for (std::size_t p = 0; p < count; ++p) {
     const std::uint32_t i = first[p], j = second[p];
-    const auto dx = static_cast<float>(static_cast<std::int32_t>(
-                        static_cast<std::uint32_t>(x[j]) - static_cast<std::uint32_t>(x[i])))
-                    * units.x;
-    const auto dy = static_cast<float>(static_cast<std::int32_t>(
-                        static_cast<std::uint32_t>(y[j]) - static_cast<std::uint32_t>(y[i])))
-                    * units.y;
+    const float dx = static_cast<float>(coarse_difference(x[j], x[i])) * units.x;
+    const float dy = static_cast<float>(coarse_difference(y[j], y[i])) * units.y;
     result[p] = dx * dx + dy * dy < reach2[p];
   }
 }
 
-/// Appends the indices of the pairs with a result; most words of results are zero.
-[[gnu::always_inline]] inline void collect(const std::uint8_t* result, std::size_t count,
-                                           std::size_t first_pair,
-                                           std::vector<std::uint32_t>& hits) {
+/// Calls visit(k) for the nonzero results k < count; most words of results are zero. What stands
+/// between count and the next multiple of 8 is read.
+template <class Visit>
+[[gnu::always_inline]] inline void for_each_set(const std::uint8_t* result, std::size_t count,
+                                                Visit visit) {
   for (std::size_t word = 0; word < count; word += sizeof(std::uint64_t)) {
     std::uint64_t bytes = 0;
     std::memcpy(&bytes, result + word, sizeof bytes);
-    for (; bytes != 0; bytes &= bytes - 1)
-      hits.push_back(static_cast<std::uint32_t>(
-          first_pair + word + static_cast<std::size_t>(std::countr_zero(bytes)) / 8));
+    for (; bytes != 0; bytes &= bytes - 1) {
+      const std::size_t k = word + static_cast<std::size_t>(std::countr_zero(bytes)) / 8;
+      if (k < count) visit(k);
+    }
   }
 }
 
@@ -52,11 +50,43 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
   alignas(cache_line) std::array<std::uint8_t, block> result{};
   for (std::size_t p = 0; p < pairs.size(); p += block) {
     const std::size_t count = std::min(block, pairs.size() - p);
-    if (count < block) result.fill(0);
     test_block(&pairs.first[p], &pairs.second[p], &pairs.reach2[p], positions.x.data(),
                positions.y.data(), units, count, result.data());
-    collect(result.data(), count, p, hits);
+    for_each_set(result.data(), count,
+                 [&](std::size_t k) { hits.push_back(static_cast<std::uint32_t>(p + k)); });
   }
+}
+
+/// Appends those of the slots that are close to grain i, a vector of slots at a time.
+[[gnu::always_inline]] inline void find_close_in(SlotRange range, std::size_t i,
+                                                 const CoarsePositions& positions,
+                                                 CoarseUnits units, float farthest2,
+                                                 std::vector<SlotPair>& close) {
+  constexpr std::size_t lanes = CoarsePositions::padding;
+  const std::int32_t *x = positions.x.data(), *y = positions.y.data();
+  const std::int32_t x_i = x[i], y_i = y[i];
+  alignas(cache_line) std::array<std::uint8_t, lanes> result{};
+  for (std::size_t j = range.begin; j < range.end; j += lanes) {
+#pragma omp simd
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const float dx = static_cast<float>(coarse_difference(x[j + lane], x_i)) * units.x;
+      const float dy = static_cast<float>(coarse_difference(y[j + lane], y_i)) * units.y;
+      result[lane] = dx * dx + dy * dy < farthest2;
+    }
+    const std::size_t count = std::min(lanes, range.end - j);
+    for_each_set(result.data(), count, [&](std::size_t lane) {
+      close.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j + lane)});
+    });
+  }
+}
+
+RIESEL_VECTOR_KERNEL void find_close_pairs(const Cells& cells, SlotRange slots,
+                                           const CoarsePositions& positions, CoarseUnits units,
+                                           float farthest2, std::vector<SlotPair>& close) {
+  close.clear();
+  for (std::size_t i = slots.begin; i < slots.end; ++i)
+    cells.for_each_later_range(
+        i, [&](SlotRange range) { find_close_in(range, i, positions, units, farthest2, close); });
 }
 
 void find_at_walls(Slice& slice, const State& state) {
@@ -71,6 +101,11 @@ void find_at_walls(Slice& slice, const State& state) {
 }
 
 }  // namespace
+
+void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& positions,
+                CoarseUnits units, float farthest2, std::vector<SlotPair>& close) {
+  find_close_pairs(cells, slots, positions, units, farthest2, close);
+}
 
 void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
                       CoarseUnits units) {

@@ -7,17 +7,18 @@
 
 #include "engine/aligned.hpp"
 #include "engine/box.hpp"
+#include "engine/cells.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace riesel {
 
-/// Upper halves of the positions of all grains, by slot.
-struct CoarsePositions {
-  AlignedVector<std::int32_t> x, y;
-};
+constexpr std::int32_t coarse_difference(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
 
 /// The length of one unit of a coarse position along each axis.
 struct CoarseUnits {
@@ -35,6 +36,30 @@ struct CoarseUnits {
     return static_cast<float>(generous * generous * (1.0 + 1e-6));
   }
 };
+
+/// Upper halves of the positions of all grains, by slot.
+struct CoarsePositions {
+  /// So many elements more can be read, whatever they hold.
+  static constexpr std::size_t padding = 16;
+
+  AlignedVector<std::int32_t> x, y;
+
+  void resize(std::size_t grains) {
+    x.resize(grains + padding);
+    y.resize(grains + padding);
+  }
+
+  float squared_distance(std::size_t i, std::size_t j, CoarseUnits units) const {  ///< m^2
+    const float dx = static_cast<float>(coarse_difference(x[j], x[i])) * units.x;
+    const float dy = static_cast<float>(coarse_difference(y[j], y[i])) * units.y;
+    return dx * dx + dy * dy;
+  }
+};
+
+/// All pairs closer than the square root of `farthest2` (m^2), with the first grain among `slots`,
+/// replace those in `close`.
+void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& positions,
+                CoarseUnits units, float farthest2, std::vector<SlotPair>& close);
 
 /// Writes to slice.hits and slice.wall_hits the indices of the candidates that may overlap, in
 /// increasing order.

@@ -96,10 +96,9 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
     : state_(ready(std::move(state))),
       model_(model),
       fall_(fall_per_step(state_)),
-      stepping_(stepping),
-      candidates_(state_, team_size(threads)) {
-  if (stepping == Stepping::windows && threads > 1)
-    throw std::invalid_argument("windows are stepped on one thread");
+      threads_(team_size(threads)),
+      stepping_(stepping) {
+  choose_stepping();
 }
 
 Simulation::~Simulation() = default;
@@ -109,17 +108,18 @@ Simulation::~Simulation() = default;
 void Simulation::step(Slice& mine, std::int64_t step) {
   drift(mine, step);
 #pragma omp barrier
-  if (!candidates_.spend_step(mine)) candidates_.look_again(state_, mine, step);
-  find_overlapping(mine, state_, candidates_.coarse(), candidates_.units());
+  if (!candidates_->spend_step(mine)) candidates_->look_again(state_, mine, step);
+  find_overlapping(mine, state_, candidates_->coarse(), candidates_->units());
   resolve_contacts(mine, state_, model_);
 #pragma omp barrier
-  receive_kicks(state_.grains, candidates_.slices(), mine);
-  candidates_.note_speeds(state_, mine);
+  receive_kicks(state_.grains, candidates_->slices(), mine);
+  candidates_->note_speeds(state_, mine);
 }
 
 void Simulation::advance(std::int64_t steps) {
   const std::int64_t last = state_.step + steps;
-  if (flights_pay())
+  if (!in_trouble()) choose_stepping();
+  if (flights_)
     advance_by_flights(last);
   else
     advance_plainly(last);
@@ -127,25 +127,41 @@ void Simulation::advance(std::int64_t steps) {
   fail_if_in_trouble();
 }
 
-/// Decided by the state. Few contacts: where more than this part of the grains touch, looking at
-/// all is cheaper.
+/// Whoever is to step the grains starts from the state alone, as after a checkpoint.
+void Simulation::choose_stepping() {
+  const bool by_flights = flights_pay();
+  if (candidates_ && by_flights == (flights_ != nullptr)) return;
+  flights_.reset();
+  if (by_flights) {
+    candidates_ = std::make_unique<Candidates>(state_, 1, Flights::skin_per_diameter);
+    flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
+  } else {
+    candidates_ = std::make_unique<Candidates>(state_, threads_, Candidates::short_skin);
+  }
+}
+
+/// Decided by the state and the number of threads. In units of what plain stepping takes for a
+/// grain without contacts on one thread, a contact takes plain stepping 11 and flights 14, and
+/// flights take next to nothing for a grain: see docs/performance.md.
 bool Simulation::flights_pay() const {
-  constexpr double most_contacts_per_grain = 0.05;
   if (stepping_ != Stepping::automatic) return stepping_ == Stepping::windows;
-  return threads() == 1
-         && static_cast<double>(state_.contacts.size())
-                < most_contacts_per_grain * static_cast<double>(state_.grains.size());
+  const auto contacts = static_cast<double>(state_.contacts.size());
+  const auto grains = static_cast<double>(state_.grains.size());
+  const double by_flights = 14.0 * contacts;
+  const double plainly = (grains + 11.0 * contacts) / static_cast<double>(threads_);
+  // A change costs a sorting: stay with what there is where it makes little difference.
+  const double bias = flights_ ? 1.1 : 0.9;
+  return by_flights < bias * plainly;
 }
 
 void Simulation::advance_plainly(std::int64_t last) {
-  flights_.reset();
   const std::int64_t first = state_.step + 1;  // before the team starts: a step changes state_.step
   bool complete = true;
 #pragma omp parallel num_threads(threads())
   if (omp_get_num_threads() != threads()) {
     complete = false;  // the same for all
   } else {
-    Slice& mine = candidates_.slices()[static_cast<std::size_t>(omp_get_thread_num())];
+    Slice& mine = candidates_->slices()[static_cast<std::size_t>(omp_get_thread_num())];
     for (std::int64_t next = first; next <= last && !in_trouble(); ++next) step(mine, next);
   }
   if (!complete) throw RunFailure("the system grants fewer threads than at the start of the run");
@@ -155,17 +171,17 @@ void Simulation::advance_by_flights(std::int64_t last) {
   // A team of one: the caller may be in a team of its own, whose barriers are none of our business.
 #pragma omp parallel num_threads(1)
   {
-    if (!flights_) flights_ = std::make_unique<Flights>(state_, model_, candidates_);
+    flights_->take_off();
     for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
       flights_->step(next);
-    flights_->land_all(state_.step);
+    flights_->land(state_.step);
   }
 }
 
 /// Velocities take up the last kicks, positions move on to step `step`.
 void Simulation::drift(Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
-  CoarsePositions& coarse = candidates_.coarse();
+  CoarsePositions& coarse = candidates_->coarse();
   take_up_kicks(g, mine);
   const std::size_t count = mine.end - mine.begin;
   fly(count, 0, &g.ux[mine.begin], &g.x[mine.begin], &coarse.x[mine.begin]);
@@ -176,14 +192,14 @@ void Simulation::drift(Slice& mine, std::int64_t step) {
 }
 
 bool Simulation::in_trouble() const {
-  return std::any_of(candidates_.slices().begin(), candidates_.slices().end(),
+  return std::any_of(candidates_->slices().begin(), candidates_->slices().end(),
                      [](const Slice& slice) { return slice.trouble || slice.lost; });
 }
 
 /// Completes the state with what the slices know of contacts.
 void Simulation::collect() {
-  state_.contacts = candidates_.contacts();
-  for (Slice& slice : candidates_.slices()) {
+  state_.contacts = candidates_->contacts();
+  for (Slice& slice : candidates_->slices()) {
     state_.tally.merge(slice.tally);
     slice.tally = {};
   }
@@ -192,7 +208,7 @@ void Simulation::collect() {
 void Simulation::fail_if_in_trouble() const {
   const std::string when =
       " at t = " + std::to_string(state_.time()) + " s (step " + std::to_string(state_.step) + ")";
-  for (const Slice& slice : candidates_.slices()) {
+  for (const Slice& slice : candidates_->slices()) {
     if (slice.trouble)
       throw RunFailure("the force between " + partners(*slice.trouble) + " is not finite" + when);
     if (slice.lost)

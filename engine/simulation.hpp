@@ -25,15 +25,16 @@ int useful_threads(std::size_t grains);
 /// How grains in free flight are moved. The results are the same, bit by bit.
 enum class Stepping {
   plain,     ///< all grains in each step
-  windows,   ///< grains that touch nothing cross many steps at once; on one thread only
-  automatic  ///< windows while few grains touch and there is one thread, else plain
+  windows,   ///< grains that touch nothing cross many steps at once; by one thread, whatever is
+             ///< given
+  automatic  ///< windows while so few grains touch that one thread is faster with them than all
+             ///< threads are without, else plain
 };
 
 class Simulation {
 public:
   /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its
-  /// invariants do not hold, the box is too small for the nearest image to be unique, or windows
-  /// are wanted on several threads.
+  /// invariants do not hold or the box is too small for the nearest image to be unique.
   Simulation(State state, const ContactModel& model, int threads,
              Stepping stepping = Stepping::automatic);
   Simulation(const Simulation&) = delete;
@@ -46,13 +47,14 @@ public:
 
   const State& state() const { return state_; }
   const ContactModel& model() const { return model_; }
-  int threads() const { return static_cast<int>(candidates_.slices().size()); }
+  int threads() const { return threads_; }
 
 private:
-  void step(Slice& mine, std::int64_t step);
+  void choose_stepping();
+  bool flights_pay() const;
   void advance_plainly(std::int64_t last);
   void advance_by_flights(std::int64_t last);
-  bool flights_pay() const;
+  void step(Slice& mine, std::int64_t step);
   void drift(Slice& mine, std::int64_t step);
   bool in_trouble() const;
   void collect();
@@ -61,8 +63,9 @@ private:
   State state_;
   ContactModel model_;
   Fixed fall_;  // per step
+  const int threads_;
   const Stepping stepping_;
-  Candidates candidates_;
+  std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<Flights> flights_;  // while stepping by windows
 };
 

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "engine/aligned.hpp"
-#include "engine/contact_batch.hpp"
-#include "engine/contact_book.hpp"
 #include "engine/fixed_point.hpp"
+#include "engine/live_contacts.hpp"
 #include "engine/tally.hpp"
 
 #include <cstddef>
@@ -14,12 +13,17 @@
 
 namespace riesel {
 
+struct SlotPair {
+  std::uint32_t first, second;
+};
+
 /// Pairs of slots that can touch before the next sorting, ordered by the first. Arrays of equal
 /// size.
 struct CandidatePairs {
   AlignedVector<std::uint32_t> first, second;
-  AlignedVector<float>
-      reach2;  ///< m^2, (sum of radii)^2 plus the resolution of the coarse positions
+  /// m^2, (sum of radii)^2 plus the resolution of the coarse positions; negative while the pair is
+  /// in contact, so that nobody looks for it
+  AlignedVector<float> reach2;
 
   std::size_t size() const { return first.size(); }
   void clear() {
@@ -36,15 +40,17 @@ struct CandidatePairs {
 
 /// A grain that can touch a wall before the next sorting.
 struct NearWall {
+  /// So few grains of a wall can be within reach of one grain.
+  static constexpr std::int64_t most_partners = 64;
+
   std::uint32_t slot;
   std::int32_t wall;
-};
+  std::uint64_t partners = 0;  ///< which wall grains it touches, by the last bits of their index
 
-/// The place of a wall contact in the order of the search: by place in near_walls, then by wall
-/// grain.
-constexpr std::uint64_t wall_contact_key(std::size_t place, std::int32_t wall_grain) {
-  return static_cast<std::uint64_t>(place) << 32 | static_cast<std::uint32_t>(wall_grain);
-}
+  static std::uint64_t bit(std::int64_t wall_grain) {
+    return std::uint64_t{1} << (wall_grain % most_partners);
+  }
+};
 
 /// What one contact adds to the velocity of one grain in one step.
 struct Kick {
@@ -55,13 +61,13 @@ struct Kick {
 struct Slice {
   std::size_t begin = 0, end = 0;  ///< slots
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere
+  std::vector<SlotPair> close;     ///< while the pairs are being listed
   std::vector<NearWall> near_walls;
 
   std::vector<std::uint32_t> hits;       ///< indices of pairs that may overlap in this step
   std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
-  ContactBatch batch;                    ///< the contacts that are being resolved
-  ContactBook pair_contacts;
-  ContactBook wall_contacts;
+  LiveContacts pair_contacts{LiveContacts::Partner::grain};
+  LiveContacts wall_contacts{LiveContacts::Partner::wall};
   std::vector<Kick> kicks;     ///< of this step, by contacts of the slice on grains of any slice
   std::vector<Kick> received;  ///< of this step, by contacts of any slice on grains of the slice
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift

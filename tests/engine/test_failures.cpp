@@ -38,11 +38,6 @@ TEST_CASE("a valid state is accepted") {
   CHECK_NOTHROW(Simulation(two_grains(), paper_model(), 1));
 }
 
-TEST_CASE("windows on several threads are refused") {
-  CHECK_THROWS_AS(Simulation(two_grains(), paper_model(), 2, Stepping::windows),
-                  std::invalid_argument);
-}
-
 TEST_CASE("a state whose invariants do not hold is refused") {
   State state = two_grains();
   SECTION("without grains") { state.grains.resize(0); }

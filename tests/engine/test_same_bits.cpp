@@ -64,6 +64,23 @@ TEST_CASE("windows, automatic and plain stepping give the same bits") {
   CHECK(same(advanced(start(), paper_model(), some_steps, 1, stepping), expected()));
 }
 
+TEST_CASE("a run that changes its stepping on the way has the same bits") {
+  // A clump, in which all grains touch, flies apart.
+  State state = empty_box(20e-3, 30e-3);
+  Dice dice(72);
+  throw_grains(state, 40, {.left = 6e-3, .right = 14e-3, .low = 11e-3, .high = 19e-3, .speed = 2.0},
+               dice);
+  const std::int64_t steps = 3000;
+  const int threads = GENERATE(1, 2);
+  Simulation simulation(state, paper_model(), threads, Stepping::automatic);
+  while (simulation.state().step < steps) simulation.advance(100);
+  CHECK(same(simulation.state(), advanced(state, paper_model(), steps, 1, Stepping::plain)));
+}
+
+TEST_CASE("windows take one thread, whatever is given") {
+  CHECK(same(advanced(start(), paper_model(), some_steps, 3, Stepping::windows), expected()));
+}
+
 TEST_CASE("two runs are the same") {
   CHECK(same(advanced(start(), paper_model(), some_steps), expected()));
 }

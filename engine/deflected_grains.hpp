@@ -1,0 +1,84 @@
+// The grains in contact while all others fly: stepped side by side by vector instructions.
+//
+// A grain stands here at a fixed place as long as it is deflected. The store (Grains) meanwhile
+// holds its course: the straight path, in the falling frame, for which its appointments were made.
+#pragma once
+
+#include "engine/aligned.hpp"
+#include "engine/encounter.hpp"
+#include "engine/fixed_point.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace riesel {
+
+/// Position, displacement per step and kick of one grain, in quanta; as in Grains.
+struct Motion {
+  Fixed x, y, ux, uy, kick_x, kick_y;
+};
+
+class DeflectedGrains {
+public:
+  using Place = std::uint32_t;
+
+  /// Takes up a grain that is on its course. Returns its place.
+  Place take(std::uint32_t slot, const Motion& motion);
+  /// The grain leaves; its place will be given to another.
+  void release(Place place);
+  void clear();
+
+  /// One past the last place in use; some before it may be free.
+  Place end() const { return static_cast<Place>(slots_.size()); }
+  bool in_use(Place place) const { return slots_[place] != no_slot; }
+  std::uint32_t slot(Place place) const { return slots_[place]; }
+  Motion motion(Place place) const;
+  Bodies bodies() const;
+  /// The number of contacts that the grain has.
+  std::int32_t& contacts(Place place) { return contacts_[place]; }
+
+  /// From one step to the next: velocities take up the kicks. `fallen` is the fall in this step.
+  void move(Fixed fallen);
+  void clear_kicks();
+  void add_kick(std::int64_t place, Fixed x, Fixed y) {
+    const auto at = static_cast<std::size_t>(place);
+    columns_[at_kick_x][at] = wrapped_sum(columns_[at_kick_x][at], x);
+    columns_[at_kick_y][at] = wrapped_sum(columns_[at_kick_y][at], y);
+  }
+
+  /// From here on the course is the present motion, the kick included.
+  void set_course(Place place);
+  /// The grains that will be farther from their course than this (quanta, along either axis) in the
+  /// next step.
+  const std::vector<Place>& straying(Fixed tolerance_x, Fixed tolerance_y);
+
+private:
+  static constexpr std::uint32_t no_slot = UINT32_MAX;
+  static constexpr std::size_t lanes = 8;
+  /// off_...: actual minus course.
+  enum Column {
+    at_x,
+    at_y,
+    at_ux,
+    at_uy,
+    at_kick_x,
+    at_kick_y,
+    off_x,
+    off_y,
+    off_ux,
+    off_uy,
+    column_count
+  };
+
+  std::size_t padded_size() const { return (slots_.size() + lanes - 1) / lanes * lanes; }
+
+  std::vector<std::uint32_t> slots_;
+  std::vector<std::int32_t> contacts_;
+  std::array<AlignedVector<Fixed>, column_count> columns_;  // free places and padding: motionless
+  AlignedVector<std::int64_t> strays_, stray_blocks_;  // flags, of places and of `lanes` places
+  std::vector<Place> free_, straying_;
+};
+
+}  // namespace riesel

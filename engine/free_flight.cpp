@@ -1,0 +1,97 @@
+#include "engine/free_flight.hpp"
+
+#include "engine/vector_kernel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace riesel {
+
+namespace {
+
+constexpr std::size_t lanes = 8;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Bounds are rounded to the safe side by this factor, which is far above the error of the
+/// arithmetic.
+constexpr double generous = 1.0 + 1e-9, cautious = 1.0 - 1e-9;
+
+/// Fewer steps than this are not worth a generous answer.
+constexpr double few_steps = 4.0;
+
+/// The first s with |(x, y) + s (ux, uy)| = reach: 0 if they are closer already, infinite if never.
+[[gnu::always_inline]] inline double first_touch(double x, double y, double ux, double uy,
+                                                 double reach) {
+  const double apart = x * x + y * y - reach * reach;
+  const double closing = -(x * ux + y * uy);
+  const double root2 = closing * closing - (ux * ux + uy * uy) * apart;
+  const double steps = apart / (closing + std::sqrt(root2));  // not a number if never
+  const double meeting = root2 > 0.0 ? steps : never;
+  const double later = closing > 0.0 ? meeting : never;
+  return apart > 0.0 ? later : 0.0;
+}
+
+struct Kinematics {
+  double metre_x, metre_y;
+  Fixed fall;
+  std::int64_t now;
+  double tolerance;
+};
+
+RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::int64_t* second,
+                                        Courses c, Kinematics k, std::int64_t* free_steps,
+                                        std::int64_t* exact) {
+#pragma omp simd
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const std::int64_t i = first[lane], j = second[lane];
+    const std::int64_t steps_i = k.now - c.since[i], steps_j = k.now - c.since[j];
+    const Fixed fallen_i = wrapped_product(sum_of_steps(c.since[i], k.now), k.fall);
+    const Fixed fallen_j = wrapped_product(sum_of_steps(c.since[j], k.now), k.fall);
+    const Fixed x_i = wrapped_sum(c.x[i], wrapped_product(steps_i, c.ux[i]));
+    const Fixed x_j = wrapped_sum(c.x[j], wrapped_product(steps_j, c.ux[j]));
+    const Fixed y_i = wrapped_sum(wrapped_sum(c.y[i], wrapped_product(steps_i, c.uy[i])), fallen_i);
+    const Fixed y_j = wrapped_sum(wrapped_sum(c.y[j], wrapped_product(steps_j, c.uy[j])), fallen_j);
+
+    const double x = real(wrapped_difference(x_j, x_i)) * k.metre_x;
+    const double y = real(wrapped_difference(y_j, y_i)) * k.metre_y;
+    const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * k.metre_x;
+    const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * k.metre_y;
+    const double reach = (c.radius[i] + c.radius[j]) * generous;
+    const double stray = c.stray[i] + c.stray[j];
+    const double patient = first_touch(x, y, ux, uy, reach + 2.0 * k.tolerance);
+    const double closer = first_touch(x, y, ux, uy, reach + stray);
+    free_steps[lane] = Forecast::whole_steps((patient >= few_steps ? patient : closer) * cautious);
+    const std::int64_t is_exact = stray >= 2.0 * k.tolerance ? 0 : 1;
+    exact[lane] = patient >= few_steps ? 0 : is_exact;
+  }
+}
+
+}  // namespace
+
+void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& which,
+             const Courses& courses, const Box& box, Fixed fall, std::int64_t now, double tolerance,
+             Forecast& result) {
+  const std::size_t room = (which.size() + lanes - 1) / lanes * lanes;
+  if (result.free_steps.size() < room) {
+    result.free_steps.resize(2 * room);
+    result.exact.resize(2 * room);
+  }
+  const Kinematics kinematics{.metre_x = box.quantum_x(),
+                              .metre_y = box.quantum_y(),
+                              .fall = fall,
+                              .now = now,
+                              .tolerance = tolerance};
+  alignas(cache_line) std::array<std::int64_t, lanes> first{}, second{};
+  for (std::size_t block = 0; block < which.size(); block += lanes) {
+    for (std::size_t lane = 0; lane < std::min(lanes, which.size() - block); ++lane) {
+      first[lane] = pairs.first[which[block + lane]];
+      second[lane] = pairs.second[which[block + lane]];
+    }
+    foresee_lanes(first.data(), second.data(), courses, kinematics, &result.free_steps[block],
+                  &result.exact[block]);
+  }
+}
+
+}  // namespace riesel

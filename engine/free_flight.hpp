@@ -1,0 +1,48 @@
+// When can two grains touch that keep to their courses, or nearly so? Computed for many pairs at
+// once by vector instructions.
+#pragma once
+
+#include "engine/aligned.hpp"
+#include "engine/box.hpp"
+#include "engine/fixed_point.hpp"
+#include "engine/slice.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace riesel {
+
+/// The straight paths, in the falling frame, that grains are expected to follow; arrays by slot.
+struct Courses {
+  const Fixed *x, *y;         ///< quanta, at the step `since`
+  const Fixed *ux, *uy;       ///< quanta per step
+  const std::int64_t* since;  ///< step
+  const double* radius;       ///< m
+  const double* stray;        ///< m, how far the grain may be from its course: 0 in free flight
+};
+
+/// The time of pairs until they may touch.
+struct Forecast {
+  /// A number of steps that never pass.
+  static constexpr std::int64_t forever = std::int64_t{1} << 30;
+
+  AlignedVector<std::int64_t> free_steps;  ///< no contact before this step from now
+  AlignedVector<std::int64_t> exact;  ///< 1 if only as long as the grains stray no farther than now
+
+  /// The first whole step that is not before `steps`, at most one too early; `forever` if beyond.
+  [[gnu::always_inline]] static std::int64_t whole_steps(double steps) {
+    constexpr auto most = static_cast<double>(forever);
+    constexpr double nearly_half = 0.499;  // up to the next whole step, but never beyond it
+    return nearest_fixed(steps < most ? steps + nearly_half : most);
+  }
+};
+
+/// Computes result.free_steps[k] and result.exact[k] for pairs[which[k]], from step `now` on. Where
+/// there is time enough, both grains are granted to stray by `tolerance` (m), deflected or not, so
+/// that the answer outlives the beginning of contacts.
+void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& which,
+             const Courses& courses, const Box& box, Fixed fall, std::int64_t now, double tolerance,
+             Forecast& result);
+
+}  // namespace riesel

@@ -1,0 +1,112 @@
+// The contacts that last: stepped from beginning to end in place, side by side, by vector
+// instructions.
+//
+// Whoever steps the grains finds out which contacts begin; from then on nobody looks for them. A
+// contact costs its force and the book-keeping of its life, both in one loop over arrays, and its
+// end is noticed there.
+#pragma once
+
+#include "engine/aligned.hpp"
+#include "engine/contact.hpp"
+#include "engine/contact_law.hpp"
+#include "engine/encounter.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace riesel {
+
+/// Two bodies in contact: what does not change while it lasts.
+struct Meeting {
+  ContactName name;
+  std::uint32_t candidate;  ///< index among the candidates, for whoever looks for contacts
+  std::int64_t first;       ///< place of the first body in Bodies, at the beginning
+  std::int64_t second;      ///< of the second body; unused for a wall grain
+  Fixed line, y;            ///< where the wall grain is; unused for free grains
+  double reach;             ///< m, sum of the radii
+  double mass_first;        ///< kg
+  double mass_second;       ///< kg; unused for a wall grain
+};
+
+/// What a contact adds to the displacements per step of its bodies, in quanta.
+struct ContactKick {
+  Fixed first_x, first_y, second_x, second_y;
+};
+
+class LiveContacts {
+public:
+  enum class Partner { grain, wall };
+
+  explicit LiveContacts(Partner partner) : partner_(partner) { pad(); }
+
+  std::size_t size() const { return meetings_.size(); }
+  const Meeting& meeting(std::size_t i) const { return meetings_[i]; }
+  Contact contact(std::size_t i) const;
+  std::int64_t first(std::size_t i) const { return body_[0][i]; }
+  std::int64_t second(std::size_t i) const { return body_[1][i]; }
+  ContactKick kick(std::size_t i) const {
+    return {kick_[0][i], kick_[1][i], kick_[2][i], kick_[3][i]};
+  }
+
+  void clear();
+  /// A contact that lasts already.
+  void add(const Meeting& meeting, const Contact& contact);
+  /// A contact that begins in the step that is done next.
+  void begin(const Meeting& meeting) {
+    add(meeting, {.name = meeting.name});
+    ++beginning_;
+  }
+  /// Its bodies stand elsewhere now.
+  void move(std::size_t i, std::int64_t first, std::int64_t second) {
+    body_[0][i] = first;
+    body_[1][i] = second;
+  }
+
+  /// Computes the kicks of this step and carries the lives on. `bodies` are at the step of `units`.
+  /// What has ended then stands in ended() and gives no kick.
+  void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
+
+  /// Indices of the contacts that the last step() found apart, increasing; to be removed, from the
+  /// last to the first, before the next.
+  const std::vector<std::size_t>& ended() const { return ended_; }
+  /// The last contact takes the place of contact `i`.
+  void remove(std::size_t i);
+
+  /// A contact whose kick in the last step() is no usable number.
+  const std::optional<ContactName>& trouble() const { return trouble_; }
+
+private:
+  /// The arrays are padded with lanes of zero reach, which never touch, to whole vectors.
+  static constexpr std::size_t lanes = 8;
+  /// The life of a contact without its name: one array for each member of Contact.
+  static constexpr std::size_t life_members =
+      (sizeof(Contact) - offsetof(Contact, begin)) / sizeof(double);
+
+  struct Columns;  // pointers to the arrays, for the loop
+  Columns columns();
+  template <Partner partner, class Normal, class Slip>
+  void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model,
+            const Normal& normal, const Slip& slip);
+  void pad();
+  template <class Visit>
+  void for_each_array(Visit visit);
+
+  Partner partner_;
+  std::size_t beginning_ = 0;  // contacts at the end of the arrays that begin in the next step
+  std::vector<Meeting> meetings_;
+  std::array<AlignedVector<std::int64_t>, 2> body_;  // first and second
+  std::array<AlignedVector<Fixed>, 2> wall_place_;   // line and y
+  AlignedVector<double> reach_, reduced_mass_;
+  std::array<AlignedVector<double>, 2> per_mass_;  // 1/kg, of first and second
+  std::array<AlignedVector<double>, life_members> life_;
+  std::array<AlignedVector<Fixed>, 4> kick_;
+  AlignedVector<std::int64_t> flags_,
+      block_flags_;  // of the last step: contacts, and `lanes` of them
+  std::vector<std::size_t> ended_;
+  std::optional<ContactName> trouble_;
+};
+
+}  // namespace riesel
