@@ -6,7 +6,7 @@ namespace riesel::bench {
 
 double plain_traffic(const State& state) {
   State copy = state;
-  const Candidates candidates(copy, 1);
+  const Candidates candidates(copy, 1, Candidates::short_skin);
   const Slice& all = candidates.slices().front();
   const auto per_grain = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(state.grains.size());
@@ -19,12 +19,14 @@ double plain_traffic(const State& state) {
   constexpr double pair = 2.0 * sizeof(std::uint32_t) + sizeof(float);
   constexpr double coarse = 2.0 * sizeof(std::int32_t);
   constexpr double near_wall = sizeof(NearWall) + sizeof(Fixed) + sizeof(double);
-  // A contact is read and written, stands in the new list and in the old one, and kicks two grains:
-  // written, collected, and taken up by the velocities. Its grains' positions, displacements,
-  // kicks, radii, masses and ids are gathered.
-  constexpr double grain = 6.0 * sizeof(Fixed) + 2.0 * sizeof(double) + sizeof(std::int32_t);
-  constexpr double contact =
-      2.0 * sizeof(Contact) + 3.0 * sizeof(ContactBook::Entry) + 2.0 * (5.0 * sizeof(Kick) + grain);
+  // The life of a contact is read and written, its constants (two places, reach, masses) read, its
+  // kicks and flags written. Each kick is then listed, collected, and taken up by the velocities.
+  // The positions, displacements and kicks of its grains are gathered.
+  constexpr double life = 2.0 * (sizeof(Contact) - sizeof(ContactName));
+  constexpr double constants = 2.0 * sizeof(std::int64_t) + 4.0 * sizeof(double);
+  constexpr double results = 4.0 * sizeof(Fixed) + sizeof(std::int64_t);
+  constexpr double grain = 6.0 * sizeof(Fixed) + 5.0 * sizeof(Kick);
+  constexpr double contact = life + constants + results + 2.0 * grain;
   return drift + coarse + pair * per_grain(all.pairs.size())
          + near_wall * per_grain(all.near_walls.size())
          + contact * per_grain(state.contacts.size());

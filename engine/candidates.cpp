@@ -115,16 +115,24 @@ void Candidates::start_over(const State& state, std::int64_t step) {
       wrapped_sum(grains.uy.front(), nearest_fixed(sum / static_cast<double>(grains.size())));
 }
 
-/// First the pairs within the longest reach, then of them those within their own.
+/// First the pairs within the longest reach, a few at a time, then of them those within their own.
 void Candidates::list_pairs(const State& state, Slice& mine) {
+  constexpr std::size_t slots_at_a_time = 1024;
   const Grains& grains = state.grains;
-  find_close(cells_, {mine.begin, mine.end}, coarse_, units_,
-             units_.generous_square(2.0 * max_radius_ + skin_), mine.close);
+  const float farthest2 = units_.generous_square(2.0 * max_radius_ + skin_);
   mine.pairs.clear();
-  for (const auto& [i, j] : mine.close) {
-    const double reach = grains.radius[i] + grains.radius[j];
-    if (coarse_.squared_distance(i, j, units_) < units_.generous_square(reach + skin_))
-      mine.pairs.add(i, j, units_.generous_square(reach));
+  for (std::size_t begin = mine.begin; begin < mine.end; begin += slots_at_a_time) {
+    const SlotRange slots{begin, std::min(begin + slots_at_a_time, mine.end)};
+    find_close(cells_, slots, coarse_, units_, farthest2, mine.close);
+    for (const auto& [i, j] : mine.close) {
+      const double reach = grains.radius[i] + grains.radius[j];
+      if (coarse_.squared_distance(i, j, units_) < units_.generous_square(reach + skin_))
+        mine.pairs.add(i, j, units_.generous_square(reach));
+    }
+    // Room for the rest without doubling again and again.
+    if (begin == mine.begin)
+      mine.pairs.reserve((mine.pairs.size() + 64) * (mine.end - mine.begin + 1)
+                         / (slots.end - slots.begin));
   }
 }
 

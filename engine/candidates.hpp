@@ -52,6 +52,7 @@ public:
   /// listed, relative to a common motion: free fall with a displacement per step of drift_y()
   /// (quanta) in the falling frame.
   double skin() const { return skin_; }  ///< m
+  const CoarsePositions& when_sorted() const { return coarse_when_sorted_; }
   Fixed drift_y() const { return drift_y_; }
 
   /// The grains of `mine` that received kicks have new velocities: keeps the bound on the speeds.

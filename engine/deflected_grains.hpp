@@ -35,6 +35,8 @@ public:
   bool in_use(Place place) const { return slots_[place] != no_slot; }
   std::uint32_t slot(Place place) const { return slots_[place]; }
   Motion motion(Place place) const;
+  Fixed x(std::int64_t place) const { return columns_[at_x][static_cast<std::size_t>(place)]; }
+  Fixed y(std::int64_t place) const { return columns_[at_y][static_cast<std::size_t>(place)]; }
   Bodies bodies() const;
   /// The number of contacts that the grain has.
   std::int32_t& contacts(Place place) { return contacts_[place]; }

@@ -37,6 +37,11 @@ constexpr Fixed wrapped_product(Fixed a, Fixed b) {
 /// The upper half of a coordinate: what the search for neighbours looks at.
 constexpr std::int32_t upper_half(Fixed a) { return static_cast<std::int32_t>(a >> 32); }
 
+/// The lowest coordinate with this upper half.
+constexpr Fixed from_upper(std::int32_t upper) {
+  return static_cast<Fixed>(static_cast<std::uint64_t>(upper) << 32);
+}
+
 /// The nearest double, as by static_cast, in operations that vectorise everywhere: the halves of
 /// the number are put where the exponents 2^84 and 2^52 make them worth 2^32 and 1.
 [[gnu::always_inline]] inline double real(Fixed a) {

@@ -6,18 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace riesel {
 
 namespace {
 
 constexpr std::int32_t flying = -1;
-constexpr std::int64_t never = -1;
+constexpr std::int32_t never = -1;
 
 /// How far a grain in contact may leave its course, as a part of the mean diameter: more means
 /// fewer new courses, but more neighbours to look at in every step.
 constexpr double tolerance_per_diameter = 0.001;
+
+/// Enough for vectors to be full, not so many that they leave the cache.
+constexpr std::uint32_t appointments_at_a_time = 1024;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
@@ -66,13 +68,12 @@ void Flights::take_off() {
 /// Makes the appointments of all candidates, which have just been listed. All grains are at `step`.
 void Flights::begin(std::int64_t step, std::int64_t earliest) {
   const Grains& g = state_.grains;
-  const std::size_t candidates = slice_.pairs.size() + slice_.near_walls.size();
+  const auto candidates =
+      static_cast<std::uint32_t>(slice_.pairs.size() + slice_.near_walls.size());
   deflected_.clear();
   place_.assign(g.size(), flying);
   stray_.assign(g.size(), 0.0);
   since_.assign(g.size(), step);
-  sorted_x_.assign(g.x.begin(), g.x.end());
-  sorted_y_.assign(g.y.begin(), g.y.end());
   sorted_at_ = step;
   hold_until_ = first_to_leave_skin();
   calendar_.clear();
@@ -88,31 +89,39 @@ void Flights::begin(std::int64_t step, std::int64_t earliest) {
     if (deflected_.contacts(place) == 0) let_go_.push_back(place);
   }
 
-  pairs_.resize(slice_.pairs.size());
-  std::iota(pairs_.begin(), pairs_.end(), 0U);
-  walls_.resize(slice_.near_walls.size());
-  std::iota(walls_.begin(), walls_.end(), 0U);
+  pairs_.clear();
+  walls_.clear();
+  for (std::uint32_t candidate = 0; candidate < candidates; ++candidate) {
+    reconsider(candidate);
+    if (candidate % appointments_at_a_time == 0) make_appointments(step, earliest);
+  }
   make_appointments(step, earliest);
 }
 
-/// Lists the candidates of each grain.
+/// Finds the candidates of each grain. The pairs are ordered by their first grain: only where a
+/// grain is the second, or near a wall, a list is needed.
 void Flights::link() {
   const auto n_pairs = static_cast<std::uint32_t>(slice_.pairs.size());
   const auto n_walls = static_cast<std::uint32_t>(slice_.near_walls.size());
-  first_link_.assign(state_.grains.size() + 1, 0);
   const auto for_each_link = [&](auto visit) {
-    for (std::uint32_t p = 0; p < n_pairs; ++p) {
-      visit(slice_.pairs.first[p], p);
-      visit(slice_.pairs.second[p], p);
-    }
+    for (std::uint32_t p = 0; p < n_pairs; ++p) visit(slice_.pairs.second[p], p);
     for (std::uint32_t w = 0; w < n_walls; ++w) visit(slice_.near_walls[w].slot, n_pairs + w);
   };
+  first_pair_.assign(state_.grains.size() + 1, 0);
+  first_link_.assign(state_.grains.size() + 1, 0);
+  for (const std::uint32_t slot : slice_.pairs.first) ++first_pair_[slot + 1];
   for_each_link([&](std::uint32_t slot, std::uint32_t) { ++first_link_[slot + 1]; });
-  for (std::size_t i = 1; i < first_link_.size(); ++i) first_link_[i] += first_link_[i - 1];
+  for (std::size_t i = 1; i < first_link_.size(); ++i) {
+    first_pair_[i] += first_pair_[i - 1];
+    first_link_[i] += first_link_[i - 1];
+  }
   links_.resize(first_link_.back());
-  std::vector<std::uint32_t> next(first_link_.begin(), first_link_.end() - 1);
-  for_each_link(
-      [&](std::uint32_t slot, std::uint32_t candidate) { links_[next[slot]++] = candidate; });
+  // Each link goes to the end of what is left of its grain's part.
+  for_each_link([&](std::uint32_t slot, std::uint32_t candidate) {
+    links_[--first_link_[slot + 1]] = candidate;
+  });
+  first_link_.erase(first_link_.begin());
+  first_link_.push_back(static_cast<std::uint32_t>(links_.size()));
 }
 
 /// The candidates do not hold any more.
@@ -134,7 +143,11 @@ std::int64_t Flights::first_to_leave_skin() const {
   return sorted_at_ + Forecast::whole_steps(room_in_skin() / std::sqrt(fastest2)) - 1;
 }
 
-double Flights::room_in_skin() const { return (0.5 * candidates_.skin() - tolerance_) / generous; }
+/// m; the positions of then are known but coarsely.
+double Flights::room_in_skin() const {
+  const double resolution = state_.box.metres_x(from_upper(1)) + state_.box.metres_y(from_upper(1));
+  return (0.5 * candidates_.skin() - tolerance_ - resolution) / generous;
+}
 
 /// The step in which the grain, on its course and within the tolerance, may have gone farther than
 /// the candidates allow: half the skin, relative to the common motion.
@@ -144,9 +157,10 @@ std::int64_t Flights::leaves_skin(std::uint32_t slot, std::int64_t now) const {
   const std::int64_t steps = now - sorted_at_;
   const Fixed common = wrapped_sum(wrapped_product(steps, candidates_.drift_y()),
                                    wrapped_product(sum_of_steps(sorted_at_, now), units_.fall));
-  const double x = box.metres_x(wrapped_difference(course_x(slot, now), sorted_x_[slot]));
-  const double y = box.metres_y(
-      wrapped_difference(wrapped_difference(course_y(slot, now), sorted_y_[slot]), common));
+  const CoarsePositions& then = candidates_.when_sorted();
+  const double x = box.metres_x(wrapped_difference(course_x(slot, now), from_upper(then.x[slot])));
+  const double y = box.metres_y(wrapped_difference(
+      wrapped_difference(course_y(slot, now), from_upper(then.y[slot])), common));
   const double ux = box.metres_x(g.ux[slot]);
   const double uy = box.metres_y(wrapped_difference(g.uy[slot], candidates_.drift_y()));
 
@@ -166,7 +180,7 @@ void Flights::keep_appointments(std::int64_t step) {
   if (today.empty()) return;
   const auto n_pairs = static_cast<std::uint32_t>(slice_.pairs.size());
   for (const std::uint32_t candidate : today) {
-    if (due_[candidate] != step) continue;  // it has another appointment since
+    if (due_[candidate] != since_sorted(step)) continue;  // it has another appointment since
     due_[candidate] = never;
     if (candidate < n_pairs)
       look_at_pair(candidate);
@@ -177,9 +191,9 @@ void Flights::keep_appointments(std::int64_t step) {
 
 void Flights::look_at_pair(std::uint32_t pair) {
   const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
-  const Motion a = motion(i, state_.step), b = motion(j, state_.step);
   const double reach = state_.grains.radius[i] + state_.grains.radius[j];
-  if (!overlapping(wrapped_difference(b.x, a.x), wrapped_difference(b.y, a.y), reach, units_)) {
+  if (!overlapping(wrapped_difference(x_now(j), x_now(i)), wrapped_difference(y_now(j), y_now(i)),
+                   reach, units_)) {
     pairs_.push_back(pair);
     return;
   }
@@ -190,8 +204,8 @@ void Flights::look_at_pair(std::uint32_t pair) {
 /// A grain that touches a wall is looked at in every step: it may touch a second wall grain.
 void Flights::look_at_wall(std::uint32_t near_wall) {
   const NearWall& near = slice_.near_walls[near_wall];
-  const Motion m = motion(near.slot, state_.step);
-  for_each_touched_wall_grain(state_, near, m.x, m.y, units_, [&](std::int64_t k) {
+  const Fixed x = x_now(near.slot), y = y_now(near.slot);
+  for_each_touched_wall_grain(state_, near, x, y, units_, [&](std::int64_t k) {
     begin_contact(slice_, slice_.wall_contacts, meeting_at_wall(slice_, state_, near_wall, k));
     take_up(slice_.wall_contacts, slice_.wall_contacts.size() - 1, state_.step);
   });
@@ -289,6 +303,7 @@ void Flights::set_course(DeflectedGrains::Place place, std::int64_t step) {
 
 template <class Visit>
 void Flights::for_each_candidate_of(std::uint32_t slot, Visit visit) const {
+  for (std::uint32_t p = first_pair_[slot]; p < first_pair_[slot + 1]; ++p) visit(p);
   for (std::uint32_t l = first_link_[slot]; l < first_link_[slot + 1]; ++l) visit(links_[l]);
 }
 
@@ -327,8 +342,8 @@ void Flights::enter(std::uint32_t candidate, std::int64_t free_steps, std::int64
     return;
   }
   const std::int64_t due = std::max(earliest, now + std::min(free_steps, Calendar::horizon - 1));
-  if (due_[candidate] == due) return;
-  due_[candidate] = due;
+  if (due_[candidate] == since_sorted(due)) return;
+  due_[candidate] = since_sorted(due);
   calendar_.enter(candidate, due);
 }
 
@@ -386,6 +401,14 @@ Fixed Flights::course_y(std::uint32_t slot, std::int64_t step) const {
   return wrapped_sum(g.y[slot],
                      wrapped_sum(wrapped_product(steps, g.uy[slot]),
                                  wrapped_product(sum_of_steps(since_[slot], step), units_.fall)));
+}
+
+Fixed Flights::x_now(std::uint32_t slot) const {
+  return place_[slot] == flying ? course_x(slot, state_.step) : deflected_.x(place_[slot]);
+}
+
+Fixed Flights::y_now(std::uint32_t slot) const {
+  return place_[slot] == flying ? course_y(slot, state_.step) : deflected_.y(place_[slot]);
 }
 
 Motion Flights::motion(std::uint32_t slot, std::int64_t step) const {

@@ -74,6 +74,11 @@ private:
   Courses courses() const;
   Fixed course_x(std::uint32_t slot, std::int64_t step) const;
   Fixed course_y(std::uint32_t slot, std::int64_t step) const;
+  std::int32_t since_sorted(std::int64_t step) const {
+    return static_cast<std::int32_t>(step - sorted_at_);
+  }
+  Fixed x_now(std::uint32_t slot) const;
+  Fixed y_now(std::uint32_t slot) const;
   Motion motion(std::uint32_t slot, std::int64_t step) const;
   void put_down(std::uint32_t slot, const Motion& motion, std::int64_t step);
 
@@ -86,20 +91,20 @@ private:
   const Fixed tolerance_x_, tolerance_y_;  // quanta, along each axis
 
   DeflectedGrains deflected_;
-  std::vector<std::int32_t> place_;         // in deflected_, or `flying`, by slot
-  AlignedVector<double> stray_;             // m, how far off its course a grain may be, by slot
-  AlignedVector<std::int64_t> since_;       // step of the course in the store, by slot
-  std::vector<Fixed> sorted_x_, sorted_y_;  // positions when the candidates were listed, by slot
-  std::int64_t sorted_at_ = 0;              // step of that
-  std::int64_t hold_until_ = 0;             // step until which the candidates hold for sure
+  std::vector<std::int32_t> place_;             // in deflected_, or `flying`, by slot
+  AlignedVector<double> stray_;                 // m, how far off its course a grain may be, by slot
+  AlignedVector<std::int64_t> since_;           // step of the course in the store, by slot
+  std::int64_t sorted_at_ = 0;                  // step of that
+  std::int64_t hold_until_ = 0;                 // step until which the candidates hold for sure
   std::vector<DeflectedGrains::Place> let_go_;  // of this step: a contact has ended
 
   // Candidates are numbered: the pairs first, then the grains near walls.
   Calendar calendar_;
-  std::vector<std::int64_t> due_;                  // step of the appointment, or `never`
-  std::vector<std::uint8_t> exact_;                // appointments without tolerance
-  std::vector<std::uint32_t> first_link_, links_;  // the candidates of each slot
-  std::vector<std::uint32_t> pairs_, walls_;       // that need a new appointment
+  std::vector<std::int32_t> due_;    // of the appointment, since_sorted(), or `never`
+  std::vector<std::uint8_t> exact_;  // appointments without tolerance
+  // The candidates of a slot: pairs from first_pair_ on, and links_ from first_link_ on.
+  std::vector<std::uint32_t> first_pair_, first_link_, links_;
+  std::vector<std::uint32_t> pairs_, walls_;  // that need a new appointment
   Forecast forecast_;
 };
 

@@ -147,8 +147,8 @@ bool Simulation::flights_pay() const {
   if (stepping_ != Stepping::automatic) return stepping_ == Stepping::windows;
   const auto contacts = static_cast<double>(state_.contacts.size());
   const auto grains = static_cast<double>(state_.grains.size());
-  const double by_flights = 14.0 * contacts;
-  const double plainly = (grains + 11.0 * contacts) / static_cast<double>(threads_);
+  const double by_flights = 10.0 * contacts;
+  const double plainly = (grains + 7.5 * contacts) / static_cast<double>(threads_);
   // A change costs a sorting: stay with what there is where it makes little difference.
   const double bias = flights_ ? 1.1 : 0.9;
   return by_flights < bias * plainly;

@@ -31,6 +31,11 @@ struct CandidatePairs {
     second.clear();
     reach2.clear();
   }
+  void reserve(std::size_t n) {
+    first.reserve(n);
+    second.reserve(n);
+    reach2.reserve(n);
+  }
   void add(std::uint32_t i, std::uint32_t j, float square) {
     first.push_back(i);
     second.push_back(j);
