@@ -17,6 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Particle-steps per second: any number does for a run that will not last.
+constexpr double speed_of_what_fails_at_once = 1e7;
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -30,14 +33,18 @@ double steps_of(const io::Settings& settings, const scenarios::Flow& flow) {
 double measured_speed(const io::Settings& settings, const scenarios::Flow& flow, int threads,
                       double seconds) {
   Simulation simulation(flow.state, flow.model, threads, stepping_of(settings));
-  simulation.advance(10);  // caches and threads warm up
-  const auto start = Clock::now();
   std::int64_t steps = 0;
   double spent = 0.0;
-  for (std::int64_t chunk = 10; spent < seconds; chunk *= 2) {
-    simulation.advance(chunk);
-    steps += chunk;
-    spent = seconds_since(start);
+  try {
+    simulation.advance(10);  // caches and threads warm up
+    const auto start = Clock::now();
+    for (std::int64_t chunk = 10; spent < seconds; chunk *= 2) {
+      simulation.advance(chunk);
+      steps += chunk;
+      spent = seconds_since(start);
+    }
+  } catch (const RunFailure&) {
+    if (steps == 0) return speed_of_what_fails_at_once;
   }
   return static_cast<double>(flow.state.grains.size()) * static_cast<double>(steps) / spent;
 }

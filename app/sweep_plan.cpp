@@ -8,8 +8,10 @@
 #include "scenarios/scenario.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
 #include <set>
+#include <tuple>
+#include <variant>
 
 namespace riesel::app {
 
@@ -49,23 +51,61 @@ int most_threads_of(const io::Settings& settings, const Problem& problem) {
   return threads_for_curve(settings);
 }
 
-/// Measures a few points from the cheapest to the dearest, and takes each other one to be as fast
-/// as the nearest of them. `work` of each point on input, s on output.
-void estimate_seconds(const std::vector<io::SweepPoint>& points, io::Manifest& manifest,
-                      const std::vector<double>& work) {
+/// What a run costs.
+struct Cost {
+  const io::SweepPoint* point = nullptr;
+  double work = 0.0;     // see work_of
+  double seconds = 0.0;  // on one thread
+  int most_threads = 1;
+};
+
+/// Measures a few runs from the cheapest to the dearest, and takes each other one to be as fast as
+/// the nearest of them.
+void estimate_seconds(std::vector<Cost*> costs) {
   constexpr std::size_t most_measured = 12;
-  std::vector<std::size_t> by_work(points.size());
-  std::iota(by_work.begin(), by_work.end(), std::size_t{0});
-  std::stable_sort(by_work.begin(), by_work.end(),
-                   [&](auto a, auto b) { return work[a] < work[b]; });
-  const std::size_t measured = std::min(most_measured, points.size());
+  std::stable_sort(costs.begin(), costs.end(),
+                   [](const Cost* a, const Cost* b) { return a->work < b->work; });
+  const std::size_t measured = std::min(most_measured, costs.size());
   for (std::size_t part = 0; part < measured; ++part) {
-    const std::size_t begin = part * points.size() / measured;
-    const std::size_t end = (part + 1) * points.size() / measured;
-    const double rate = seconds_per_work(points[by_work[(begin + end) / 2]].settings);
-    for (std::size_t i = begin; i < end; ++i)
-      manifest.points[by_work[i]].expected_seconds = rate * work[by_work[i]];
+    const std::size_t begin = part * costs.size() / measured;
+    const std::size_t end = (part + 1) * costs.size() / measured;
+    const double rate = seconds_per_work(costs[(begin + end) / 2]->point->settings);
+    for (std::size_t i = begin; i < end; ++i) costs[i]->seconds = rate * costs[i]->work;
   }
+}
+
+/// By the name of the run. Throws SettingsError for a run that cannot be.
+std::map<std::string, Cost> costs_of(const std::vector<io::SweepPoint>& points) {
+  std::map<std::string, Cost> costs;
+  std::vector<Cost*> in_order;
+  for (const io::SweepPoint& point : points) {
+    const auto [entry, is_new] = costs.try_emplace(point.name);
+    if (!is_new) continue;
+    const Problem problem = problem_of(point.settings);
+    entry->second = {.point = &point,
+                     .work = work_of(point.settings, problem),
+                     .most_threads = most_threads_of(point.settings, problem)};
+    in_order.push_back(&entry->second);
+  }
+  estimate_seconds(in_order);
+  return costs;
+}
+
+io::ManifestPoint row_of(const io::SweepPoint& point, const std::vector<io::SweepPoint>& points,
+                         const std::vector<io::VariedSetting>& varied,
+                         const std::map<std::string, Cost>& costs) {
+  const Cost& cost = costs.at(point.name);
+  io::ManifestPoint row = {.name = point.name,
+                           .parent = point.parent ? points[*point.parent].name : "",
+                           .branch = point.branch,
+                           .leg = point.leg,
+                           .values = {},
+                           .expected_seconds = cost.seconds,
+                           .most_threads = cost.most_threads,
+                           .status = "waiting",
+                           .reason = {}};
+  for (const auto& setting : varied) row.values.push_back(io::cell_of(point.settings, setting.key));
+  return row;
 }
 
 void check_continuation(const io::SweepFile& sweep) {
@@ -100,24 +140,14 @@ SweepPlan plan_sweep(const std::filesystem::path& file) {
   SweepPlan plan;
   plan.sweep_file = sweep.text;
   plan.manifest.varied = varied_settings(sweep);
-  std::vector<double> work;
+  const std::map<std::string, Cost> costs = costs_of(points);
+  std::set<std::tuple<std::string, std::string, std::string>> seen;
   for (const io::SweepPoint& point : points) {
-    const Problem problem = problem_of(point.settings);
-    work.push_back(work_of(point.settings, problem));
-    io::ManifestPoint row = {.name = point.name,
-                             .parent = point.parent ? points[*point.parent].name : "",
-                             .branch = point.branch,
-                             .leg = point.leg,
-                             .values = {},
-                             .most_threads = most_threads_of(point.settings, problem),
-                             .status = "waiting",
-                             .reason = {}};
-    for (const auto& setting : plan.manifest.varied)
-      row.values.push_back(io::cell_of(point.settings, setting.key));
-    plan.manifest.points.push_back(row);
+    // The same value twice on an axis is one point; the same run in two branches is two.
+    if (!seen.emplace(point.name, point.branch, point.leg).second) continue;
+    plan.manifest.points.push_back(row_of(point, points, plan.manifest.varied, costs));
     plan.settings.push_back(point.yaml);
   }
-  estimate_seconds(points, plan.manifest, work);
   return plan;
 }
 

@@ -92,7 +92,7 @@ public:
         if (job->process) look_after(*job);
       pass_signal_on();
       const bool more = interrupting_signal() == 0 && start_what_can();
-      if (!more && running() == 0) break;
+      if (!more && running_ == 0) break;
       show_progress();
       if (Clock::now() - last_manifest_ > between_manifests) write_manifest();
       std::this_thread::sleep_for(between_looks);
@@ -120,11 +120,6 @@ private:
     jobs_.push_back(std::move(job));
   }
 
-  std::size_t running() const {
-    return static_cast<std::size_t>(std::count_if(
-        jobs_.begin(), jobs_.end(), [](auto& job) { return job->process != nullptr; }));
-  }
-
   std::size_t count(RunStatus status) const {
     return static_cast<std::size_t>(std::count_if(
         jobs_.begin(), jobs_.end(), [&](auto& job) { return job->status == status; }));
@@ -143,7 +138,7 @@ private:
       if (job->status == RunStatus::running && !job->process) look_at_others_work(*job);
       const bool here = is_ready(*job);
       more = more || here || job->status == RunStatus::running;
-      if (here && running() < static_cast<std::size_t>(options_.jobs)) start(*job);
+      if (here && running_ < options_.jobs) start(*job);
     }
     return more;
   }
@@ -155,7 +150,7 @@ private:
   int threads_for(const Job& job) const {
     const auto ready = static_cast<int>(
         std::count_if(jobs_.begin(), jobs_.end(), [](auto& other) { return is_ready(*other); }));
-    const int side_by_side = std::min(options_.jobs, static_cast<int>(running()) + ready);
+    const int side_by_side = std::min(options_.jobs, running_ + ready);
     return std::clamp(options_.cores / std::max(1, side_by_side), 1, job.most_threads);
   }
 
@@ -178,6 +173,7 @@ private:
     const auto log = job.directory / log_name;
     job.log_begin = fs::exists(log) ? fs::file_size(log) : 0;
     job.process = std::make_unique<ChildProcess>(arguments, log);
+    ++running_;
     job.started = Clock::now();
     job.status = RunStatus::running;
   }
@@ -186,8 +182,10 @@ private:
     const std::optional<ProcessEnd> end = job.process->end();
     if (!end) return;
     job.process.reset();
+    --running_;
     job.status = standing_of(job.directory).status;
-    if (job.status == RunStatus::done) return;
+    const bool taken_by_another = job.status == RunStatus::running;
+    if (job.status == RunStatus::done || taken_by_another) return;
     if (was_stopped(*end)) {
       job.status = RunStatus::interrupted;
       if (job.starts == most_starts)
@@ -239,7 +237,7 @@ private:
     const std::size_t failed = count(RunStatus::failed);
     progress_.show(fraction_done(),
                    fmt::format("{}/{} points done, {} running{}", count(RunStatus::done),
-                               jobs_.size(), running(),
+                               jobs_.size(), running_,
                                failed > 0 ? fmt::format(", {} failed", failed) : ""));
   }
 
@@ -257,6 +255,7 @@ private:
   std::vector<Job*> by_urgency_;
   Progress progress_;
   Clock::time_point last_manifest_ = {};
+  int running_ = 0;  // processes
   bool passed_on_ = false;
 };
 

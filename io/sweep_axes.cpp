@@ -50,8 +50,9 @@ private:
       axis.values.resize(values.size());
     } else if (values.size() != axis.values.size()) {
       throw SettingsError(entry.value.place, entry.key,
-                          fmt::format("has {} values, and {}, which goes with it, has {}",
-                                      values.size(), axis.keys.front(), axis.values.size()),
+                          fmt::format("the number of values is {}, and {} for {}, which goes "
+                                      "with it",
+                                      values.size(), axis.values.size(), axis.keys.front()),
                           "give both the same number, or make them two axes");
     }
     axis.keys.push_back(entry.key);

@@ -187,7 +187,7 @@ SweepFile read_sweep_file(const fs::path& file, const SettingsTables& tables) {
 
 SweepFile read_sweep_text(const std::string& text, const std::string& source,
                           const SettingsTables& tables) {
-  const auto file = parse_settings_yaml(text, source);
+  const auto file = parse_settings_yaml(text, source, "'base:' and the path of a settings file");
   refuse_unknown_keys(file);
   SweepFile sweep;
   sweep.source = source;

@@ -29,7 +29,7 @@ struct SweepPoint {
   std::string leg;                    ///< "forward" or "backward" in a continuation, else empty
 };
 
-constexpr std::size_t most_sweep_points = 100'000;
+constexpr std::size_t most_sweep_points = 10'000;
 
 /// All points, a parent before its children. The order is that of the sweep file: axes first, then
 /// branches, then seeds; in a continuation its legs come last. Throws SettingsError for values that
