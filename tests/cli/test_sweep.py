@@ -7,7 +7,8 @@ import re
 
 import h5py
 
-from riesel_command import BAD_INPUT, DONE, FAILED, SMALL_TUBE, CommandTest, bytes_of_files
+from riesel_command import (BAD_INPUT, DONE, FAILED, SHIPPED, SMALL_TUBE, CommandTest,
+                            bytes_of_files)
 
 GRID = """\
 base: tube.yaml
@@ -373,3 +374,22 @@ class Mistakes(SweepTest):
                                   (["sweep", "--help"], DONE)):
             with self.subTest(arguments):
                 self.assertEqual(self.riesel(*arguments).returncode, status)
+
+
+class Shipped(SweepTest):
+
+    def test_the_examples_of_the_manual_work(self):
+        page = (SHIPPED.parent / "docs/sweeps.md").read_text(encoding="utf-8")
+        examples = [text for text in re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+                    if "base:" in text]
+        self.assertEqual(len(examples), 2)
+        for text in examples:
+            self.sweep_to_end(text.replace("base: ", f"base: {SHIPPED.parent}/"), "out", "--jobs", 2)
+            self.assertEqual({row["status"] for row in self.rows()}, {"done"})
+
+    def test_the_files_of_the_figures_are_sweeps(self):
+        files = sorted((SHIPPED / "paper").glob("*.yaml"))
+        self.assertGreater(len(files), 0)
+        for file in files:
+            with self.subTest(file.name):
+                self.assert_done(self.riesel("sweep", file, "--dry-run"))
