@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace riesel::app {
 
@@ -66,23 +67,15 @@ bool was_stopped(const ProcessEnd& end) {
 
 class Runner {
 public:
-  Runner(io::Manifest& manifest, const fs::path& sweep, const std::vector<std::string>& names,
+  Runner(io::Manifest& manifest, fs::path sweep, const std::vector<std::string>& names,
          const SweepRunOptions& options)
-      : manifest_(manifest), sweep_(sweep), options_(options) {
+      : manifest_(manifest), sweep_(std::move(sweep)), options_(options) {
     for (const io::ManifestPoint& point : manifest.points) {
       const bool wanted =
           names.empty() || std::find(names.begin(), names.end(), point.name) != names.end();
       if (wanted) add(point);
     }
-    // Parents stand before their children.
-    for (auto job = jobs_.rbegin(); job != jobs_.rend(); ++job) {
-      (*job)->urgency += (*job)->seconds;
-      if (Job* parent = (*job)->parent)
-        parent->urgency = std::max(parent->urgency, (*job)->urgency);
-      by_urgency_.push_back(job->get());
-    }
-    std::stable_sort(by_urgency_.begin(), by_urgency_.end(),
-                     [](const Job* a, const Job* b) { return a->urgency > b->urgency; });
+    order_by_urgency();
   }
 
   int run() {
@@ -120,6 +113,17 @@ private:
     jobs_.push_back(std::move(job));
   }
 
+  void order_by_urgency() {
+    for (std::size_t i = jobs_.size(); i-- > 0;) {  // children before their parents
+      Job& job = *jobs_[i];
+      job.urgency += job.seconds;
+      if (job.parent != nullptr) job.parent->urgency = std::max(job.parent->urgency, job.urgency);
+    }
+    for (const auto& job : jobs_) by_urgency_.push_back(job.get());
+    std::stable_sort(by_urgency_.begin(), by_urgency_.end(),
+                     [](const Job* a, const Job* b) { return a->urgency > b->urgency; });
+  }
+
   std::size_t count(RunStatus status) const {
     return static_cast<std::size_t>(std::count_if(
         jobs_.begin(), jobs_.end(), [&](auto& job) { return job->status == status; }));
@@ -155,9 +159,9 @@ private:
   }
 
   void start(Job& job) {
+    const int threads = threads_for(job);
     job.status = standing_of(job.directory).status;
     if (job.status == RunStatus::running || job.status == RunStatus::done) return;
-    const int threads = threads_for(job);
     ++job.starts;
     io::RunRecord record = io::read_run_record(job.directory);
     io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});

@@ -5,14 +5,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <string>
 
 namespace riesel::io {
 
 using Json = nlohmann::ordered_json;
 
-/// Nothing for null, and for lists and maps; true and false are texts.
+/// Nothing for null, and for lists and maps; true and false are texts, and so are integers that a
+/// double cannot hold (a seed may be one).
 inline Cell cell_of(const Json& json) {
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  if (json.is_number_integer() && (json > most || json < -most)) return json.dump();
   if (json.is_number()) return json.get<double>();
   if (json.is_string()) return json.get<std::string>();
   if (json.is_boolean()) return std::string(json.get<bool>() ? "true" : "false");

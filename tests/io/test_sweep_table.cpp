@@ -86,14 +86,15 @@ TEST_CASE("A summary is flattened: single values with dotted names, no lists") {
   const ScratchDirectory directory;
   const auto path = directory / "summary.json";
   write(path, R"({"a": 1, "b": {"value": 2.5, "deep": {"c": "steady"}}, "list": [1], "n": null,
-                  "yes": true})");
+                  "yes": true, "large": 9007199254740993})");
   const auto values = flat_summary(path);
-  REQUIRE(values.size() == 5);
+  REQUIRE(values.size() == 6);
   CHECK((values[0] == std::pair<std::string, Cell>("a", 1.0)));
   CHECK((values[1] == std::pair<std::string, Cell>("b.value", 2.5)));
   CHECK((values[2] == std::pair<std::string, Cell>("b.deep.c", "steady")));
   CHECK((values[3] == std::pair<std::string, Cell>("n", Cell{})));
   CHECK((values[4] == std::pair<std::string, Cell>("yes", "true")));
+  CHECK((values[5] == std::pair<std::string, Cell>("large", "9007199254740993")));
   write(path, "{\"a\": ");
   CHECK(message_of<FileError>([&] { (void)flat_summary(path); }).find("no summary")
         != std::string::npos);
