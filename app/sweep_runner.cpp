@@ -192,7 +192,7 @@ private:
     if (job.status == RunStatus::done || taken_by_another) return;
     if (was_stopped(*end)) {
       job.status = RunStatus::interrupted;
-      if (job.starts == most_starts)
+      if (job.starts == most_starts && interrupting_signal() == 0)
         tell("point {} was stopped {} times; 'riesel sweep' goes on with it", job, most_starts);
       return;
     }

@@ -7,7 +7,7 @@ import re
 
 import h5py
 
-from riesel_command import (BAD_INPUT, DONE, FAILED, SHIPPED, SMALL_TUBE, CommandTest,
+from riesel_command import (BAD_INPUT, FAILED, SHIPPED, SMALL_TUBE, CommandTest,
                             bytes_of_files)
 
 GRID = """\
@@ -382,10 +382,20 @@ class Mistakes(SweepTest):
     def test_on_the_command_line(self):
         for arguments, status in ((["sweep"], BAD_INPUT), (["sweep", "x.yaml"], BAD_INPUT),
                                   (["sweep", "tube.yaml", "--jobs", 0], BAD_INPUT),
-                                  (["status"], BAD_INPUT), (["sweep-task", "out"], BAD_INPUT),
-                                  (["sweep", "--help"], DONE)):
+                                  (["status"], BAD_INPUT), (["sweep-task", "out"], BAD_INPUT)):
             with self.subTest(arguments):
                 self.assertEqual(self.riesel(*arguments).returncode, status)
+
+    def test_help_names_the_options(self):
+        for command, options in {"sweep": ["FILE", "--out", "--jobs", "--dry-run", "--prepare",
+                                           "--retry-failed"],
+                                 "sweep-task": ["DIR", "INDEX", "--threads", "--retry-failed"],
+                                 "status": ["DIR"], "collect": ["DIR"]}.items():
+            result = self.riesel(command, "--help")
+            self.assert_done(result)
+            for option in options:
+                self.assertIn(option, result.stdout)
+            self.assertIn(f"  {command} ", self.riesel("--help").stdout)
 
 
 class Shipped(SweepTest):
