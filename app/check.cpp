@@ -1,21 +1,19 @@
 // riesel check: what a settings file means, before hours are spent on it.
 #include "app/commands.hpp"
+#include "app/cost.hpp"
 #include "app/exit_status.hpp"
 #include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
-#include "engine/simulation.hpp"
+#include "engine/observables.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
-#include <omp.h>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 namespace riesel::app {
 
@@ -78,29 +76,6 @@ double memory_in_use() {
   return static_cast<double>(usage.ru_maxrss) * 1024.0;
 }
 
-/// Particle-steps per second, from a few real steps.
-double measured_speed(const io::Settings& settings, const scenarios::Flow& flow, int threads) {
-  using Clock = std::chrono::steady_clock;
-  constexpr double enough_seconds = 0.3;
-  Simulation simulation(flow.state, flow.model, threads, stepping_of(settings));
-  simulation.advance(10);  // caches and threads warm up
-  const auto start = Clock::now();
-  std::int64_t steps = 0;
-  double seconds = 0.0;
-  for (std::int64_t chunk = 10; seconds < enough_seconds; chunk *= 2) {
-    simulation.advance(chunk);
-    steps += chunk;
-    seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  }
-  return static_cast<double>(flow.state.grains.size()) * static_cast<double>(steps) / seconds;
-}
-
-std::string readable_time(double seconds) {
-  if (seconds < 120.0) return fmt::format("{:.0f} s", std::max(1.0, seconds));
-  if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);
-  return fmt::format("{:.1f} h", seconds / 3600.0);
-}
-
 void print_critical_velocity(double chord_length, double t_col, double fastest) {
   const double v_crit = chord_length / t_col;
   line("v_crit", "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col)", v_crit, chord_length);
@@ -117,8 +92,8 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const auto n = static_cast<double>(grains.size());
   const double mass = settings.number("grains.mass");
   const double diameter = settings.number("grains.diameter");
-  const double random = settings.number("start.random_velocity");
-  const double axial = settings.number("start.axial_velocity");
+  const Observables start = observe(state);
+  const double random = std::sqrt(start.granular_temperature);
   // Two grains of a normal distribution rarely meet at more than four standard deviations of each;
   // the common fall brings no two together.
   const double fastest = std::max(4.0 * std::numbers::sqrt2 * random, 1e-3);
@@ -137,36 +112,24 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
 
   const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
   const double reach = 0.5 * diameter + state.walls.front().radius;
-  print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(axial));
+  print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(start.mean_vy));
 
-  const double steps = std::ceil(settings.number("run.duration") / state.time_step);
+  constexpr double seconds_to_measure = 0.3;
+  const double steps = steps_of(settings, flow);
   const int threads = threads_for(settings, grains.size());
-  const double speed = measured_speed(settings, flow, threads);
+  const double speed = measured_speed(settings, flow, threads, seconds_to_measure);
   line("steps", "{:.0f}", steps);
   line("expected time", "{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
        readable_time(n * steps / speed), threads, threads == 1 ? "" : "s", speed / 1e6);
   line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
 }
 
-/// From some impacts, evenly spread over the curve.
 void print_cost(const io::Settings& settings, const scenarios::ImpactCurve& curve) {
-  constexpr std::size_t enough = 50;
-  const std::size_t stride = curve.impacts.size() / enough + 1;
-  std::vector<Impact> sample;
-  for (std::size_t i = 0; i < curve.impacts.size(); i += stride) sample.push_back(curve.impacts[i]);
-
-  const auto wanted = settings.integer_or_auto("run.threads");
-  const int threads = wanted ? static_cast<int>(*wanted) : omp_get_max_threads();
-  const auto start = std::chrono::steady_clock::now();
-  double steps = 0.0;
-  for (const ImpactResult& result : follow_all(curve.setup, sample, threads))
-    steps += static_cast<double>(result.steps);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-
-  const double scale =
-      static_cast<double>(curve.impacts.size()) / static_cast<double>(sample.size());
-  line("steps", "about {:.2g}", scale * steps);
-  line("expected time", "{} on {} thread{}", readable_time(scale * seconds.count()), threads,
+  constexpr std::size_t sample = 50;
+  const int threads = threads_for_curve(settings);
+  const CurveCost cost = measured_cost(curve, threads, sample);
+  line("steps", "about {:.2g}", cost.steps);
+  line("expected time", "{} on {} thread{}", readable_time(cost.seconds), threads,
        threads == 1 ? "" : "s");
   line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
 }

@@ -5,6 +5,7 @@
 #include "app/run_directory.hpp"
 #include "io/settings.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -39,6 +40,32 @@ struct CheckOptions {
 };
 
 int check(const CheckOptions& options);
+
+struct SweepOptions {
+  std::filesystem::path file;                      ///< the sweep file
+  std::optional<std::filesystem::path> directory;  ///< where the results go
+  std::optional<int> jobs;                         ///< runs side by side [as many as cores]
+  bool dry_run = false;                            ///< only tell what would be run
+  bool prepare_only = false;                       ///< write the plan, run nothing
+  bool retry_failed = false;                       ///< run again what failed
+};
+
+int sweep(const SweepOptions& options);
+
+struct SweepTaskOptions {
+  std::filesystem::path directory;  ///< of a sweep that was prepared
+  std::size_t index = 0;            ///< of the point, as --dry-run lists them
+  std::optional<int> threads;       ///< [as many as cores, if that many are of use]
+  bool retry_failed = false;
+};
+
+int sweep_task(const SweepTaskOptions& options);
+
+/// How far the sweep in a directory has come.
+int sweep_status(const std::filesystem::path& directory);
+
+/// Gathers the results of the sweep in a directory into one table.
+int sweep_collect(const std::filesystem::path& directory);
 
 int list_scenarios();
 

@@ -12,6 +12,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <string>
@@ -25,6 +26,8 @@ std::string version_text() {
   return fmt::format("riesel {} ({}{}, {}, {})", build.version, build.git_commit,
                      build.git_dirty ? ", changed" : "", build.compiler, build.build_type);
 }
+
+constexpr int most_jobs = 1024;
 
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
   command.add_option("--set", overrides, "Change a setting: key.path=value; may be repeated")
@@ -47,6 +50,11 @@ public:
     add_run();
     add_resume();
     add_check();
+    add_sweep();
+    add_sweep_task();
+    add_sweep_directory("status", "Tell how far a sweep has come", app::sweep_status);
+    add_sweep_directory("collect", "Gather the results of a sweep into one table",
+                        app::sweep_collect);
     program_.add_subcommand("scenarios", "List the scenarios")->callback([this] {
       command_ = app::list_scenarios;
     });
@@ -86,6 +94,38 @@ private:
     set_command(*check, *file, [this] { return app::check(check_); });
   }
 
+  void add_sweep() {
+    CLI::App* sweep = program_.add_subcommand(
+        "sweep", "Run all points of a sweep file that are not done, side by side");
+    CLI::Option* file = sweep->add_option("FILE", sweep_.file, "Sweep in YAML");
+    sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]");
+    sweep->add_option("--jobs", sweep_.jobs, "Runs side by side [as many as cores]")
+        ->check(CLI::Range(1, most_jobs));
+    sweep->add_flag("--dry-run", sweep_.dry_run, "List the points, their directories and cost");
+    sweep->add_flag("--prepare", sweep_.prepare_only, "Write the plan for sweep-task, run nothing");
+    sweep->add_flag("--retry-failed", sweep_.retry_failed, "Run again what failed");
+    set_command(*sweep, *file, [this] { return app::sweep(sweep_); });
+  }
+
+  void add_sweep_task() {
+    CLI::App* task =
+        program_.add_subcommand("sweep-task", "Run one point of a sweep, for a batch system");
+    task->add_option("DIR", task_.directory, "Directory of the sweep, see sweep --prepare");
+    CLI::Option* index = task->add_option("INDEX", task_.index, "The point, counted from 0");
+    task->add_option("--threads", task_.threads, "Threads [as many as cores]")
+        ->check(CLI::Range(1, most_jobs));
+    task->add_flag("--retry-failed", task_.retry_failed, "Run it again if it failed");
+    set_command(*task, *index, [this] { return app::sweep_task(task_); });
+  }
+
+  void add_sweep_directory(const std::string& name, const std::string& what,
+                           int (*act)(const std::filesystem::path&)) {
+    CLI::App* subcommand = program_.add_subcommand(name, what);
+    CLI::Option* directory =
+        subcommand->add_option("DIR", sweep_directory_, "Directory of the sweep");
+    set_command(*subcommand, *directory, [this, act] { return act(sweep_directory_); });
+  }
+
   /// The argument is required, but asked for only after CLI11 has complained of unknown options,
   /// which say more.
   void set_command(CLI::App& subcommand, const CLI::Option& argument,
@@ -101,6 +141,9 @@ private:
   app::RunOptions run_;
   app::ResumeOptions resume_;
   app::CheckOptions check_;
+  app::SweepOptions sweep_;
+  app::SweepTaskOptions task_;
+  std::filesystem::path sweep_directory_;
   std::function<int()> command_;
 };
 

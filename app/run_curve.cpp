@@ -1,13 +1,12 @@
 #include "app/run_curve.hpp"
 
+#include "app/cost.hpp"
 #include "app/exit_status.hpp"
 #include "app/print_summary.hpp"
 #include "engine/hash.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
-
-#include <omp.h>
 
 #include <chrono>
 #include <numeric>
@@ -71,8 +70,7 @@ std::uint64_t hash_of(const std::vector<ImpactResult>& results) {
 int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
               const RunDirectory& directory, const Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
-  const auto wanted = settings.integer_or_auto("run.threads");
-  const int threads = wanted ? static_cast<int>(*wanted) : omp_get_max_threads();
+  const int threads = threads_for_curve(settings);
   io::RunFile file =
       io::RunFile::create(directory.file(io::run_file_name),
                           io::collect_provenance({.arguments = arguments,

@@ -10,11 +10,14 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <string>
+#include <thread>
 
 namespace riesel::io {
 namespace {
 
+constexpr auto lock_name = ".lock";
 constexpr auto cannot_be_locked = "the directory cannot be locked";
 
 /// The host too: on a network file system the process may run elsewhere.
@@ -39,12 +42,23 @@ void describe_holder(int descriptor) {
   static_cast<void>(written);  // it is only a help: the lock holds without (on a full disk, say)
 }
 
+/// Asks a few times: whoever only looks whether the lock is held (see is_held) has it for a moment.
+bool lock_patiently(int descriptor) {
+  constexpr int attempts = 5;
+  constexpr auto pause = std::chrono::milliseconds(10);
+  for (int attempt = 1;; ++attempt) {
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK || attempt == attempts) return false;
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 }  // namespace
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
-    : descriptor_(open((directory / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    : descriptor_(open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+  if (lock_patiently(descriptor_)) {
     describe_holder(descriptor_);
     return;
   }
@@ -56,6 +70,14 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
   }
   throw FileError(directory, "is in use by " + holder,
                   "wait until that ends, or choose another directory");
+}
+
+bool DirectoryLock::is_held(const std::filesystem::path& directory) {
+  const int descriptor = open((directory / lock_name).c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return held;
 }
 
 DirectoryLock::~DirectoryLock() { close(descriptor_); }

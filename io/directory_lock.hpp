@@ -17,6 +17,9 @@ public:
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
 
+  /// Whether another process works in the directory at the moment. Writes nothing.
+  static bool is_held(const std::filesystem::path& directory);
+
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
   DirectoryLock(DirectoryLock&&) = delete;

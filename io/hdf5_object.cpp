@@ -122,6 +122,16 @@ Hdf5Handle creation_properties(const Hdf5Shape& shape, const std::string& what) 
   return properties;
 }
 
+/// A data set of texts: nothing to be chunked.
+void write_new_data(hid_t group, const std::string& name, const Hdf5Handle& type,
+                    const Hdf5Handle& space, const void* memory, const std::string& what) {
+  const auto properties = timeless(what);
+  const Hdf5Handle data(H5Dcreate2(group, name.c_str(), type.id(), space.id(), H5P_DEFAULT,
+                                   properties.id(), H5P_DEFAULT),
+                        H5Dclose, what);
+  check_hdf5(H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, memory), what);
+}
+
 void check_size(std::size_t size, const Hdf5Shape& shape, const std::string& what) {
   if (size != shape.rows * shape.columns) {
     throw Hdf5Error("cannot " + what + ": the size does not match");
@@ -261,13 +271,17 @@ Hdf5Data Hdf5Group::data(const std::string& name) const {
 
 void Hdf5Group::write_text(const std::string& name, std::string_view text) {
   const auto what = "write the text " + path_of(name);
-  const auto type = text_type(text.size());
-  const auto space = scalar_space();
-  const auto properties = timeless(what);
-  const Hdf5Handle data(H5Dcreate2(id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT,
-                                   properties.id(), H5P_DEFAULT),
-                        H5Dclose, what);
-  check_hdf5(H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes_of(text)), what);
+  write_new_data(id(), name, text_type(text.size()), scalar_space(), bytes_of(text), what);
+}
+
+void Hdf5Group::write_texts(const std::string& name, const std::vector<std::string>& texts) {
+  const auto what = "write the texts " + path_of(name);
+  std::size_t length = 1;
+  for (const auto& text : texts) length = std::max(length, text.size());
+  std::string padded(texts.size() * length, '\0');
+  for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(&padded[i * length], length);
+  write_new_data(id(), name, text_type(length), create_space({.rows = texts.size()}, what),
+                 padded.data(), what);
 }
 
 std::string Hdf5Group::read_text(const std::string& name, std::size_t most_bytes) const {

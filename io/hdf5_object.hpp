@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace riesel::io {
 
@@ -89,6 +90,9 @@ public:
   /// A text that claims to be longer than `most_bytes` is not read.
   void write_text(const std::string& name, std::string_view text);
   std::string read_text(const std::string& name, std::size_t most_bytes) const;
+
+  /// Many texts as one data set: strings of one length, that of the longest, padded with zeros.
+  void write_texts(const std::string& name, const std::vector<std::string>& texts);
 
 private:
   friend class Hdf5File;

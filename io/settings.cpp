@@ -1,6 +1,7 @@
 #include "io/settings.hpp"
 
 #include "io/settings_contents.hpp"
+#include "io/settings_given.hpp"
 #include "io/settings_names.hpp"
 #include "io/settings_text.hpp"
 
@@ -45,8 +46,15 @@ Settings Settings::from_file(const std::filesystem::path& file, const SettingsTa
 Settings Settings::from_text(const std::string& text, const std::string& source,
                              const SettingsTables& tables,
                              const std::vector<std::string>& overrides) {
+  const auto file = parse_settings_yaml(text, source);
+  return from_yaml(file, text, tables, parse_overrides(overrides));
+}
+
+Settings Settings::from_yaml(const YamlNode& file, const std::string& text,
+                             const SettingsTables& tables,
+                             const std::vector<YamlEntry>& overrides) {
   return Settings(
-      std::make_shared<const SettingsContents>(read_settings(text, source, tables, overrides)));
+      std::make_shared<const SettingsContents>(read_settings(file, text, tables, overrides)));
 }
 
 const std::string& Settings::scenario() const { return text("scenario"); }
@@ -103,7 +111,17 @@ void Settings::require_exactly_one(const std::vector<std::string>& keys) const {
   }
 }
 
-std::string Settings::effective_yaml() const { return io::effective_yaml(*contents_); }
+std::string Settings::effective_yaml() const {
+  return effective_yaml([](const Setting&) { return true; });
+}
+
+std::string Settings::effective_yaml(const std::function<bool(const Setting&)>& wanted) const {
+  return io::effective_yaml(*contents_, wanted);
+}
+
+std::string Settings::written(const std::string& key) const {
+  return has(key) ? io::written(*contents_->find(key)) : "";
+}
 
 const std::string& Settings::source_text() const { return contents_->source_text; }
 

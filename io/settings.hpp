@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@
 namespace riesel::io {
 
 struct SettingsContents;
+struct YamlEntry;
+struct YamlNode;
 
 class Settings {
 public:
@@ -32,6 +35,11 @@ public:
   static Settings from_text(const std::string& text, const std::string& source,
                             const SettingsTables& tables,
                             const std::vector<std::string>& overrides = {});
+
+  /// The same from a map that was parsed from `text` before, and overrides with dotted keys that
+  /// know where they were written.
+  static Settings from_yaml(const YamlNode& file, const std::string& text,
+                            const SettingsTables& tables, const std::vector<YamlEntry>& overrides);
 
   const std::string& scenario() const;
 
@@ -58,6 +66,12 @@ public:
   /// Settings file that gives the same values, bit by bit: each one written out in SI units,
   /// defaults included.
   std::string effective_yaml() const;
+
+  /// The part of it that belongs to the wanted rows of the table.
+  std::string effective_yaml(const std::function<bool(const Setting&)>& wanted) const;
+
+  /// The value of a key of any kind as effective.yaml has it; empty if there is none.
+  std::string written(const std::string& key) const;
 
   /// The file verbatim, without the overrides.
   const std::string& source_text() const;

@@ -126,14 +126,16 @@ SettingsTable run_settings() {
        .range = between(1, 1024),
        .doc = "Threads to use; `auto` takes as many as pay for the number of grains. The "
               "results do "
-              "not depend on it."},
+              "not depend on it.",
+       .matters = false},
       {.key = "run.stepping",
        .kind = Kind::choice,
        .fallback = "auto",
        .choices = {"auto", "plain", "windows"},
        .doc = "Whether all grains are moved in each step (`plain`), or those in free flight cross "
               "many "
-              "steps at once (`windows`, on one thread). The results do not depend on it."},
+              "steps at once (`windows`, on one thread). The results do not depend on it.",
+       .matters = false},
   };
 }
 

@@ -1,7 +1,6 @@
 #include "io/settings_contents.hpp"
 
 #include "io/settings_given.hpp"
-#include "io/settings_yaml.hpp"
 
 #include <fmt/format.h>
 
@@ -67,11 +66,12 @@ Place SettingsContents::place_of(const std::string& key) const {
   return section != sections.end() ? section->second : Place{source, 1, 1};
 }
 
-SettingsContents read_settings(const std::string& text, const std::string& source,
+SettingsContents read_settings(const YamlNode& file, const std::string& text,
                                const SettingsTables& tables,
-                               const std::vector<std::string>& overrides) {
-  const auto given = gather_settings(text, source, tables, overrides);
-  SettingsContents contents = {source, text, tables.at(given.scenario), given.sections, {}};
+                               const std::vector<YamlEntry>& overrides) {
+  const auto given = gather_settings(file, tables, overrides);
+  SettingsContents contents = {
+      file.place.source, text, tables.at(given.scenario), given.sections, {}};
   verify_table(contents.table);
   for (const auto& row : contents.table) {
     if (row.only_when && !holds(*row.only_when, contents)) continue;

@@ -4,7 +4,9 @@
 #include "io/settings_error.hpp"
 #include "io/settings_table.hpp"
 #include "io/settings_value.hpp"
+#include "io/settings_yaml.hpp"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,12 +36,16 @@ struct SettingsContents {
   Place place_of(const std::string& key) const;
 };
 
-/// Throws SettingsError.
-SettingsContents read_settings(const std::string& text, const std::string& source,
+/// `text` is what the map `file` was parsed from. Throws SettingsError.
+SettingsContents read_settings(const YamlNode& file, const std::string& text,
                                const SettingsTables& tables,
-                               const std::vector<std::string>& overrides);
+                               const std::vector<YamlEntry>& overrides);
 
 /// See Settings::effective_yaml().
-std::string effective_yaml(const SettingsContents& contents);
+std::string effective_yaml(const SettingsContents& contents,
+                           const std::function<bool(const Setting&)>& wanted);
+
+/// A value as effective.yaml has it.
+std::string written(const SettingsContents::Entry& entry);
 
 }  // namespace riesel::io

@@ -9,6 +9,8 @@
 namespace riesel::io {
 namespace {
 
+using Entry = SettingsContents::Entry;
+
 constexpr std::size_t numbers_per_line = 4;
 
 /// The fewest digits that read back to the same double. There is always a point, because readers of
@@ -33,32 +35,38 @@ std::string written(const std::vector<double>& values) {
   return list + "]";
 }
 
-std::string line(const SettingsContents::Entry& entry) {
+std::string line(const Entry& entry) {
   const auto& row = entry.row;
-  const auto value = row.kind == Kind::choice
-                         ? std::get<std::string>(*entry.value)
-                         : std::visit([](const auto& v) { return written(v); }, *entry.value);
   const bool has_unit = !row.unit.empty() && row.unit != "1";
-  return fmt::format("{}: {}{}\n", name_in_section(row.key), value,
+  return fmt::format("{}: {}{}\n", name_in_section(row.key), io::written(entry),
                      has_unit ? "  # " + row.unit : "");
 }
 
-/// All lines of a section; those of the keys outside of sections for "".
-std::vector<std::string> lines_of(const SettingsContents& contents, const std::string& section) {
+using Wanted = std::function<bool(const Setting&)>;
+
+/// All wanted lines of a section; those of the keys outside of sections for "".
+std::vector<std::string> lines_of(const SettingsContents& contents, const std::string& section,
+                                  const Wanted& wanted) {
   std::vector<std::string> lines;
   for (const auto& entry : contents.entries) {
-    if (section_of(entry.row.key) == section && entry.value) lines.push_back(line(entry));
+    const bool belongs = section_of(entry.row.key) == section && wanted(entry.row);
+    if (belongs && entry.value) lines.push_back(line(entry));
   }
   return lines;
 }
 
 }  // namespace
 
-std::string effective_yaml(const SettingsContents& contents) {
+std::string written(const Entry& entry) {
+  if (entry.row.kind == Kind::choice) return std::get<std::string>(*entry.value);
+  return std::visit([](const auto& value) { return written(value); }, *entry.value);
+}
+
+std::string effective_yaml(const SettingsContents& contents, const Wanted& wanted) {
   std::string yaml = "# Every setting of the run, defaults included, in SI units.\n";
-  for (const auto& top_line : lines_of(contents, "")) yaml += top_line;
+  for (const auto& top_line : lines_of(contents, "", wanted)) yaml += top_line;
   for (const auto& section : top_level_names(contents.table)) {
-    const auto lines = lines_of(contents, section);
+    const auto lines = lines_of(contents, section, wanted);
     if (!has_section(contents.table, section) || lines.empty()) continue;
     yaml += fmt::format("\n{}:\n", section);
     for (const auto& section_line : lines) yaml += "  " + section_line;

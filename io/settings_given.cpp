@@ -20,12 +20,6 @@ YamlEntry parse_override(const std::string& text) {
   return {text.substr(0, equals), place, parse_yaml_value(text.substr(equals + 1), place)};
 }
 
-std::vector<YamlEntry> parse_overrides(const std::vector<std::string>& texts) {
-  std::vector<YamlEntry> overrides;
-  for (const auto& text : texts) overrides.push_back(parse_override(text));
-  return overrides;
-}
-
 /// The scenario decides about the table, so it is looked for before anything else is checked.
 std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& overrides,
                           const SettingsTables& tables) {
@@ -60,8 +54,11 @@ public:
   void add_override(const YamlEntry& entry) {
     if (has_section(table_, entry.key)) {
       const auto example = entry.key + "." + names_of(table_, entry.key).front();
+      const bool on_command_line = entry.key_place.line == 0;
       throw SettingsError(entry.key_place, entry.key, "is a section and has no value of its own",
-                          fmt::format("override its keys, as in --set {}=...", example));
+                          on_command_line
+                              ? fmt::format("override its keys, as in --set {}=...", example)
+                              : fmt::format("give its keys, such as {}", example));
     }
     add(entry.key, entry);
   }
@@ -107,14 +104,17 @@ private:
 
 }  // namespace
 
-GivenSettings gather_settings(const std::string& text, const std::string& source,
-                              const SettingsTables& tables,
-                              const std::vector<std::string>& overrides) {
-  const auto file = parse_settings_yaml(text, source);
-  const auto override_entries = parse_overrides(overrides);
-  Gatherer gatherer(read_scenario(file, override_entries, tables), tables);
+std::vector<YamlEntry> parse_overrides(const std::vector<std::string>& texts) {
+  std::vector<YamlEntry> overrides;
+  for (const auto& text : texts) overrides.push_back(parse_override(text));
+  return overrides;
+}
+
+GivenSettings gather_settings(const YamlNode& file, const SettingsTables& tables,
+                              const std::vector<YamlEntry>& overrides) {
+  Gatherer gatherer(read_scenario(file, overrides, tables), tables);
   gatherer.add_file(file);
-  for (const auto& entry : override_entries) gatherer.add_override(entry);
+  for (const auto& entry : overrides) gatherer.add_override(entry);
   return gatherer.take();
 }
 

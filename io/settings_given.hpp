@@ -17,9 +17,12 @@ struct GivenSettings {
   std::map<std::string, Place> sections;  ///< those that the file has
 };
 
-/// Throws SettingsError: bad YAML, no or an unknown scenario, unknown keys, sections that are none.
-GivenSettings gather_settings(const std::string& text, const std::string& source,
-                              const SettingsTables& tables,
-                              const std::vector<std::string>& overrides);
+/// The entries of "key=value" texts, as the command line has them. Throws SettingsError.
+std::vector<YamlEntry> parse_overrides(const std::vector<std::string>& texts);
+
+/// `overrides` have dotted keys; they replace or add to what the file says, the last one of a key
+/// wins. Throws SettingsError: no or an unknown scenario, unknown keys, sections that are none.
+GivenSettings gather_settings(const YamlNode& file, const SettingsTables& tables,
+                              const std::vector<YamlEntry>& overrides);
 
 }  // namespace riesel::io

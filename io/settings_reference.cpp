@@ -37,6 +37,8 @@ std::string kind_text(const Setting& row) {
     return fmt::format("`{}`", fmt::join(row.choices, "`, `"));
   case Kind::text:
     return "text";
+  case Kind::path:
+    return "path";
   case Kind::boolean:
     return "`true` or `false`";
   }

@@ -20,6 +20,7 @@ enum class Kind {
   integer,  ///< fits into 64 bits
   choice,   ///< one of Setting::choices
   text,     ///< not empty
+  path,     ///< of a file or directory; relative to the settings file it stands in
   boolean,  ///< true or false
   numbers,  ///< a list of quantities, one quantity, or {from, to, points, spacing: log | linear}
   integer_or_auto,  ///< an integer or the word auto
@@ -60,6 +61,7 @@ struct Setting {
   std::vector<std::string> choices = {};
   std::string doc = {};                ///< for the reference page; ends with a full stop
   std::optional<When> only_when = {};  ///< the row counts only under this condition
+  bool matters = true;                 ///< the results depend on it
 };
 
 using SettingsTable = std::vector<Setting>;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 namespace riesel::io {
 namespace {
@@ -55,6 +56,15 @@ std::string read_text(const Setting& row, const YamlNode& node) {
   return text;
 }
 
+/// Absolute, so that the recorded settings mean the same wherever they are kept. What was not
+/// written in a file is relative to where the user is.
+std::string read_path(const Setting& row, const YamlNode& node) {
+  namespace fs = std::filesystem;
+  const bool from_file = node.place.line > 0;
+  const auto home = from_file ? fs::path(node.place.source).parent_path() : fs::path();
+  return fs::absolute(home / read_text(row, node)).lexically_normal().string();
+}
+
 }  // namespace
 
 std::string expectation(const Setting& row) {
@@ -67,6 +77,8 @@ std::string expectation(const Setting& row) {
     return enumerate(row.choices);
   case Kind::text:
     return "a text";
+  case Kind::path:
+    return "the path of a file or directory";
   case Kind::boolean:
     return "true or false";
   case Kind::numbers:
@@ -91,6 +103,8 @@ SettingValue read_value(const Setting& row, const YamlNode& node) {
     return read_choice(row, node);
   case Kind::text:
     return read_text(row, node);
+  case Kind::path:
+    return read_path(row, node);
   case Kind::boolean:
     return read_boolean(row, node);
   case Kind::numbers:

@@ -217,11 +217,11 @@ std::optional<YamlNode> parse(const std::string& text, const std::string& source
 
 }  // namespace
 
-YamlNode parse_settings_yaml(const std::string& text, const std::string& source) {
+YamlNode parse_settings_yaml(const std::string& text, const std::string& source,
+                             const std::string& beginning) {
   const auto root = parse(text, source, {});
   if (!root || root->shape == YamlNode::Shape::null) {
-    throw SettingsError({source, 1, 1}, "", "the file is empty",
-                        "begin with 'scenario:' and the name of a scenario");
+    throw SettingsError({source, 1, 1}, "", "the file is empty", "begin with " + beginning);
   }
   if (root->shape != YamlNode::Shape::map) {
     throw SettingsError(root->place, "", fmt::format("expected settings, got {}", describe(*root)),

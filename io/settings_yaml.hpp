@@ -31,8 +31,11 @@ struct YamlEntry {
   YamlNode value;
 };
 
-/// The map that a settings file must be. Throws SettingsError.
-YamlNode parse_settings_yaml(const std::string& text, const std::string& source);
+/// The map that a settings file must be. `beginning` is what to tell the user to begin an empty one
+/// with. Throws SettingsError.
+YamlNode
+parse_settings_yaml(const std::string& text, const std::string& source,
+                    const std::string& beginning = "'scenario:' and the name of a scenario");
 
 /// A value given outside a file, such as that of an override; all of its nodes get the same place.
 /// Throws SettingsError.

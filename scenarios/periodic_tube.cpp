@@ -7,6 +7,7 @@
 #include "engine/closed_forms.hpp"
 #include "engine/random.hpp"
 #include "scenarios/contact_settings.hpp"
+#include "scenarios/continued_start.hpp"
 #include "scenarios/packing.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -15,6 +16,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace riesel::scenarios {
 
@@ -79,17 +83,31 @@ io::SettingsTable own_settings() {
        .fallback = "10 m/s^2",
        .range = io::non_negative(),
        .doc = "Acceleration along the tube."},
+      {.key = "start.kind",
+       .kind = io::Kind::choice,
+       .fallback = "fresh",
+       .choices = {"fresh", "continued"},
+       .doc = "Grains at random places (`fresh`), or those of another run where it ended "
+              "(`continued`)."},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
+              "grains, the walls and the tube must be the same.",
+       .only_when = io::When{"start.kind", {"continued"}}},
       {.key = "start.axial_velocity",
        .unit = "m/s",
        .fallback = "1 m/s",
        .range = io::any(),
-       .doc = "Velocity of the grains' centre of mass at the start."},
+       .doc = "Velocity of the grains' centre of mass at the start.",
+       .only_when = io::When{"start.kind", {"fresh"}}},
       {.key = "start.random_velocity",
        .unit = "m/s",
        .fallback = "0.5 m/s",
        .range = io::non_negative(),
        .doc = "Root mean square of the random velocities at the start, per component; they are "
-              "normally distributed and their momenta add up to zero."},
+              "normally distributed and their momenta add up to zero.",
+       .only_when = io::When{"start.kind", {"fresh"}}},
       {.key = "run.duration",
        .unit = "s",
        .required = true,
@@ -104,7 +122,8 @@ io::SettingsTable own_settings() {
        .unit = "s",
        .fallback = "60 s",
        .range = io::positive(),
-       .doc = "Time on the clock between two checkpoints; the results do not depend on it."},
+       .doc = "Time on the clock between two checkpoints; the results do not depend on it.",
+       .matters = false},
   };
 }
 
@@ -221,31 +240,43 @@ std::vector<Grain> start_grains(const io::Settings& settings, const State& empty
   return grains;
 }
 
-/// Damping counts most for the heaviest grain at the wall.
-void reject_what_does_not_rebound(const io::Settings& settings, const ContactModel& model,
-                                  const std::vector<Grain>& grains) {
-  const auto heaviest = std::max_element(grains.begin(), grains.end(),
-                                         [](auto& a, auto& b) { return a.mass < b.mass; });
-  collision_time(settings, model, heaviest->mass);
+/// From the lightest pair. Damping counts most for the heaviest grain at the wall: rejects it if it
+/// does not rebound.
+void set_time_step(const io::Settings& settings, const ContactModel& model,
+                   std::span<const double> masses, State& state) {
+  const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
+  const double shortest = collision_time(settings, model, 0.5 * *lightest);
+  collision_time(settings, model, *heaviest);
+  state.time_step = time_step(settings, shortest);
+  constexpr double most_steps = 1e15;  // far below what a counter holds
+  if (settings.number("run.duration") / state.time_step > most_steps)
+    settings.reject("run.duration", "more time steps than can be counted",
+                    fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
+}
+
+Problem start_afresh(const io::Settings& settings, const ContactModel& model, State state) {
+  const std::vector<Grain> grains = start_grains(settings, state);
+  std::vector<double> masses;
+  for (const Grain& grain : grains) masses.push_back(grain.mass);
+  set_time_step(settings, model, masses, state);
+  for (const Grain& grain : grains) add_grain(state, grain);
+  return Flow{.state = std::move(state), .model = model};
+}
+
+Problem continue_run(const io::Settings& settings, const ContactModel& model, State state) {
+  const State earlier = earlier_state(settings);
+  set_time_step(settings, model, earlier.grains.mass, state);
+  take_over(earlier, model, state);
+  return Flow{.state = std::move(state), .model = model};
 }
 
 Problem prepare(const io::Settings& settings) {
   State state = empty_tube(settings);
   reject_what_has_no_room(settings, state);
   const ContactModel model = contact_model(settings);
-  const std::vector<Grain> grains = start_grains(settings, state);
-
-  const auto lightest = std::min_element(grains.begin(), grains.end(),
-                                         [](auto& a, auto& b) { return a.mass < b.mass; });
-  const double shortest = collision_time(settings, model, 0.5 * lightest->mass);
-  reject_what_does_not_rebound(settings, model, grains);
-  state.time_step = time_step(settings, shortest);
-  constexpr double most_steps = 1e15;  // far below what a counter holds
-  if (settings.number("run.duration") / state.time_step > most_steps)
-    settings.reject("run.duration", "more time steps than can be counted",
-                    fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
-  for (const Grain& grain : grains) add_grain(state, grain);
-  return Flow{.state = std::move(state), .model = model};
+  const bool fresh = settings.text("start.kind") == "fresh";
+  return fresh ? start_afresh(settings, model, std::move(state))
+               : continue_run(settings, model, std::move(state));
 }
 
 }  // namespace

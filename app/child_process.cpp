@@ -1,0 +1,77 @@
+#include "app/child_process.hpp"
+
+#include "io/file_error.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+
+namespace riesel::app {
+
+namespace {
+
+constexpr int exit_cannot_execute = 127;
+
+/// In the child: only calls that are safe between fork and exec, as the parent may have threads.
+[[noreturn]] void become(char* const* arguments, int log, pid_t parent) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(exit_cannot_execute);  // it died before it was watched
+  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  dup2(nothing, STDIN_FILENO);
+  dup2(log, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  execv("/proc/self/exe", arguments);
+  _exit(exit_cannot_execute);
+}
+
+pid_t start(std::vector<std::string> arguments, const std::filesystem::path& log) {
+  arguments.insert(arguments.begin(), "riesel");
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+
+  const int descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw io::system_failure(log, "cannot be written", errno);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child == 0) become(pointers.data(), descriptor, parent);
+  const int error = errno;
+  close(descriptor);
+  if (child < 0) throw io::system_failure(log, "no process can be started for the run", error);
+  return child;
+}
+
+ProcessEnd end_of(int status) {
+  if (WIFSIGNALED(status)) return {.status = 0, .signal = WTERMSIG(status)};
+  return {.status = WEXITSTATUS(status), .signal = 0};
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
+                           const std::filesystem::path& log)
+    : id_(start(arguments, log)) {}
+
+ChildProcess::~ChildProcess() {
+  if (end()) return;
+  send(SIGTERM);
+  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+std::optional<ProcessEnd> ChildProcess::end() {
+  int status = 0;
+  if (!end_ && waitpid(id_, &status, WNOHANG) == id_) end_ = end_of(status);
+  return end_;
+}
+
+void ChildProcess::send(int signal) const {
+  if (!end_) kill(id_, signal);
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,33 @@
+// What a run will cost, from a few real steps of it.
+#pragma once
+
+#include "io/settings.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace riesel::app {
+
+/// Time steps that a flow takes in all.
+double steps_of(const io::Settings& settings, const scenarios::Flow& flow);
+
+/// Particle-steps per second, measured for about so many seconds at the start of the flow.
+double measured_speed(const io::Settings& settings, const scenarios::Flow& flow, int threads,
+                      double seconds);
+
+/// The threads that a curve is computed with: the user's number or all.
+int threads_for_curve(const io::Settings& settings);
+
+struct CurveCost {
+  double steps;
+  double seconds;
+};
+
+/// Of all impacts, from about `sample` of them, evenly spread over the curve.
+CurveCost measured_cost(const scenarios::ImpactCurve& curve, int threads, std::size_t sample);
+
+/// "45 s", "12 min", "3.4 h"
+std::string readable_time(double seconds);
+
+}  // namespace riesel::app

@@ -1,0 +1,84 @@
+#include "app/print_sweep.hpp"
+
+#include "app/cost.hpp"
+#include "app/sweep_directory.hpp"
+#include "io/sweep_table.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+namespace riesel::app {
+
+namespace {
+
+std::string text_of(const io::Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{:.6g}", *number);
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return "-";
+}
+
+/// "contact.restitution=0.9 seed=1 slow forward"
+std::string coordinates_of(const io::ManifestPoint& point, const io::Manifest& manifest) {
+  std::string text;
+  for (std::size_t i = 0; i < manifest.varied.size(); ++i)
+    text += fmt::format("{}={} ", manifest.varied[i].key, text_of(point.values[i]));
+  for (const std::string* label : {&point.branch, &point.leg})
+    if (!label->empty()) text += *label + " ";
+  text.pop_back();
+  return text;
+}
+
+bool is_done(const io::ManifestPoint& point) { return point.status == to_string(RunStatus::done); }
+
+/// s: that of all runs shared by the jobs, or of the longest chain if that takes longer.
+double seconds_left(const io::Manifest& manifest, int jobs) {
+  std::map<std::string, double> until_end;  // of a run, with all that it waits for
+  double all = 0.0, longest = 0.0;
+  for (const io::ManifestPoint& point : manifest.points) {
+    if (until_end.contains(point.name)) continue;
+    const double seconds = is_done(point) ? 0.0 : point.expected_seconds;
+    const double before = point.parent.empty() ? 0.0 : until_end[point.parent];
+    until_end[point.name] = before + seconds;
+    all += seconds;
+    longest = std::max(longest, before + seconds);
+  }
+  return std::max(all / jobs, longest);
+}
+
+}  // namespace
+
+void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep, int jobs) {
+  std::set<std::string> runs;
+  std::size_t index = 0;
+  for (const io::ManifestPoint& point : manifest.points) {
+    runs.insert(point.name);
+    fmt::print("{:>5}  {}  {:>8}  {:<11}  {}\n", index++,
+               point_directory(sweep, point.name).string(), readable_time(point.expected_seconds),
+               point.status, coordinates_of(point, manifest));
+  }
+  fmt::print("{} points, {} runs, about {} with {} run{} side by side\n", manifest.points.size(),
+             runs.size(), readable_time(seconds_left(manifest, jobs)), jobs, jobs == 1 ? "" : "s");
+}
+
+void print_status(const io::Manifest& manifest, const std::filesystem::path& sweep) {
+  std::map<std::string, int> counts;
+  for (const io::ManifestPoint& point : manifest.points) ++counts[point.status];
+  std::string summary;
+  for (const auto status : {RunStatus::done, RunStatus::running, RunStatus::failed,
+                            RunStatus::interrupted, RunStatus::waiting})
+    if (const auto count = counts.find(to_string(status)); count != counts.end())
+      summary += fmt::format("{}{} {}", summary.empty() ? "" : ", ", count->second, count->first);
+  fmt::print("{}: {} points: {}\n", sweep.string(), manifest.points.size(), summary);
+  for (const io::ManifestPoint& point : manifest.points)
+    if (!point.reason.empty())
+      fmt::print("  {} {} ({}): {}\n", point.name, point.status, coordinates_of(point, manifest),
+                 point.reason);
+  if (std::filesystem::exists(sweep / io::sweep_csv_name))
+    fmt::print("  table in {}/{} and {}\n", sweep.string(), io::sweep_csv_name, io::sweep_h5_name);
+}
+
+}  // namespace riesel::app

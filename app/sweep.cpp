@@ -1,0 +1,143 @@
+// riesel sweep: many runs from one file. sweep-task: one of them, for a batch system that has its
+// own queue.
+#include "app/commands.hpp"
+#include "app/cost.hpp"
+#include "app/exit_status.hpp"
+#include "app/print_sweep.hpp"
+#include "app/sweep_collect.hpp"
+#include "app/sweep_directory.hpp"
+#include "app/sweep_plan.hpp"
+#include "app/sweep_runner.hpp"
+#include "io/directory_lock.hpp"
+#include "io/durable_file.hpp"
+#include "io/file_error.hpp"
+#include "io/run_file.hpp"
+
+#include <fmt/core.h>
+#include <omp.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace riesel::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void make_directory(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw io::system_failure(path, "cannot be made", error.value());
+}
+
+bool holds(const fs::path& file, const std::string& content) {
+  std::ifstream stream(file, std::ios::binary);
+  return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == content;
+}
+
+/// The sweep file, the manifest, and for each point its directory with its settings.
+void write_plan(const SweepPlan& plan, const fs::path& sweep) {
+  for (std::size_t i = 0; i < plan.settings.size(); ++i) {
+    const fs::path point = point_directory(sweep, plan.manifest.points[i].name);
+    make_directory(point);
+    const fs::path file = point / point_settings_name;
+    if (!holds(file, plan.settings[i])) io::write_durably(file, plan.settings[i]);
+  }
+  io::write_durably(sweep / sweep_file_name, plan.sweep_file);
+  io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
+}
+
+/// Not over a run, and not twice at a time.
+io::DirectoryLock lock(const fs::path& sweep) {
+  if (fs::exists(sweep / io::run_file_name))
+    throw UnusableInput(sweep.string() + ": holds a run; choose another directory with --out");
+  make_directory(sweep);
+  return io::DirectoryLock(sweep);
+}
+
+int cores() { return omp_get_max_threads(); }
+
+io::Manifest manifest_in(const fs::path& sweep) {
+  try {
+    return io::read_manifest(sweep);
+  } catch (const io::FileError& error) {
+    throw UnusableInput(error.what());
+  }
+}
+
+void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path& sweep) {
+  if (point.parent.empty()) return;
+  if (standing_of(point_directory(sweep, point.parent)).status == RunStatus::done) return;
+  throw UnusableInput(fmt::format("{}: the point starts from its neighbour {}, which is not done; "
+                                  "run that one first",
+                                  point.name, point.parent));
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  const fs::path directory = options.directory.value_or("sweeps" / options.file.stem());
+  SweepPlan plan = plan_sweep(options.file);
+  const int jobs = options.jobs.value_or(cores());
+  if (options.dry_run) {
+    refresh(plan.manifest, directory);
+    print_plan(plan.manifest, directory, jobs);
+    return exit_done;
+  }
+  const io::DirectoryLock locked = lock(directory);
+  write_plan(plan, directory);
+  if (options.prepare_only) {
+    fmt::print("{}: {} points are ready for 'riesel sweep-task'\n", directory.string(),
+               plan.manifest.points.size());
+    return exit_done;
+  }
+  const auto write_manifest = [&](const io::Manifest& manifest) {
+    io::write_durably(directory / io::manifest_name, io::to_json(manifest));
+  };
+  const int status = run_points(plan.manifest, directory, {},
+                                {.jobs = jobs,
+                                 .cores = cores(),
+                                 .retry_failed = options.retry_failed,
+                                 .on_change = write_manifest});
+  write_table(plan.manifest, directory);
+  print_status(plan.manifest, directory);
+  if (status > exit_bad_input)
+    fmt::print(stderr, "interrupted; the same command goes on from there\n");
+  return status;
+}
+
+int sweep_task(const SweepTaskOptions& options) {
+  io::Manifest manifest = manifest_in(options.directory);
+  if (options.index >= manifest.points.size())
+    throw UnusableInput(fmt::format("{}: has no point {}; give an index from 0 to {}",
+                                    options.directory.string(), options.index,
+                                    manifest.points.size() - 1));
+  const io::ManifestPoint point = manifest.points[options.index];
+  reject_waiting_for_neighbour(point, options.directory);
+  const int status = run_points(manifest, options.directory, {point.name},
+                                {.jobs = 1,
+                                 .cores = options.threads.value_or(cores()),
+                                 .retry_failed = options.retry_failed});
+  const RunStanding standing = standing_of(point_directory(options.directory, point.name));
+  fmt::print("point {}: {}{}{}\n", point.name, to_string(standing.status),
+             standing.reason.empty() ? "" : ": ", standing.reason);
+  return status;
+}
+
+int sweep_status(const fs::path& directory) {
+  io::Manifest manifest = manifest_in(directory);
+  refresh(manifest, directory);
+  print_status(manifest, directory);
+  return exit_done;
+}
+
+int sweep_collect(const fs::path& directory) {
+  io::Manifest manifest = manifest_in(directory);
+  refresh(manifest, directory);
+  write_table(manifest, directory);
+  print_status(manifest, directory);
+  return exit_done;
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,64 @@
+#include "app/sweep_collect.hpp"
+
+#include "app/sweep_directory.hpp"
+#include "io/durable_file.hpp"
+#include "io/settings_text.hpp"
+#include "io/summary.hpp"
+#include "io/sweep_table.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace riesel::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// `name` is empty where the sweep has no such thing.
+template <class Text>
+bool any_has(const io::Manifest& manifest, Text text) {
+  return std::any_of(manifest.points.begin(), manifest.points.end(),
+                     [&](const auto& point) { return !(point.*text).empty(); });
+}
+
+void add_plan(const io::Manifest& manifest, std::size_t row, io::SweepTable& table) {
+  const io::ManifestPoint& point = manifest.points[row];
+  table.set(row, "point", point.name);
+  for (std::size_t i = 0; i < manifest.varied.size(); ++i)
+    table.set(row, manifest.varied[i].key, point.values[i], manifest.varied[i].unit);
+  if (any_has(manifest, &io::ManifestPoint::branch)) table.set(row, "branch", point.branch);
+  if (any_has(manifest, &io::ManifestPoint::leg)) table.set(row, "leg", point.leg);
+  if (any_has(manifest, &io::ManifestPoint::parent)) table.set(row, "parent", point.parent);
+  table.set(row, "status", point.status);
+  table.set(row, "attempts", static_cast<double>(point.attempts));
+  table.set(row, "reason", point.reason);
+}
+
+/// A result with the name of a column of the plan (the seed, say) does not hide it.
+void add_results(const fs::path& summary, std::size_t row, std::size_t columns_of_plan,
+                 io::SweepTable& table) {
+  for (auto& [name, value] : io::flat_summary(summary)) {
+    const auto plan_end = table.columns().begin() + static_cast<std::ptrdiff_t>(columns_of_plan);
+    const bool taken = std::any_of(table.columns().begin(), plan_end,
+                                   [&, &n = name](auto& column) { return column.name == n; });
+    table.set(row, taken ? "summary." + name : name, std::move(value));
+  }
+}
+
+}  // namespace
+
+void write_table(const io::Manifest& manifest, const fs::path& sweep) {
+  io::SweepTable table(manifest.points.size());
+  for (std::size_t row = 0; row < table.rows(); ++row) add_plan(manifest, row, table);
+  const std::size_t columns_of_plan = table.columns().size();
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const io::ManifestPoint& point = manifest.points[row];
+    if (point.status != to_string(RunStatus::done)) continue;
+    add_results(point_directory(sweep, point.name) / io::summary_name, row, columns_of_plan, table);
+  }
+  io::write_durably(sweep / io::sweep_csv_name, io::to_csv(table));
+  io::write_hdf5(sweep / io::sweep_h5_name, table, io::read_settings_text(sweep / sweep_file_name));
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,90 @@
+#include "app/sweep_directory.hpp"
+
+#include "io/checkpoint.hpp"
+#include "io/directory_lock.hpp"
+#include "io/durable_file.hpp"
+#include "io/run_file.hpp"
+#include "io/run_record.hpp"
+#include "io/summary.hpp"
+
+#include <map>
+
+namespace riesel::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+RunStatus status_of(const fs::path& point, const io::RunRecord& record) {
+  if (io::DirectoryLock::is_held(point)) return RunStatus::running;
+  if (fs::exists(point / io::summary_name)) return RunStatus::done;
+  if (!record.failure.empty()) return RunStatus::failed;
+  return record.attempts > 0 ? RunStatus::interrupted : RunStatus::waiting;
+}
+
+/// A run whose neighbour failed waits in vain.
+std::string reason_to_wait(const io::ManifestPoint& point,
+                           const std::map<std::string, RunStanding>& standings) {
+  const auto parent = standings.find(point.parent);
+  if (parent == standings.end() || parent->second.status == RunStatus::done) return "";
+  const bool in_vain = parent->second.status == RunStatus::failed || !parent->second.reason.empty();
+  return in_vain ? "its neighbour " + point.parent + " has not come to its end" : "";
+}
+
+}  // namespace
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+  case RunStatus::waiting:
+    return "waiting";
+  case RunStatus::running:
+    return "running";
+  case RunStatus::done:
+    return "done";
+  case RunStatus::failed:
+    return "failed";
+  case RunStatus::interrupted:
+    return "interrupted";
+  }
+  return {};
+}
+
+fs::path point_directory(const fs::path& sweep, const std::string& name) {
+  return sweep / "points" / name;
+}
+
+RunStanding standing_of(const fs::path& point) {
+  const io::RunRecord record = io::read_run_record(point);
+  const RunStatus status = status_of(point, record);
+  return {.status = status,
+          .attempts = record.attempts,
+          .reason = status == RunStatus::failed ? record.failure : ""};
+}
+
+void refresh(io::Manifest& manifest, const fs::path& sweep) {
+  std::map<std::string, RunStanding> standings;
+  for (io::ManifestPoint& point : manifest.points) {
+    RunStanding& standing = standings[point.name];
+    standing = standing_of(point_directory(sweep, point.name));
+    if (standing.status == RunStatus::waiting) standing.reason = reason_to_wait(point, standings);
+    point.status = to_string(standing.status);
+    point.attempts = standing.attempts;
+    point.reason = standing.reason;
+  }
+}
+
+bool can_resume(const fs::path& point) {
+  const fs::path checkpoint = point / io::checkpoint_name;
+  return fs::exists(point / io::run_file_name)
+         && (fs::exists(checkpoint) || fs::exists(io::previous_generation(checkpoint)));
+}
+
+void clear(const fs::path& point) {
+  const fs::path checkpoint = point / io::checkpoint_name;
+  for (const fs::path& file :
+       {checkpoint, io::previous_generation(checkpoint), point / io::run_file_name,
+        point / io::summary_name, point / io::effective_settings_name})
+    fs::remove(file);
+}
+
+}  // namespace riesel::app

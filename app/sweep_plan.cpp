@@ -1,0 +1,154 @@
+#include "app/sweep_plan.hpp"
+
+#include "app/cost.hpp"
+#include "app/stepping.hpp"
+#include "io/sweep_file.hpp"
+#include "io/sweep_points.hpp"
+#include "scenarios/continued_start.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <variant>
+
+namespace riesel::app {
+
+namespace {
+
+using scenarios::Flow;
+using scenarios::ImpactCurve;
+using scenarios::Problem;
+
+Problem problem_of(const io::Settings& settings) {
+  Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  if (std::holds_alternative<Flow>(problem)) check_stepping(settings);
+  return problem;
+}
+
+/// What costs time, in a unit that fits the scenario: particle-steps, or impacts.
+double work_of(const io::Settings& settings, const Problem& problem) {
+  if (const auto* flow = std::get_if<Flow>(&problem))
+    return static_cast<double>(flow->state.grains.size()) * steps_of(settings, *flow);
+  return static_cast<double>(std::get<ImpactCurve>(problem).impacts.size());
+}
+
+/// s, on one thread.
+double seconds_per_work(const io::Settings& settings) {
+  constexpr double seconds_to_measure = 0.05;
+  constexpr std::size_t impacts_to_measure = 20;
+  const Problem problem = problem_of(settings);
+  if (const auto* flow = std::get_if<Flow>(&problem))
+    return 1.0 / measured_speed(settings, *flow, 1, seconds_to_measure);
+  const auto& curve = std::get<ImpactCurve>(problem);
+  return measured_cost(curve, 1, impacts_to_measure).seconds / work_of(settings, problem);
+}
+
+int most_threads_of(const io::Settings& settings, const Problem& problem) {
+  if (const auto* flow = std::get_if<Flow>(&problem))
+    return threads_for(settings, flow->state.grains.size());
+  return threads_for_curve(settings);
+}
+
+/// What a run costs.
+struct Cost {
+  const io::SweepPoint* point = nullptr;
+  double work = 0.0;     // see work_of
+  double seconds = 0.0;  // on one thread
+  int most_threads = 1;
+};
+
+/// Measures a few runs from the cheapest to the dearest, and takes each other one to be as fast as
+/// the nearest of them.
+void estimate_seconds(std::vector<Cost*> costs) {
+  constexpr std::size_t most_measured = 12;
+  std::stable_sort(costs.begin(), costs.end(),
+                   [](const Cost* a, const Cost* b) { return a->work < b->work; });
+  const std::size_t measured = std::min(most_measured, costs.size());
+  for (std::size_t part = 0; part < measured; ++part) {
+    const std::size_t begin = part * costs.size() / measured;
+    const std::size_t end = (part + 1) * costs.size() / measured;
+    const double rate = seconds_per_work(costs[(begin + end) / 2]->point->settings);
+    for (std::size_t i = begin; i < end; ++i) costs[i]->seconds = rate * costs[i]->work;
+  }
+}
+
+/// By the name of the run. Throws SettingsError for a run that cannot be.
+std::map<std::string, Cost> costs_of(const std::vector<io::SweepPoint>& points) {
+  std::map<std::string, Cost> costs;
+  std::vector<Cost*> in_order;
+  for (const io::SweepPoint& point : points) {
+    const auto [entry, is_new] = costs.try_emplace(point.name);
+    if (!is_new) continue;
+    const Problem problem = problem_of(point.settings);
+    entry->second = {.point = &point,
+                     .work = work_of(point.settings, problem),
+                     .most_threads = most_threads_of(point.settings, problem)};
+    in_order.push_back(&entry->second);
+  }
+  estimate_seconds(in_order);
+  return costs;
+}
+
+io::ManifestPoint row_of(const io::SweepPoint& point, const std::vector<io::SweepPoint>& points,
+                         const std::vector<io::VariedSetting>& varied,
+                         const std::map<std::string, Cost>& costs) {
+  const Cost& cost = costs.at(point.name);
+  io::ManifestPoint row = {.name = point.name,
+                           .parent = point.parent ? points[*point.parent].name : "",
+                           .branch = point.branch,
+                           .leg = point.leg,
+                           .values = {},
+                           .expected_seconds = cost.seconds,
+                           .most_threads = cost.most_threads,
+                           .status = "waiting",
+                           .reason = {}};
+  for (const auto& setting : varied) row.values.push_back(io::cell_of(point.settings, setting.key));
+  return row;
+}
+
+void check_continuation(const io::SweepFile& sweep) {
+  if (!sweep.continuation) return;
+  for (const std::string& key : sweep.axes[sweep.continuation->axis].keys) {
+    if (scenarios::can_continue_along(key)) continue;
+    throw io::SettingsError(sweep.continuation->place, "continue_along",
+                            "runs cannot continue each other along " + key,
+                            "choose a setting of contact or run, or gravity: the neighbour gives "
+                            "the grains, the tube and the start");
+  }
+}
+
+std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep) {
+  const io::SettingsTable& table = scenarios::settings_tables().at(sweep.scenario);
+  std::vector<io::VariedSetting> varied;
+  for (const std::string& key : io::varied_keys(sweep))
+    varied.push_back({key, std::find_if(table.begin(), table.end(), [&](auto& row) {
+                             return row.key == key;
+                           })->unit});
+  return varied;
+}
+
+}  // namespace
+
+SweepPlan plan_sweep(const std::filesystem::path& file) {
+  const io::SettingsTables& tables = scenarios::settings_tables();
+  const io::SweepFile sweep = io::read_sweep_file(file, tables);
+  check_continuation(sweep);
+  const std::vector<io::SweepPoint> points = io::expand(sweep, tables);
+
+  SweepPlan plan;
+  plan.sweep_file = sweep.text;
+  plan.manifest.varied = varied_settings(sweep);
+  const std::map<std::string, Cost> costs = costs_of(points);
+  std::set<std::tuple<std::string, std::string, std::string>> seen;
+  for (const io::SweepPoint& point : points) {
+    // The same value twice on an axis is one point; the same run in two branches is two.
+    if (!seen.emplace(point.name, point.branch, point.leg).second) continue;
+    plan.manifest.points.push_back(row_of(point, points, plan.manifest.varied, costs));
+    plan.settings.push_back(point.yaml);
+  }
+  return plan;
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,273 @@
+#include "app/sweep_runner.hpp"
+
+#include "app/child_process.hpp"
+#include "app/exit_status.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "io/durable_file.hpp"
+#include "io/run_record.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace riesel::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto between_looks = 10ms;
+constexpr auto between_manifests = 2s;
+constexpr int most_starts = 3;  // of one run in one sweep, if others keep stopping it
+constexpr auto log_name = "log.txt";
+
+/// What becomes of one directory; equal points share it.
+struct Job {
+  std::string name;
+  fs::path directory;
+  Job* parent = nullptr;
+  double seconds = 0.0;  // expected, on one thread
+  double urgency = 0.0;  // seconds, with the longest chain that waits for it
+  int most_threads = 1;
+  RunStatus status = RunStatus::waiting;
+  int starts = 0;
+  std::unique_ptr<ChildProcess> process;
+  Clock::time_point started = {};
+  std::uintmax_t log_begin = 0;  // bytes of the log before this start
+};
+
+/// The last complaint in the log of a run.
+std::string complaint_in(const fs::path& log, std::uintmax_t begin) {
+  constexpr std::string_view speaker = "riesel: ";
+  std::ifstream stream(log);
+  stream.seekg(static_cast<std::streamoff>(begin));
+  std::string complaint;
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(speaker)) complaint = line.substr(speaker.size());
+  return complaint;
+}
+
+bool was_stopped(const ProcessEnd& end) {
+  const int by_signal = end.signal != 0 ? end.signal : end.status - 128;
+  return by_signal == SIGINT || by_signal == SIGTERM || by_signal == SIGKILL;
+}
+
+class Runner {
+public:
+  Runner(io::Manifest& manifest, fs::path sweep, const std::vector<std::string>& names,
+         const SweepRunOptions& options)
+      : manifest_(manifest), sweep_(std::move(sweep)), options_(options) {
+    for (const io::ManifestPoint& point : manifest.points) {
+      const bool wanted =
+          names.empty() || std::find(names.begin(), names.end(), point.name) != names.end();
+      if (wanted) add(point);
+    }
+    order_by_urgency();
+  }
+
+  int run() {
+    catch_interrupts();
+    while (true) {
+      for (const auto& job : jobs_)
+        if (job->process) look_after(*job);
+      pass_signal_on();
+      const bool more = interrupting_signal() == 0 && start_what_can();
+      if (!more && running_ == 0) break;
+      show_progress();
+      if (Clock::now() - last_manifest_ > between_manifests) write_manifest();
+      std::this_thread::sleep_for(between_looks);
+    }
+    progress_.finish();
+    write_manifest();
+    if (interrupting_signal() != 0) return 128 + interrupting_signal();
+    return count(RunStatus::done) == jobs_.size() ? exit_done : exit_failed;
+  }
+
+private:
+  void add(const io::ManifestPoint& point) {
+    if (by_name_.contains(point.name)) return;
+    auto job = std::make_unique<Job>();
+    job->name = point.name;
+    job->directory = point_directory(sweep_, point.name);
+    if (const auto parent = by_name_.find(point.parent); parent != by_name_.end())
+      job->parent = parent->second;
+    job->seconds = point.expected_seconds;
+    job->most_threads = point.most_threads;
+    job->status = standing_of(job->directory).status;
+    if (job->status == RunStatus::failed && options_.retry_failed)
+      job->status = RunStatus::interrupted;
+    by_name_.emplace(job->name, job.get());
+    jobs_.push_back(std::move(job));
+  }
+
+  void order_by_urgency() {
+    for (std::size_t i = jobs_.size(); i-- > 0;) {  // children before their parents
+      Job& job = *jobs_[i];
+      job.urgency += job.seconds;
+      if (job.parent != nullptr) job.parent->urgency = std::max(job.parent->urgency, job.urgency);
+    }
+    for (const auto& job : jobs_) by_urgency_.push_back(job.get());
+    std::stable_sort(by_urgency_.begin(), by_urgency_.end(),
+                     [](const Job* a, const Job* b) { return a->urgency > b->urgency; });
+  }
+
+  std::size_t count(RunStatus status) const {
+    return static_cast<std::size_t>(std::count_if(
+        jobs_.begin(), jobs_.end(), [&](auto& job) { return job->status == status; }));
+  }
+
+  static bool is_ready(const Job& job) {
+    const bool open = job.status == RunStatus::waiting || job.status == RunStatus::interrupted;
+    const bool may_start = job.parent == nullptr || job.parent->status == RunStatus::done;
+    return open && may_start && job.starts < most_starts && !job.process;
+  }
+
+  /// Whether there is anything left to wait for, besides what runs here.
+  bool start_what_can() {
+    bool more = false;
+    for (Job* job : by_urgency_) {
+      if (job->status == RunStatus::running && !job->process) look_at_others_work(*job);
+      const bool here = is_ready(*job);
+      more = more || here || job->status == RunStatus::running;
+      if (here && running_ < options_.jobs) start(*job);
+    }
+    return more;
+  }
+
+  /// Another process has the directory; when it lets go, the point may be done or not.
+  void look_at_others_work(Job& job) { job.status = standing_of(job.directory).status; }
+
+  /// An equal share of the cores for all that can run now.
+  int threads_for(const Job& job) const {
+    const auto ready = static_cast<int>(
+        std::count_if(jobs_.begin(), jobs_.end(), [](auto& other) { return is_ready(*other); }));
+    const int side_by_side = std::min(options_.jobs, running_ + ready);
+    return std::clamp(options_.cores / std::max(1, side_by_side), 1, job.most_threads);
+  }
+
+  void start(Job& job) {
+    const int threads = threads_for(job);
+    job.status = standing_of(job.directory).status;
+    if (job.status == RunStatus::running || job.status == RunStatus::done) return;
+    ++job.starts;
+    io::RunRecord record = io::read_run_record(job.directory);
+    io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});
+
+    const std::string directory = job.directory.string();
+    std::vector<std::string> arguments = {"resume", directory};
+    if (!can_resume(job.directory)) {
+      clear(job.directory);
+      const auto settings = job.directory / point_settings_name;
+      arguments = {"run", settings.string(), "--out", directory};
+    }
+    arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
+    const auto log = job.directory / log_name;
+    job.log_begin = fs::exists(log) ? fs::file_size(log) : 0;
+    job.process = std::make_unique<ChildProcess>(arguments, log);
+    ++running_;
+    job.started = Clock::now();
+    job.status = RunStatus::running;
+  }
+
+  void look_after(Job& job) {
+    const std::optional<ProcessEnd> end = job.process->end();
+    if (!end) return;
+    job.process.reset();
+    --running_;
+    job.status = standing_of(job.directory).status;
+    const bool taken_by_another = job.status == RunStatus::running;
+    if (job.status == RunStatus::done || taken_by_another) return;
+    if (was_stopped(*end)) {
+      job.status = RunStatus::interrupted;
+      if (job.starts == most_starts && interrupting_signal() == 0)
+        tell("point {} was stopped {} times; 'riesel sweep' goes on with it", job, most_starts);
+      return;
+    }
+    fail(job, *end);
+  }
+
+  void fail(Job& job, const ProcessEnd& end) {
+    std::string reason = complaint_in(job.directory / log_name, job.log_begin);
+    if (end.signal != 0) reason = fmt::format("crashed ({})", strsignal(end.signal));
+    if (reason.empty()) reason = fmt::format("ended with status {}", end.status);
+    io::RunRecord record = io::read_run_record(job.directory);
+    record.failure = reason;
+    io::write_run_record(job.directory, record);
+    job.status = RunStatus::failed;
+    tell("point {} failed: {}", job, reason);
+  }
+
+  template <class What>
+  void tell(fmt::format_string<const std::string&, const What&> format, const Job& job,
+            const What& what) {
+    progress_.finish();
+    fmt::print(stderr, "riesel: {}\n", fmt::format(format, job.name, what));
+  }
+
+  void pass_signal_on() {
+    if (interrupting_signal() == 0 || passed_on_) return;
+    passed_on_ = true;
+    for (const auto& job : jobs_)
+      if (job->process) job->process->send(interrupting_signal());
+  }
+
+  /// A run that takes longer than expected is almost done, as far as we know.
+  double fraction_done() const {
+    constexpr double almost = 0.95;
+    double done = 0.0, all = 0.0;
+    for (const auto& job : jobs_) {
+      all += job->seconds;
+      const std::chrono::duration<double> spent = Clock::now() - job->started;
+      if (job->status == RunStatus::done || job->status == RunStatus::failed) done += job->seconds;
+      if (job->process) done += std::min(almost * job->seconds, spent.count());
+    }
+    return all > 0.0 ? done / all : 1.0;
+  }
+
+  void show_progress() {
+    const std::size_t failed = count(RunStatus::failed);
+    progress_.show(fraction_done(),
+                   fmt::format("{}/{} points done, {} running{}", count(RunStatus::done),
+                               jobs_.size(), running_,
+                               failed > 0 ? fmt::format(", {} failed", failed) : ""));
+  }
+
+  void write_manifest() {
+    refresh(manifest_, sweep_);
+    options_.on_change(manifest_);
+    last_manifest_ = Clock::now();
+  }
+
+  io::Manifest& manifest_;
+  const fs::path sweep_;
+  const SweepRunOptions& options_;
+  std::vector<std::unique_ptr<Job>> jobs_;  // a parent before its children
+  std::map<std::string, Job*> by_name_;
+  std::vector<Job*> by_urgency_;
+  Progress progress_;
+  Clock::time_point last_manifest_ = {};
+  int running_ = 0;  // processes
+  bool passed_on_ = false;
+};
+
+}  // namespace
+
+int run_points(io::Manifest& manifest, const fs::path& sweep, const std::vector<std::string>& names,
+               const SweepRunOptions& options) {
+  return Runner(manifest, sweep, names, options).run();
+}
+
+}  // namespace riesel::app

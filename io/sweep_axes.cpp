@@ -1,0 +1,148 @@
+#include "io/sweep_axes.hpp"
+
+#include "io/settings_names.hpp"
+#include "io/settings_quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace riesel::io {
+namespace {
+
+using Shape = YamlNode::Shape;
+
+/// Whether the row counts, as far as `given` and the defaults tell.
+bool may_count(const Setting& row, const GivenSettings& given, const SettingsTable& table) {
+  if (!row.only_when) return true;
+  const auto& [key, values] = *row.only_when;
+  const auto entry = given.by_key.find(key);
+  const auto value = entry != given.by_key.end()
+                         ? entry->second.value.scalar
+                         : std::ranges::find(table, key, &Setting::key)->fallback;
+  return std::ranges::find(values, value) != values.end();
+}
+
+class AxisReader {
+public:
+  AxisReader(const GivenSettings& given, const SettingsTables& tables)
+      : given_(given), tables_(tables), table_(tables.at(given.scenario)) {}
+
+  /// The keys of `map` go together.
+  SweepAxis zipped(const YamlNode& map) const {
+    SweepAxis axis;
+    for (const auto& entry : map.entries) add(entry, axis);
+    return axis;
+  }
+
+  SweepAxis single(const YamlEntry& entry) const {
+    SweepAxis axis;
+    add(entry, axis);
+    return axis;
+  }
+
+private:
+  void add(const YamlEntry& entry, SweepAxis& axis) const {
+    check_key(entry);
+    const auto values = values_of(entry);
+    if (axis.keys.empty()) {
+      axis.values.resize(values.size());
+    } else if (values.size() != axis.values.size()) {
+      throw SettingsError(entry.value.place, entry.key,
+                          fmt::format("the number of values is {}, and {} for {}, which goes "
+                                      "with it",
+                                      values.size(), axis.values.size(), axis.keys.front()),
+                          "give both the same number, or make them two axes");
+    }
+    axis.keys.push_back(entry.key);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      axis.values[i].push_back({entry.key, entry.key_place, values[i]});
+    }
+  }
+
+  void check_key(const YamlEntry& entry) const {
+    if (entry.key == "scenario") {
+      throw SettingsError(entry.key_place, entry.key, "cannot be changed by a sweep",
+                          "write a sweep for each scenario");
+    }
+    if (has_section(table_, entry.key)) {
+      throw SettingsError(entry.key_place, entry.key, "is a section and has no value of its own",
+                          fmt::format("give a key of it, such as {}.{}", entry.key,
+                                      names_of(table_, entry.key).front()));
+    }
+    if (has_key(table_, entry.key)) return;
+    throw SettingsError(entry.key_place, entry.key, "unknown key",
+                        unknown_key_remedy(entry.key, given_.scenario, tables_));
+  }
+
+  std::vector<YamlNode> values_of(const YamlEntry& entry) const {
+    if (entry.value.shape == Shape::map) return spread(entry);
+    if (entry.value.shape != Shape::list) {
+      throw SettingsError(entry.value.place, entry.key,
+                          "expected a list of values, got " + describe(entry.value),
+                          "write '[..., ...]', or move the key to 'set'");
+    }
+    if (entry.value.items.empty()) {
+      throw SettingsError(entry.value.place, entry.key, "the list is empty",
+                          "give at least one value");
+    }
+    return entry.value.items;
+  }
+
+  /// {from, to, points, spacing}, in SI units.
+  std::vector<YamlNode> spread(const YamlEntry& entry) const {
+    const auto& row = row_of(entry.key);
+    if (row.kind != Kind::number) {
+      throw SettingsError(entry.value.place, entry.key, "only quantities can be given as a range",
+                          "write the values as a list");
+    }
+    std::vector<YamlNode> values;
+    for (const double value : read_quantities(row, entry.value)) {
+      YamlNode node;
+      node.shape = Shape::scalar;
+      node.place = entry.value.place;
+      node.scalar = fmt::format("{}", value);
+      values.push_back(node);
+    }
+    return values;
+  }
+
+  /// Of the rows of a key the one whose condition holds.
+  const Setting& row_of(const std::string& key) const {
+    const auto counts = [&](const Setting& row) {
+      return row.key == key && may_count(row, given_, table_);
+    };
+    const auto row = std::ranges::find_if(table_, counts);
+    return row != table_.end() ? *row : *std::ranges::find(table_, key, &Setting::key);
+  }
+
+  const GivenSettings& given_;
+  const SettingsTables& tables_;
+  const SettingsTable& table_;
+};
+
+}  // namespace
+
+std::vector<SweepAxis> read_axes(const YamlNode& node, const GivenSettings& given,
+                                 const SettingsTables& tables) {
+  const AxisReader reader(given, tables);
+  std::vector<SweepAxis> axes;
+  if (node.shape == Shape::map && !node.entries.empty()) {
+    for (const auto& entry : node.entries) axes.push_back(reader.single(entry));
+    return axes;
+  }
+  const auto is_axis = [](const YamlNode& item) {
+    return item.shape == Shape::map && !item.entries.empty();
+  };
+  if (node.shape != Shape::list || node.items.empty()
+      || !std::ranges::all_of(node.items, is_axis)) {
+    throw SettingsError(node.place, "axes",
+                        "expected keys with their values, or a list of such, got " + describe(node),
+                        "write for instance '{contact.restitution: [0.8, 0.9]}'");
+  }
+  for (const auto& item : node.items) axes.push_back(reader.zipped(item));
+  return axes;
+}
+
+}  // namespace riesel::io

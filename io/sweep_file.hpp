@@ -1,0 +1,63 @@
+// A sweep file: many runs in one page of YAML. A base (a settings file), overrides for all, axes
+// along which settings vary, seeds, branches, and the axis along which runs continue each other.
+//
+// What is read here is the plan alone. Values stay YAML nodes that know their place in the file,
+// and become overrides of the base: the same checks that read a settings file read them, and their
+// errors point into the sweep file. See sweep_points.hpp for what becomes of it, docs/sweeps.md for
+// the user's view.
+#pragma once
+
+#include "io/settings_table.hpp"
+#include "io/settings_yaml.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+/// Settings that vary together: one key, or several that are zipped.
+struct SweepAxis {
+  std::vector<std::string> keys;               ///< dotted
+  std::vector<std::vector<YamlEntry>> values;  ///< for each place on the axis one entry per key
+};
+
+/// A named set of overrides, such as a slow and a fast start.
+struct SweepBranch {
+  std::string name;
+  std::vector<YamlEntry> overrides;
+};
+
+/// The axis along which each run starts from the final state of its neighbour.
+struct SweepContinuation {
+  std::size_t axis = 0;  ///< index into SweepFile::axes
+  std::string key;       ///< as the user wrote it
+  Place place;
+};
+
+struct SweepFile {
+  std::string source;     ///< the file's name
+  std::string text;       ///< verbatim
+  std::string scenario;   ///< that of the base
+  YamlNode base;          ///< the map of settings
+  std::string base_text;  ///< what it was parsed from
+
+  std::vector<YamlEntry> overrides;  ///< for all runs
+  std::vector<SweepAxis> axes;
+  std::vector<SweepBranch> branches;
+  std::vector<YamlEntry> seeds;  ///< overrides of `seed`
+  std::optional<SweepContinuation> continuation;
+};
+
+/// Reads a sweep file and its base. The keys are known to the scenario then, none is varied twice,
+/// and no axis is empty; values are not looked at, except where a range is spread out. Throws
+/// SettingsError.
+SweepFile read_sweep_file(const std::filesystem::path& file, const SettingsTables& tables);
+
+/// The same from text; a base that is a path is relative to the directory of `source`.
+SweepFile read_sweep_text(const std::string& text, const std::string& source,
+                          const SettingsTables& tables);
+
+}  // namespace riesel::io

@@ -1,0 +1,112 @@
+#include "io/sweep_manifest.hpp"
+
+#include "io/build_info.hpp"
+#include "io/file_error.hpp"
+#include "io/json_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace riesel::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int format_version = 1;
+constexpr auto format_name = "riesel sweep";
+
+Json to_json(const Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return *number;
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return nullptr;
+}
+
+Json to_json(const ManifestPoint& point, const std::vector<VariedSetting>& varied) {
+  Json settings = Json::object();
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    settings[varied[i].key] = to_json(point.values[i]);
+  }
+  return {{"name", point.name},
+          {"parent", point.parent},
+          {"branch", point.branch},
+          {"leg", point.leg},
+          {"settings", settings},
+          {"expected_seconds", point.expected_seconds},
+          {"most_threads", point.most_threads},
+          {"status", point.status},
+          {"attempts", point.attempts},
+          {"reason", point.reason}};
+}
+
+ManifestPoint point_of(const Json& json, const std::vector<VariedSetting>& varied) {
+  ManifestPoint point = {.name = json.at("name"),
+                         .parent = json.at("parent"),
+                         .branch = json.at("branch"),
+                         .leg = json.at("leg"),
+                         .values = {},
+                         .expected_seconds = json.at("expected_seconds"),
+                         .most_threads = json.at("most_threads"),
+                         .status = json.at("status"),
+                         .attempts = json.at("attempts"),
+                         .reason = json.at("reason")};
+  for (const auto& setting : varied) {
+    point.values.push_back(cell_of(json.at("settings").at(setting.key)));
+  }
+  return point;
+}
+
+Manifest manifest_of(const Json& json) {
+  if (json.at("format") != format_name || json.at("format_version") != format_version) {
+    throw std::runtime_error("it is of another format");
+  }
+  Manifest manifest;
+  for (const auto& setting : json.at("varied")) {
+    manifest.varied.push_back({.key = setting.at("key"), .unit = setting.at("unit")});
+  }
+  for (const auto& point : json.at("points")) {
+    manifest.points.push_back(point_of(point, manifest.varied));
+  }
+  return manifest;
+}
+
+}  // namespace
+
+Cell cell_of(const Settings& settings, const std::string& key) {
+  const auto text = settings.written(key);
+  if (text.empty()) return {};
+  const auto json = Json::parse(text, nullptr, false);
+  return json.is_discarded() || json.is_structured() ? Cell(text) : cell_of(json);
+}
+
+std::string to_json(const Manifest& manifest) {
+  Json json = {{"format", format_name},
+               {"format_version", format_version},
+               {"riesel_version", std::string(build_info().version)}};
+  json["varied"] = Json::array();
+  for (const auto& setting : manifest.varied) {
+    json["varied"].push_back({{"key", setting.key}, {"unit", setting.unit}});
+  }
+  json["points"] = Json::array();
+  for (const auto& point : manifest.points) {
+    json["points"].push_back(to_json(point, manifest.varied));
+  }
+  return text_of(json);
+}
+
+Manifest read_manifest(const fs::path& directory) {
+  const auto path = directory / manifest_name;
+  std::ifstream stream(path);
+  if (!stream) {
+    throw FileError(path, "cannot be read", "give the directory of a sweep (see 'riesel sweep')");
+  }
+  try {
+    return manifest_of(Json::parse(stream));
+  } catch (const std::exception& error) {
+    throw FileError(path, fmt::format("is no manifest of a sweep ({})", error.what()),
+                    "run 'riesel sweep' again: it writes a new one and keeps the results");
+  }
+}
+
+}  // namespace riesel::io

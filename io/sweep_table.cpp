@@ -1,0 +1,119 @@
+#include "io/sweep_table.hpp"
+
+#include "io/build_info.hpp"
+#include "io/durable_file.hpp"
+#include "io/file_error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/json_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <span>
+
+namespace riesel::io {
+namespace {
+
+void flatten(const Json& json, const std::string& prefix,
+             std::vector<std::pair<std::string, Cell>>& values) {
+  for (const auto& [name, value] : json.items()) {
+    if (value.is_object()) {
+      flatten(value, prefix + name + ".", values);
+    } else if (!value.is_array()) {
+      values.emplace_back(prefix + name, cell_of(value));
+    }
+  }
+}
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_text(const Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
+  if (const auto* text = std::get_if<std::string>(&cell)) return csv_text(*text);
+  return "";
+}
+
+bool has_text(const SweepTable::Column& column) {
+  return std::ranges::any_of(
+      column.cells, [](const Cell& cell) { return std::holds_alternative<std::string>(cell); });
+}
+
+void write_column(Hdf5Group& group, const SweepTable::Column& column) {
+  if (has_text(column)) {
+    std::vector<std::string> texts;
+    for (const auto& cell : column.cells) {
+      const auto* text = std::get_if<std::string>(&cell);
+      texts.push_back(text != nullptr ? *text : csv_text(cell));
+    }
+    group.write_texts(column.name, texts);
+    return;
+  }
+  std::vector<double> numbers;
+  for (const auto& cell : column.cells) {
+    const auto* number = std::get_if<double>(&cell);
+    numbers.push_back(number != nullptr ? *number : std::numeric_limits<double>::quiet_NaN());
+  }
+  auto data = group.create_data<double>(column.name, {.rows = numbers.size()});
+  data.write(std::span<const double>(numbers));
+  if (!column.unit.empty()) data.set_attribute("unit", column.unit);
+}
+
+}  // namespace
+
+void SweepTable::set(std::size_t row, const std::string& column, Cell value,
+                     const std::string& unit) {
+  auto found = std::ranges::find(columns_, column, &Column::name);
+  if (found == columns_.end()) {
+    columns_.push_back({.name = column, .unit = unit, .cells = std::vector<Cell>(rows_)});
+    found = columns_.end() - 1;
+  }
+  found->cells.at(row) = std::move(value);
+}
+
+std::vector<std::pair<std::string, Cell>> flat_summary(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  const auto json = stream ? Json::parse(stream, nullptr, false) : Json();
+  if (!json.is_object()) {
+    throw FileError(path, "is no summary of a run", "remove the directory and run the point again");
+  }
+  std::vector<std::pair<std::string, Cell>> values;
+  flatten(json, "", values);
+  return values;
+}
+
+std::string to_csv(const SweepTable& table) {
+  std::string csv;
+  const auto add_line = [&](const auto& text_of_column) {
+    for (std::size_t i = 0; i < table.columns().size(); ++i) {
+      csv += (i > 0 ? "," : "") + text_of_column(table.columns()[i]);
+    }
+    csv += "\n";
+  };
+  add_line([](const auto& column) { return csv_text(column.name); });
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    add_line([&](const auto& column) { return csv_text(column.cells[row]); });
+  }
+  return csv;
+}
+
+void write_hdf5(const std::filesystem::path& path, const SweepTable& table,
+                std::string_view sweep_file) {
+  auto file = Hdf5File::create();
+  auto root = file.root();
+  root.set_attribute("format", "riesel sweep");
+  root.set_attribute("riesel_version", build_info().version);
+  root.write_text("sweep_file", sweep_file);
+  auto group = root.create_group("points");
+  for (const auto& column : table.columns()) write_column(group, column);
+  const auto image = file.image();
+  write_durably(path, std::string_view(image.data(), image.size()));
+}
+
+}  // namespace riesel::io

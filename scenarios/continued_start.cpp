@@ -1,0 +1,91 @@
+#include "scenarios/continued_start.hpp"
+
+#include "io/checkpoint.hpp"
+#include "io/file_error.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+namespace riesel::scenarios {
+
+namespace {
+
+constexpr auto from_key = "start.from";
+
+io::Checkpoint checkpoint_of(const io::Settings& settings) {
+  try {
+    return io::find_checkpoint(settings.text(from_key)).checkpoint;
+  } catch (const io::FileError& error) {
+    settings.reject(from_key, fmt::format("no state can be read ({})", error.what()),
+                    "give the directory of a run that has come to its end, or its checkpoint.h5");
+  }
+}
+
+/// What the earlier run gives cannot be set anew.
+void reject_other_grains_or_tube(const io::Settings& settings, const io::Settings& earlier) {
+  for (const auto& row : settings_tables().at(settings.scenario())) {
+    const std::string section = io::section_of(row.key);
+    const bool carried_over = section == "grains" || section == "wall" || section == "tube";
+    if (!carried_over || settings.written(row.key) == earlier.written(row.key)) continue;
+    settings.reject(row.key,
+                    fmt::format("is {} here and {} in the run to be continued",
+                                settings.written(row.key), earlier.written(row.key)),
+                    "make both equal: grains and tube are those of the earlier run");
+  }
+}
+
+/// As the new run sees it: its clock starts now, and what the contact did belongs to the old one.
+Contact carried_over(const Contact& contact, double now, const NormalLaw& law) {
+  const auto stored = [&](const auto& normal) { return normal.stored_energy(contact.overlap); };
+  return {.name = contact.name,
+          .begin = contact.begin - now,
+          .end = contact.end - now,
+          .entry_rate = contact.entry_rate,
+          .entry_slip = contact.entry_slip,
+          .overlap = contact.overlap,
+          .max_overlap = contact.overlap,
+          .elastic_energy = std::visit(stored, law)};
+}
+
+}  // namespace
+
+State earlier_state(const io::Settings& settings) {
+  io::Checkpoint checkpoint = checkpoint_of(settings);
+  const auto earlier =
+      io::Settings::from_text(checkpoint.settings, settings.text(from_key), settings_tables());
+  if (earlier.scenario() != settings.scenario())
+    settings.reject(from_key, "is a run of the scenario " + earlier.scenario(),
+                    "give a run of the scenario " + settings.scenario());
+  reject_other_grains_or_tube(settings, earlier);
+  return std::move(checkpoint.state);
+}
+
+void take_over(const State& earlier, const ContactModel& model, State& state) {
+  const double steps = state.time_step / earlier.time_step;
+  const auto rescaled = [&](Fixed kick) {
+    return nearest_fixed(static_cast<double>(kick) * steps * steps);
+  };
+  for (std::size_t i = 0; i < earlier.grains.size(); ++i) {
+    add_grain(state, grain_at(earlier, i));
+    Grains& g = state.grains;
+    g.x[i] = earlier.grains.x[i];
+    g.y[i] = earlier.grains.y[i];
+    g.kick_x[i] = rescaled(earlier.grains.kick_x[i]);
+    g.kick_y[i] = rescaled(earlier.grains.kick_y[i]);
+    g.ux[i] -= g.kick_x[i] / 2;
+    g.uy[i] -= g.kick_y[i] / 2;
+  }
+  for (const Contact& contact : earlier.contacts)
+    state.contacts.push_back(carried_over(contact, earlier.time(), model.normal));
+}
+
+bool can_continue_along(const std::string& key) {
+  const std::vector<std::string> sections = {"contact", "run"};
+  return key == "gravity" || std::ranges::find(sections, io::section_of(key)) != sections.end();
+}
+
+}  // namespace riesel::scenarios

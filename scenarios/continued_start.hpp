@@ -1,0 +1,33 @@
+// The start of the tube from the last state of another run, so that a steady state can be followed
+// along a setting: each run from its neighbour's end, up and down again, shows hysteresis.
+//
+// What carries over are the grains with their places and velocities. Places are integers in quanta
+// of the same box and stay as they are. Velocities are quanta per time step, and the time step
+// follows from the contact settings, so they go through SI units. Contacts that last keep their
+// beginning, overlap and, for half a step, their force; from the first step on the new contact law
+// acts on them. What they did so far stays in the books of the earlier run: the clock and all
+// tallies begin at zero. The energy stored in them is that of the new law at the same overlap; no
+// one put it in, so that it shows in the energy residual of the run.
+#pragma once
+
+#include "engine/contact_law.hpp"
+#include "engine/state.hpp"
+#include "io/settings.hpp"
+
+#include <string>
+
+namespace riesel::scenarios {
+
+/// The last state of the run at `start.from`. Rejects what cannot be read, and a run of another
+/// tube or of other grains than the settings say.
+State earlier_state(const io::Settings& settings);
+
+/// Moves grains and contacts of `earlier` to `state`, whose box, walls, gravity and time step are
+/// set and which has no grains yet.
+void take_over(const State& earlier, const ContactModel& model, State& state);
+
+/// Whether runs of the tube may follow each other along this setting: not where it is about the
+/// grains, the tube or the start, which the earlier run gives.
+bool can_continue_along(const std::string& key);
+
+}  // namespace riesel::scenarios

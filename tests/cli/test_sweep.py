@@ -1,0 +1,417 @@
+"""riesel sweep: many runs from one file, each the run that `riesel run` would make, whatever
+happens on the way."""
+
+import csv
+import json
+import re
+
+import h5py
+
+from riesel_command import (BAD_INPUT, FAILED, SHIPPED, SMALL_TUBE, CommandTest,
+                            bytes_of_files)
+
+GRID = """\
+base: tube.yaml
+set: {run.duration: 2 ms}
+axes:
+  - contact.restitution: [0.7, 0.9]
+    contact.friction: {from: 0.1, to: 0.4, points: 2, spacing: log}
+branches:
+  slow: {start.axial_velocity: 1 m/s}
+  fast: {start.axial_velocity: 8 m/s}
+seeds: [1, 5]
+"""
+
+# The same points, written and ordered otherwise.
+GRID_REARRANGED = """\
+seeds: [5, 1]
+branches:
+  fast: {start.axial_velocity: 8000 mm/s}
+  slow: {start.axial_velocity: 1}
+axes:
+  - contact.friction: [40 %, 10 %]
+    contact.restitution: [90 %, 0.7]
+base:
+  scenario: periodic_tube
+  run: {duration: 2e-3, threads: 2}
+  tube: {length: 1 cm, width: 10 mm}
+  contact: {stiffness: 2 kN/m}
+  start: {random_velocity: 2}
+  grains: {area_fraction: 0.3}
+"""
+
+CHAIN = """\
+base: tube.yaml
+set: {run.duration: 2 ms}
+axes:
+  contact.restitution: [0.7, 0.8, 0.9]
+continue_along: contact.restitution
+"""
+
+# The second point has contacts so soft that grains go through the walls.
+ONE_FAILS = """\
+base: tube.yaml
+set: {run.duration: 4 ms}
+axes: {contact.stiffness: [2000 N/m, 0.5 N/m, 1000 N/m]}
+"""
+
+
+class SweepTest(CommandTest):
+
+    def setUp(self):
+        super().setUp()
+        self.write("tube.yaml", SMALL_TUBE)
+
+    def sweep(self, text, out="out", *options):
+        self.write("sweep.yaml", text)
+        return self.riesel("sweep", "sweep.yaml", "--out", out, *options)
+
+    def sweep_to_end(self, text, out="out", *options):
+        self.assert_done(self.sweep(text, out, *options))
+        return self.home / out
+
+    def manifest(self, out="out"):
+        return json.loads((self.home / out / "manifest.json").read_text(encoding="utf-8"))
+
+    def points(self, out="out"):
+        return self.manifest(out)["points"]
+
+    def rows(self, out="out"):
+        with open(self.home / out / "sweep.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def hashes(self, out="out"):
+        """{name of the point: state hash}"""
+        hashes = {row["point"]: row["state_hash"] for row in self.rows(out)}
+        self.assertNotIn("", hashes.values())
+        return hashes
+
+
+class Grid(SweepTest):
+
+    def test_a_dry_run_lists_the_points_and_writes_nothing(self):
+        before = bytes_of_files(self.home)
+        self.write("sweep.yaml", GRID)
+        before["sweep.yaml"] = GRID.encode()
+        result = self.sweep(GRID, "out", "--dry-run")
+        self.assert_done(result)
+        self.assert_nothing_written(before)
+        self.assertEqual(len(re.findall(r"out/points/[0-9a-f]{16} ", result.stdout)), 8)
+        self.assertIn("8 points, 8 runs, about ", result.stdout)
+        self.assertIn("contact.restitution=0.9 contact.friction=0.4 start.axial_velocity=8 seed=5 "
+                      "fast", result.stdout)
+
+    def test_every_combination_is_the_run_that_it_names(self):
+        self.sweep_to_end(GRID)
+        rows = self.rows()
+        self.assertEqual(len(rows), 8)
+        self.assertEqual(len({row["point"] for row in rows}), 8)
+        self.assertEqual({row["status"] for row in rows}, {"done"})
+        for row in rows[1::3]:
+            alone = self.run_to_end("tube.yaml", "runs/" + row["point"], *[
+                f"--set={key}={value}" for key, value in {
+                    "run.duration": "2 ms", "contact.restitution": row["contact.restitution"],
+                    "contact.friction": row["contact.friction"], "seed": row["seed"],
+                    "start.axial_velocity": row["start.axial_velocity"]}.items()])
+            self.assert_same_result(alone, self.home / "out/points" / row["point"])
+            self.assertEqual(self.state_hash(alone), row["state_hash"])
+            self.assertEqual(row["branch"], "slow" if row["start.axial_velocity"] == "1" else "fast")
+
+    def test_names_and_results_do_not_depend_on_how_the_file_is_written(self):
+        self.sweep_to_end(GRID, "one", "--jobs", 1)
+        self.sweep_to_end(GRID_REARRANGED, "other", "--jobs", 3)
+        self.assertEqual(self.hashes("one"), self.hashes("other"))
+        self.assertNotEqual([row["point"] for row in self.rows("one")],
+                            [row["point"] for row in self.rows("other")])
+
+    def test_what_is_done_is_not_done_again(self):
+        out = self.sweep_to_end(GRID)
+        points = bytes_of_files(out / "points")
+        self.sweep_to_end(GRID)
+        self.assertEqual(bytes_of_files(out / "points"), points)
+        self.assertEqual({point["attempts"] for point in self.points()}, {1})
+
+    def test_a_longer_axis_runs_the_new_points_only(self):
+        out = self.sweep_to_end(GRID)
+        before = bytes_of_files(out / "points")
+        self.sweep_to_end(GRID.replace("[0.7, 0.9]", "[0.7, 0.8, 0.9]").replace(
+            "points: 2", "points: 3"))
+        after = bytes_of_files(out / "points")
+        self.assertEqual({path: after[path] for path in before}, before)
+        self.assertEqual(len(self.hashes()), 12)
+
+    def test_equal_points_are_one_run(self):
+        self.sweep_to_end(GRID.replace("8 m/s", "1 m/s").replace("[1, 5]", "[5, 5]"))
+        rows = self.rows()
+        self.assertEqual(len(rows), 4)
+        self.assertEqual(len(list((self.home / "out/points").iterdir())), 2)
+        for slow, fast in zip(rows[::2], rows[1::2]):
+            self.assertEqual((slow["branch"], fast["branch"]), ("slow", "fast"))
+            self.assertEqual(slow["state_hash"], fast["state_hash"])
+
+    def test_the_table_holds_all_values_of_the_summaries(self):
+        out = self.sweep_to_end(GRID)
+        with h5py.File(out / "sweep.h5") as file:
+            self.assertEqual(file["sweep_file"][()].decode(), GRID)
+            table = {name: data[()] for name, data in file["points"].items()}
+            self.assertEqual(file["points/contact.friction"].attrs["unit"].decode(), "1")
+            self.assertEqual(file["points/start.axial_velocity"].attrs["unit"].decode(), "m/s")
+        for i, row in enumerate(self.rows()):
+            summary = self.summary(out / "points" / row["point"])
+            self.assertEqual(table["point"][i].decode(), row["point"])
+            self.assertEqual(float(row["mean_axial_velocity.error"]),
+                             summary["mean_axial_velocity"]["error"])
+            self.assertEqual(table["mean_axial_velocity.value"][i],
+                             summary["mean_axial_velocity"]["value"])
+            self.assertEqual(row["state"], summary["state"])
+            self.assertEqual(table["state"][i].decode(), summary["state"])
+            self.assertEqual(set(flat(summary)) - set(row), set())
+
+    def test_impacts_are_swept_too_and_share_the_cores(self):
+        for points, threads in ((1, "4"), (2, "2"), (4, "1")):
+            out = f"sweeps/{points}"
+            self.write(f"{points}.yaml", f"""\
+base: {{scenario: single_wall_grain, contact: {{stiffness: 2000}}, impact: {{axial_velocity: [1, 2]}}}}
+axes: {{contact.damping: {[1e4 / 2 ** i for i in range(points)]}}}
+""")
+            self.assert_done(self.riesel("sweep", f"{points}.yaml", OMP_NUM_THREADS="4"))
+            rows = self.rows(out)
+            self.assertEqual([float(row["contact.damping"]) for row in rows],
+                             [1e4 / 2 ** i for i in range(points)])
+            self.assertEqual(len(self.hashes(out)), points)
+            self.assertEqual({row["performance.threads"] for row in rows}, {threads})
+
+    def test_the_longest_runs_go_first(self):
+        out = self.sweep_to_end("base: tube.yaml\naxes: {run.duration: [1 ms, 9 ms, 3 ms]}\n", "out",
+                                "--jobs", 1)
+        ends = {row["run.duration"]: (out / "points" / row["point"] / "summary.json").stat().st_mtime_ns
+                for row in self.rows()}
+        self.assertEqual(sorted(ends, key=ends.get), ["0.009", "0.003", "0.001"])
+
+
+def flat(value, prefix=""):
+    """Names of all single values, nested names joined by dots."""
+    for name, part in value.items():
+        if isinstance(part, dict):
+            yield from flat(part, prefix + name + ".")
+        elif not isinstance(part, list):
+            yield prefix + name
+
+
+class Chain(SweepTest):
+
+    def test_runs_go_forward_and_back_each_from_its_neighbours_end(self):
+        out = self.sweep_to_end(CHAIN, "out", "--jobs", 3)
+        rows = self.rows()
+        self.assertEqual([(row["contact.restitution"], row["leg"]) for row in rows],
+                         [("0.7", "forward"), ("0.8", "forward"), ("0.9", "forward"),
+                          ("0.8", "backward"), ("0.7", "backward")])
+        self.assertEqual([row["parent"] for row in rows],
+                         [""] + [row["point"] for row in rows[:-1]])
+        summaries = [self.summary(out / "points" / row["point"]) for row in rows]
+        for before, after in zip(summaries, summaries[1:]):
+            self.assertAlmostEqual(after["energy"]["initial"] / before["energy"]["kinetic"], 1.0,
+                                   delta=1e-12)
+        self.assertNotEqual(rows[0]["state_hash"], rows[4]["state_hash"])
+
+    def test_the_first_point_is_an_ordinary_run_and_shared_with_other_sweeps(self):
+        self.sweep_to_end(CHAIN)
+        first = self.rows()[0]
+        self.sweep_to_end(CHAIN.replace("continue_along: contact.restitution\n", ""), "grid")
+        self.assertEqual(self.hashes("grid")[first["point"]], first["state_hash"])
+
+    def test_a_point_can_be_run_by_hand(self):
+        out = self.sweep_to_end(CHAIN)
+        second = self.rows()[1]
+        for name in ("point.yaml", "effective.yaml"):
+            alone = self.run_to_end(out / "points" / second["point"] / name, "by_" + name)
+            self.assertEqual(self.state_hash(alone), second["state_hash"])
+
+    def test_another_past_is_another_point(self):
+        self.sweep_to_end(CHAIN, "up")
+        self.sweep_to_end(CHAIN.replace("[0.7, 0.8, 0.9]", "[0.75, 0.8, 0.9]"), "other")
+        self.assertEqual(set(self.hashes("up")) & set(self.hashes("other")), set())
+
+    def test_a_failed_neighbour_is_told_and_the_rest_of_the_chain_waits(self):
+        chain = ONE_FAILS + "continue_along: contact.stiffness\n"
+        result = self.sweep(chain)
+        self.assertEqual(result.returncode, FAILED, result)
+        points = self.points()
+        self.assertEqual([point["status"] for point in points],
+                         ["done", "failed", "waiting", "waiting", "waiting"])
+        for before, after in zip(points[1:], points[2:]):
+            self.assertIn(before["name"], after["reason"])
+
+    def test_another_tube_cannot_be_continued(self):
+        self.sweep_to_end(CHAIN)
+        point = self.rows()[1]["point"]
+        before = bytes_of_files(self.home)
+        result = self.riesel("run", f"out/points/{point}/point.yaml", "--out", "x", "--set",
+                             "tube.width=11 mm")
+        self.assert_refused(result, "tube.width", "0.011", "0.01 ", "continued")
+        result = self.riesel("run", f"out/points/{point}/point.yaml", "--out", "x", "--set",
+                             "start.from=nowhere")
+        self.assert_refused(result, "start.from", "nowhere")
+        self.assertEqual(bytes_of_files(self.home), before)
+
+
+class Failures(SweepTest):
+
+    def test_a_failure_is_recorded_and_does_not_stop_the_others(self):
+        result = self.sweep(ONE_FAILS)
+        self.assertEqual(result.returncode, FAILED, result)
+        points = self.points()
+        self.assertEqual([point["status"] for point in points], ["done", "failed", "done"])
+        self.assertIn("gone through a wall", points[1]["reason"])
+        self.assertIn("gone through a wall", result.stderr)
+        rows = self.rows()
+        self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
+        self.assertEqual((rows[1]["state_hash"], rows[1]["reason"]), ("", points[1]["reason"]))
+
+    def test_a_failed_point_is_run_again_only_if_asked(self):
+        attempts = []
+        for options in ([], [], ["--retry-failed"]):
+            result = self.sweep(ONE_FAILS, "out", *options)
+            self.assertEqual(result.returncode, FAILED, result)
+            attempts.append([point["attempts"] for point in self.points()])
+        self.assertEqual(attempts, [[1, 1, 1], [1, 1, 1], [1, 2, 1]])
+
+    def test_status_tells_why(self):
+        self.sweep(ONE_FAILS)
+        result = self.riesel("status", "out")
+        self.assert_done(result)
+        self.assertIn("3 points: 2 done, 1 failed", result.stdout)
+        self.assertRegex(result.stdout, r"failed \(contact.stiffness=0.5 seed=1\): .*a wall")
+
+
+class Tasks(SweepTest):
+
+    def test_the_points_of_a_prepared_sweep_can_be_run_one_by_one(self):
+        self.sweep_to_end(CHAIN, "whole")
+        self.assert_done(self.sweep(CHAIN, "out", "--prepare"))
+        self.assertEqual({point["status"] for point in self.points()}, {"waiting"})
+        refused = self.riesel("sweep-task", "out", 1)
+        self.assert_refused(refused, "neighbour", self.points()[0]["name"], "run that one first")
+        for index in range(5):
+            result = self.riesel("sweep-task", "out", index)
+            self.assert_done(result)
+            self.assertIn(": done", result.stdout)
+        self.assert_done(self.riesel("collect", "out"))
+        self.assertEqual(self.hashes("whole"), self.hashes("out"))
+
+    def test_a_task_that_fails_says_so(self):
+        self.sweep(ONE_FAILS, "out", "--prepare")
+        for options, attempts in (([], 1), ([], 1), (["--retry-failed"], 2)):
+            result = self.riesel("sweep-task", "out", 1, *options)
+            self.assertEqual(result.returncode, FAILED, result)
+            record = self.home / "out/points" / self.points()[1]["name"] / "attempts.json"
+            self.assertEqual(json.loads(record.read_text(encoding="utf-8"))["attempts"], attempts)
+
+    def test_what_is_no_point_is_refused(self):
+        self.sweep(CHAIN, "out", "--prepare")
+        self.assert_refused(self.riesel("sweep-task", "out", 5), "no point 5", "from 0 to 4")
+        for command in (["sweep-task", "nowhere", 0], ["status", "nowhere"], ["collect", "."]):
+            self.assert_refused(self.riesel(*command), "manifest.json", "'riesel sweep'")
+
+    def test_the_directory_of_a_run_is_no_place_for_a_sweep(self):
+        self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        before = bytes_of_files(self.home / "out")
+        self.assert_refused(self.sweep(CHAIN), "out: holds a run", "--out")
+        self.assertEqual(bytes_of_files(self.home / "out"), before)
+
+
+class Mistakes(SweepTest):
+    """One message that says where, which key, what is wrong and what to do; nothing written."""
+
+    MISTAKES = {
+        "": ["sweep.yaml:1:1:", "empty", "base:"],
+        SMALL_TUBE: ["sweep.yaml:1:1: scenario: unknown key", "riesel run"],
+        "axes: {seed: [1]}": ["sweep.yaml:1:1: base: is missing"],
+        "base: nix.yaml": ["sweep.yaml:1:7: base: nix.yaml", "No such file", "relative to"],
+        "base: tube.yaml\naxis: {seed: [1]}": [":2:1: axis: unknown key", "'axes'"],
+        "base: tube.yaml\naxes: {contact.frictoin: [1]}": [
+            ":2:8: contact.frictoin: unknown key", "'contact.friction'"],
+        "base: tube.yaml\naxes: {contact.friction: []}": [":2:26: contact.friction:", "empty"],
+        "base: tube.yaml\naxes: {contact.friction: 0.5}": [
+            ":2:26: contact.friction: expected a list", "'set'"],
+        "base: tube.yaml\naxes: {tube.width: [10 mm, 9 kg]}": [
+            ":2:28: tube.width: expected a length", "'9 kg'"],
+        "base: tube.yaml\naxes: {tube.width: [10 mm, 0.1 mm]}": [
+            ":2:8: tube.width: too narrow", "choose more than"],
+        "base: tube.yaml\naxes: {tube.width: {from: 1 cm, to: 2, points: 3, spacing: lgo}}": [
+            ":2:60: tube.width.spacing:", "did you mean 'log'?"],
+        "base: tube.yaml\naxes: {contact: {friction: [1]}}": [":2:8: contact: is a section"],
+        "base: tube.yaml\naxes: {scenario: [wall_array]}": [":2:8: scenario: cannot be changed"],
+        "base: tube.yaml\naxes: [{seed: [1, 2], contact.friction: [0, 1, 2]}]": [
+            ":2:41: contact.friction: the number of values is 3, and 2 for seed"],
+        "base: tube.yaml\naxes: [{seed: [1]}, {seed: [2]}]": [
+            "seed: is set twice", "sweep.yaml:2:9"],
+        "base: tube.yaml\nset: {gravity: 0}\naxes: {gravity: [1]}": ["gravity: is set twice"],
+        "base: tube.yaml\naxes: {}": [":2:7: axes: expected keys"],
+        "base: tube.yaml\nseeds: 0": [":2:8: seeds: must be from 1"],
+        "base: tube.yaml\nseeds: []": [":2:8: seeds: the list is empty"],
+        "base: tube.yaml\nseeds: [1, x]": [":2:12: seed: expected an integer"],
+        "base: tube.yaml\nbranches: {slow: 1}": [":2:18: branches.slow: expected keys"],
+        "base: tube.yaml\nbranches: {slow: {start.axial: 1}}": [
+            ":2:19: start.axial: unknown key"],
+        "base: tube.yaml\nset: {contact: 1}": [":2:7: contact: is a section"],
+        "base: tube.yaml\nset: {contact.impact_speed: 1}": [
+            ":2:7: contact.impact_speed: has no effect when contact.law is linear"],
+        "base: tube.yaml\ncontinue_along: seed": [":2:17: continue_along:", "an axis"],
+        "base: tube.yaml\naxes: {tube.width: [1 cm, 2 cm]}\ncontinue_along: tube.width": [
+            ":3:17: continue_along:", "tube.width", "the grains"],
+        "base: tube.yaml\naxes: {seed: {from: 1, to: 3, points: 3, spacing: linear}}": [
+            ":2:14: seed: only quantities"],
+        "base: tube.yaml\nseeds: 2000\naxes: {gravity: [1, 2, 3, 4, 5, 6]}": [
+            "more than 10000 points"],
+    }
+
+    def test_in_the_sweep_file(self):
+        for text, mentions in self.MISTAKES.items():
+            with self.subTest(text):
+                self.write("sweep.yaml", text)
+                before = bytes_of_files(self.home)
+                self.assert_refused(self.riesel("sweep", "sweep.yaml"), *mentions)
+                self.assert_nothing_written(before)
+
+    def test_in_the_base(self):
+        self.write("tube.yaml", SMALL_TUBE.replace("area_fraction", "area_fracton"))
+        result = self.sweep(GRID)
+        self.assert_refused(result, "tube.yaml:3:10: grains.area_fracton: unknown key")
+
+    def test_on_the_command_line(self):
+        for arguments, status in ((["sweep"], BAD_INPUT), (["sweep", "x.yaml"], BAD_INPUT),
+                                  (["sweep", "tube.yaml", "--jobs", 0], BAD_INPUT),
+                                  (["status"], BAD_INPUT), (["sweep-task", "out"], BAD_INPUT)):
+            with self.subTest(arguments):
+                self.assertEqual(self.riesel(*arguments).returncode, status)
+
+    def test_help_names_the_options(self):
+        for command, options in {"sweep": ["FILE", "--out", "--jobs", "--dry-run", "--prepare",
+                                           "--retry-failed"],
+                                 "sweep-task": ["DIR", "INDEX", "--threads", "--retry-failed"],
+                                 "status": ["DIR"], "collect": ["DIR"]}.items():
+            result = self.riesel(command, "--help")
+            self.assert_done(result)
+            for option in options:
+                self.assertIn(option, result.stdout)
+            self.assertIn(f"  {command} ", self.riesel("--help").stdout)
+
+
+class Shipped(SweepTest):
+
+    def test_the_examples_of_the_manual_work(self):
+        page = (SHIPPED.parent / "docs/sweeps.md").read_text(encoding="utf-8")
+        examples = [text for text in re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+                    if "base:" in text]
+        self.assertEqual(len(examples), 2)
+        for text in examples:
+            self.sweep_to_end(text.replace("base: ", f"base: {SHIPPED.parent}/"), "out", "--jobs", 2)
+            self.assertEqual({row["status"] for row in self.rows()}, {"done"})
+
+    def test_the_files_of_the_figures_are_sweeps(self):
+        files = sorted((SHIPPED / "paper").glob("*.yaml"))
+        self.assertGreater(len(files), 0)
+        for file in files:
+            with self.subTest(file.name):
+                self.assert_done(self.riesel("sweep", file, "--dry-run"))

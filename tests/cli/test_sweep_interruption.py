@@ -1,0 +1,152 @@
+"""A sweep that is stopped at any moment, politely or not, goes on as if it had never been stopped."""
+
+import os
+import pathlib
+import random
+import signal
+import time
+
+from riesel_command import DONE, FAILED
+from test_sweep import SweepTest
+
+# Each run takes one second or two.
+LONG = """\
+base: tube.yaml
+set: {run.duration: 600 ms, output.checkpoint_interval: 0.02 s}
+axes: {contact.restitution: [0.7, 0.8, 0.9]}
+"""
+LONG_CHAIN = LONG + "continue_along: contact.restitution\n"
+
+# It never ends by itself.
+ENDLESS = LONG.replace("600 ms", "1000 s")
+PATIENCE = 30.0  # s
+
+
+def children_of(pid):
+    """Of its main thread."""
+    try:
+        text = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii")
+    except FileNotFoundError:
+        return []
+    return [int(child) for child in text.split()]
+
+
+def is_alive(pid):
+    try:
+        stat = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return False
+    return stat.rpartition(")")[2].split()[0] != "Z"
+
+
+class Interruption(SweepTest):
+
+    def setUp(self):
+        super().setUp()
+        self.moments = random.Random(1)
+
+    def wait_until(self, happened, what):
+        deadline = time.monotonic() + PATIENCE
+        while not happened():
+            self.assertLess(time.monotonic(), deadline, f"{what} has not happened")
+            time.sleep(0.005)
+
+    def start_sweep(self, text, *options):
+        """Returns the process, which has children that have checkpoints."""
+        self.write("sweep.yaml", text)
+        process = self.start("sweep", "sweep.yaml", "--out", "out", "--jobs", 2, *options)
+        self.wait_until(lambda: children_of(process.pid) or process.poll() is not None,
+                        "the start of a run")
+        self.wait_until(lambda: list(self.home.glob("out/points/*/checkpoint.h5")),
+                        "the first checkpoint")
+        return process
+
+    def stop(self, process, number):
+        """Sends the signal and waits for the end of the sweep; its runs may take a little longer."""
+        children = children_of(process.pid)
+        process.send_signal(number)
+        process.communicate(timeout=PATIENCE)
+        if process.returncode > 0:
+            self.assertFalse(any(map(is_alive, children)), "a run outlives its sweep")
+        return process.returncode
+
+    def result_of(self, out):
+        """All of the table that must not depend on what happened on the way."""
+        rows = self.rows(out)
+        for row in rows:
+            del row["attempts"]
+            for column in list(row):
+                if column.startswith("performance."):
+                    del row[column]
+        return rows
+
+    def assert_goes_on_as_uninterrupted(self, text):
+        self.sweep_to_end(text, "out")
+        self.sweep_to_end(text, "whole")
+        self.assertEqual(self.result_of("out"), self.result_of("whole"))
+        for row in self.rows("out"):
+            self.assert_same_result(self.home / "out/points" / row["point"],
+                                    self.home / "whole/points" / row["point"])
+
+    def interrupt(self, text, signals):
+        for number, status in signals:
+            process = self.start_sweep(text)
+            time.sleep(self.moments.uniform(0.0, 0.2))
+            if process.poll() is None:
+                self.assertEqual(self.stop(process, number), status)
+
+    def test_by_polite_signals(self):
+        self.interrupt(LONG, [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+        self.assertEqual({point["status"] for point in self.points()}
+                         - {"interrupted", "waiting", "done"}, set())
+        self.assertIn("interrupted", {point["status"] for point in self.points()})
+        self.assert_goes_on_as_uninterrupted(LONG)
+
+    def test_runs_do_not_outlive_a_killed_sweep(self):
+        process = self.start_sweep(ENDLESS)
+        children = children_of(process.pid)
+        self.assertEqual(len(children), 2)
+        self.stop(process, signal.SIGKILL)
+        self.wait_until(lambda: not any(map(is_alive, children)), "the end of the runs")
+        self.assertIn("2 interrupted, 1 waiting", self.riesel("status", "out").stdout)
+
+    def test_by_kills(self):
+        self.interrupt(LONG_CHAIN, [(signal.SIGKILL, -signal.SIGKILL)] * 3)
+        self.assert_goes_on_as_uninterrupted(LONG_CHAIN)
+
+    def test_a_killed_run_is_gone_on_with_in_the_same_sweep(self):
+        process = self.start_sweep(LONG)
+        os.kill(children_of(process.pid)[0], signal.SIGKILL)
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual((process.returncode, stderr), (DONE, ""))
+        self.assertEqual(sorted(point["attempts"] for point in self.points()), [1, 1, 2])
+
+    def test_a_crash_is_a_failure_and_does_not_stop_the_others(self):
+        process = self.start_sweep(LONG)
+        os.kill(children_of(process.pid)[0], signal.SIGSEGV)
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, FAILED)
+        self.assertIn("crashed (Segmentation fault)", stderr)
+        self.assertEqual(sorted(point["status"] for point in self.points()),
+                         ["done", "done", "failed"])
+        self.sweep_to_end(LONG, "out", "--retry-failed")
+        self.assertEqual(sorted(point["attempts"] for point in self.points()), [1, 1, 2])
+
+    def test_no_two_sweeps_in_one_directory(self):
+        process = self.start_sweep(ENDLESS)
+        second = self.sweep(ENDLESS)
+        self.assert_failed(second, "out", "in use", str(process.pid))
+        status = self.riesel("status", "out")
+        self.assertIn("3 points: 2 running, 1 waiting", status.stdout)
+        self.assertEqual(self.stop(process, signal.SIGTERM), 143)
+        self.assertIn("2 interrupted, 1 waiting", self.riesel("status", "out").stdout)
+
+    def test_a_point_that_another_process_runs_is_left_to_it(self):
+        self.write("sweep.yaml", LONG)
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out", "--prepare"))
+        task = self.start("sweep-task", "out", 0, "--threads", 1)
+        self.wait_until(lambda: list(self.home.glob("out/points/*/checkpoint.h5")), "the start")
+        self.sweep_to_end(LONG)
+        task.communicate(timeout=PATIENCE)
+        self.assertEqual(task.returncode, DONE)
+        self.assertEqual({point["attempts"] for point in self.points()}, {1})

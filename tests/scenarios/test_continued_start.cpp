@@ -1,0 +1,164 @@
+// The start from the end of another run: nothing moves, nothing is lost, and with the same settings
+// it is the run going on.
+#include "engine/observables.hpp"
+#include "engine/simulation.hpp"
+#include "io/checkpoint.hpp"
+#include "scenarios/continued_start.hpp"
+#include "tests/io/file_fixture.hpp"
+#include "tests/scenarios/scenario_fixture.hpp"
+
+#include <cmath>
+
+using namespace scenario_fixture;
+using file_fixture::ScratchDirectory;
+
+namespace {
+
+const std::string yaml = tube_yaml + "start: {random_velocity: 3 m/s}\n";
+
+std::string continued_yaml(const std::filesystem::path& from) {
+  return tube_yaml + "start: {kind: continued, from: " + from.string() + "}\n";
+}
+
+/// A state of the tube in which several grains touch, and its checkpoint.
+class EarlierRun {
+public:
+  EarlierRun() {
+    Simulation simulation(flow(yaml).state, flow(yaml).model, 1);
+    simulation.advance(3000);
+    while (simulation.state().contacts.size() < 5) simulation.advance(1);
+    state_ = simulation.state();
+    io::write_checkpoint(directory_ / io::checkpoint_name,
+                         {.state = state_, .settings = read(yaml).effective_yaml(), .source = {}});
+  }
+
+  /// Grains in the order of their ids.
+  State state() const {
+    State ordered = state_;
+    ordered.grains = ordered_by_id(state_.grains);
+    return ordered;
+  }
+
+  State continued(const Overrides& overrides = {}) const {
+    return flow(continued_yaml(directory_.path()), overrides).state;
+  }
+  ContactModel model(const Overrides& overrides = {}) const {
+    return flow(continued_yaml(directory_.path()), overrides).model;
+  }
+  const std::filesystem::path& directory() const { return directory_.path(); }
+
+private:
+  ScratchDirectory directory_;
+  State state_;
+};
+
+double stored_energy(const State& state) { return observe(state).energies.elastic; }
+
+/// m, how far apart the grains with the same id are, at most.
+double largest_distance(const State& a, const State& b) {
+  const Grains one = ordered_by_id(a.grains), other = ordered_by_id(b.grains);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const double x = a.box.metres_x(wrapped_difference(one.x[i], other.x[i]));
+    const double y = a.box.metres_y(wrapped_difference(one.y[i], other.y[i]));
+    largest = std::max(largest, std::hypot(x, y));
+  }
+  return largest;
+}
+
+void check_nothing_moved(const State& before, const State& after) {
+  REQUIRE(after.grains.size() == before.grains.size());
+  CHECK(largest_distance(before, after) == 0.0);
+  for (std::size_t i = 0; i < before.grains.size(); ++i) {
+    const Grain one = grain_at(before, i), other = grain_at(after, i);
+    CHECK(std::abs(one.vx - other.vx) < 1e-13);
+    CHECK(std::abs(one.vy - other.vy) < 1e-13);
+    CHECK(one.radius == other.radius);
+    CHECK(one.mass == other.mass);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("A continued start has the places and velocities of the earlier end, whatever changes") {
+  const EarlierRun earlier;
+  for (const Overrides& overrides : std::vector<Overrides>{{},
+                                                           {"run.steps_per_collision=77"},
+                                                           {"contact.stiffness=200 kN/m"},
+                                                           {"contact.damping=100", "gravity=3"}}) {
+    const State state = earlier.continued(overrides);
+    check_nothing_moved(earlier.state(), state);
+    CHECK(state.step == 0);
+    CHECK(state.tally.grains.begun + state.tally.walls.begun == 0);
+  }
+}
+
+TEST_CASE("Contacts that last go on, with the energy of the new law and an empty account") {
+  const EarlierRun earlier;
+  const State before = earlier.state();
+  const State after = earlier.continued({"contact.stiffness=4000 N/m"});
+  REQUIRE(after.contacts.size() == before.contacts.size());
+  for (std::size_t i = 0; i < before.contacts.size(); ++i) {
+    const Contact& old = before.contacts[i];
+    const Contact& now = after.contacts[i];
+    CHECK((now.name == old.name));
+    CHECK(now.overlap == old.overlap);
+    CHECK(now.entry_rate == old.entry_rate);
+    CHECK(now.begin <= 0.0);
+    CHECK(std::abs(now.duration() - old.duration()) < 1e-15);
+    CHECK(now.normal_loss == 0.0);
+    CHECK(now.impulse_y == 0.0);
+  }
+  CHECK(std::abs(stored_energy(after) / stored_energy(before) - 2.0) < 1e-14);
+}
+
+TEST_CASE("With the same settings a continued run is the earlier run going on") {
+  const EarlierRun earlier;
+  Simulation uninterrupted(earlier.state(), earlier.model(), 1);
+  Simulation continued(earlier.continued(), earlier.model(), 1);
+  const std::int64_t begun = uninterrupted.state().tally.grains.begun;
+  uninterrupted.advance(2000);
+  continued.advance(2000);
+  const State& state = continued.state();
+  CHECK(state.tally.grains.begun > 20);
+  CHECK(state.tally.grains.begun == uninterrupted.state().tally.grains.begun - begun);
+  // Rounding of the velocities, once, and what collisions make of it.
+  CHECK(largest_distance(uninterrupted.state(), state) < 1e-11);
+
+  // The energy that was stored at the start is the only one in the residual.
+  const Energies energies = observe(state).energies;
+  const Energies before = observe(earlier.state()).energies;
+  const double of_this_time = observe(uninterrupted.state()).energies.residual - before.residual;
+  CHECK(std::abs(energies.residual + before.elastic - of_this_time) < 1e-9 * before.kinetic);
+}
+
+TEST_CASE("A continued start has the same bits in both kinds of stepping") {
+  const EarlierRun earlier;
+  const State start = earlier.continued({"contact.stiffness=20 kN/m"});
+  const ContactModel model = earlier.model({"contact.stiffness=20 kN/m"});
+  Simulation plain(start, model, 1, Stepping::plain), windows(start, model, 1, Stepping::windows);
+  plain.advance(500);
+  windows.advance(500);
+  CHECK(state_hash(plain.state()) == state_hash(windows.state()));
+}
+
+TEST_CASE("A continued start is refused where the earlier run does not fit") {
+  const EarlierRun earlier;
+  const std::string continued = continued_yaml(earlier.directory());
+  check_mentions(complaint(continued, {"tube.width=21 mm"}), {"tube.width", "0.021", "0.02 in"});
+  check_mentions(complaint(continued, {"grains.mass=2 mg"}), {"grains.mass", "earlier run"});
+  check_mentions(complaint(continued, {"wall.spacing=1 mm"}), {"wall.spacing"});
+  check_mentions(complaint(continued, {"start.from=/nowhere"}),
+                 {"start.from", "/nowhere", "checkpoint.h5"});
+  check_mentions(complaint(yaml, {"start.from=/nowhere"}), {"start.from", "has no effect"});
+  check_mentions(complaint(continued, {"start.axial_velocity=1"}), {"has no effect"});
+  check_mentions(complaint(yaml, {"start.kind=continued"}), {"start.from", "is missing"});
+}
+
+TEST_CASE("Runs can follow each other along what the earlier run does not give") {
+  for (const char* key : {"contact.restitution", "contact.stiffness", "gravity", "run.duration"})
+    CHECK(scenarios::can_continue_along(key));
+  for (const char* key : {"seed", "grains.mass", "wall.spacing", "tube.width",
+                          "start.axial_velocity", "output.interval"})
+    CHECK_FALSE(scenarios::can_continue_along(key));
+}
