@@ -23,6 +23,7 @@ struct RunOptions {
   std::filesystem::path file;                      ///< the settings
   std::optional<std::filesystem::path> directory;  ///< where the results go
   std::vector<std::string> overrides;              ///< "key=value"
+  bool profile = false;                            ///< tell where the time went
 };
 
 int run(const RunOptions& options, const Arguments& arguments);
@@ -30,6 +31,7 @@ int run(const RunOptions& options, const Arguments& arguments);
 struct ResumeOptions {
   std::filesystem::path checkpoint;    ///< the file, or the directory of the run
   std::vector<std::string> overrides;  ///< "key=value"; only settings of `run` and `output`
+  bool profile = false;                ///< tell where the time went
 };
 
 int resume(const ResumeOptions& options, const Arguments& arguments);

@@ -41,6 +41,10 @@ void add_threads(CLI::App& command, std::vector<std::string>& overrides) {
       "Number of threads, or 'auto'; the results do not depend on it");
 }
 
+void add_profile(CLI::App& command, bool& profile) {
+  command.add_flag("--profile", profile, "Tell where the time went; for flows");
+}
+
 /// What the command line says: the subcommand, ready to be called, and its options.
 class CommandLine {
 public:
@@ -72,6 +76,7 @@ private:
     run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]");
     add_overrides(*run, run_.overrides);
     add_threads(*run, run_.overrides);
+    add_profile(*run, run_.profile);
     set_command(*run, *file, [this] { return app::run(run_, arguments_); });
   }
 
@@ -82,6 +87,7 @@ private:
         resume->add_option("DIR", resume_.checkpoint, "Directory of the run, or its checkpoint.h5");
     add_overrides(*resume, resume_.overrides);
     add_threads(*resume, resume_.overrides);
+    add_profile(*resume, resume_.profile);
     set_command(*resume, *directory, [this] { return app::resume(resume_, arguments_); });
   }
 

@@ -15,7 +15,7 @@ int run(const RunOptions& options, const Arguments& arguments) {
       RunDirectory::create(options.directory.value_or("runs" / options.file.stem()), settings);
 
   if (auto* flow = std::get_if<scenarios::Flow>(&problem))
-    return run_flow(settings, std::move(*flow), std::move(directory), arguments);
+    return run_flow(settings, std::move(*flow), std::move(directory), arguments, options.profile);
   return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments);
 }
 

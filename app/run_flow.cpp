@@ -3,6 +3,7 @@
 #include "app/exit_status.hpp"
 #include "app/flow_summary.hpp"
 #include "app/interrupt.hpp"
+#include "app/print_profile.hpp"
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
 #include "app/series.hpp"
@@ -58,7 +59,7 @@ struct Past {
 class FlowRun {
 public:
   FlowRun(io::Settings settings, const ContactModel& model, State state, RunDirectory directory,
-          const Arguments& arguments, Past past)
+          const Arguments& arguments, Past past, bool profile)
       : settings_(std::move(settings)),
         past_(std::move(past)),
         directory_(std::move(directory)),
@@ -66,7 +67,9 @@ public:
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
         file_(open(arguments)),
-        first_step_(simulation_.state().step) {}
+        first_step_(simulation_.state().step) {
+    if (profile) simulation_.start_profile();
+  }
 
   int run() {
     catch_interrupts();
@@ -110,7 +113,9 @@ private:
     const auto patience = static_cast<std::int64_t>(
         std::ceil(particle_steps / static_cast<double>(state.grains.size())));
     const std::int64_t goal = std::min(schedule_.next_row(state.step), schedule_.last_step);
+    const auto start = Clock::now();
     simulation_.advance(std::min(goal - state.step, patience));
+    times_.stepping += seconds_since(start);
     if (state.step % schedule_.steps_per_row == 0) add_row();
     if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
@@ -118,7 +123,9 @@ private:
   }
 
   void add_row() {
+    const auto start = Clock::now();
     last_ = observe(simulation_.state());
+    times_.measuring += seconds_since(start);
     file_.append(series_row(last_));
     if (last_.outside > 0.0)
       throw RunFailure(fmt::format(
@@ -129,6 +136,7 @@ private:
 
   /// The series first: the checkpoint counts its rows.
   void save() {
+    const auto start = Clock::now();
     file_.write_final_state(simulation_.state());
     file_.flush();
     io::write_checkpoint(directory_.file(io::checkpoint_name),
@@ -138,6 +146,7 @@ private:
                           .rows = file_.rows(),
                           .wall_seconds = wall_seconds()});
     last_checkpoint_ = Clock::now();
+    times_.output += seconds_since(start);
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -163,6 +172,8 @@ private:
     s.run = run_summary();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));
     print_summary(s, directory_.path());
+    if (simulation_.profile().on())
+      print_profile(simulation_.profile(), times_, simulation_.state().step - first_step_);
     return exit_done;
   }
 
@@ -193,25 +204,26 @@ private:
   Progress progress_;
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
+  RunTimes times_;
 };
 
 }  // namespace
 
 int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory directory,
-             const Arguments& arguments) {
+             const Arguments& arguments, bool profile) {
   const Past nothing{.source = settings.source_text()};
   return FlowRun(settings, flow.model, std::move(flow.state), std::move(directory), arguments,
-                 nothing)
+                 nothing, profile)
       .run();
 }
 
 int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDirectory directory,
-                const Arguments& arguments) {
+                const Arguments& arguments, bool profile) {
   const Past past{.source = checkpoint.source,
                   .rows = checkpoint.rows,
                   .wall_seconds = checkpoint.wall_seconds};
   return FlowRun(settings, scenarios::contact_model(settings), std::move(checkpoint.state),
-                 std::move(directory), arguments, past)
+                 std::move(directory), arguments, past, profile)
       .run();
 }
 

@@ -9,12 +9,12 @@
 
 namespace riesel::app {
 
-/// Runs `settings` from the start to its end. Returns the exit status.
+/// Runs `settings` from the start to its end. Returns the exit status. Prints a profile if wanted.
 int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory directory,
-             const Arguments& arguments);
+             const Arguments& arguments, bool profile);
 
 /// The same from a checkpoint of an earlier run in the same directory.
 int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDirectory directory,
-                const Arguments& arguments);
+                const Arguments& arguments, bool profile);
 
 }  // namespace riesel::app

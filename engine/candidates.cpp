@@ -59,15 +59,18 @@ bool Candidates::spend_step(Slice& mine) const {
 }
 
 bool Candidates::look_again(State& state, Slice& mine, std::int64_t step) {
+  mine.profile.begin_build();
 #pragma omp barrier
   measure_motion(state, mine, step);
 #pragma omp barrier
   const double left = 0.5 * skin_ - largest(slices_, &Slice::farthest);
   if (left > smallest_useful_budget * 0.5 * skin_) {
     mine.budget = left;
+    mine.profile.done_build();
     return false;
   }
   sort_anew(state, mine, step);
+  mine.profile.done_build();
   return true;
 }
 

@@ -43,14 +43,20 @@ Flights::Flights(State& state, const ContactModel& model, Candidates& candidates
 
 /// What a step is, in the order in which it happens.
 void Flights::step(std::int64_t step) {
+  Profile& profile = slice_.profile;
+  profile.begin_step(step);
   state_.step = step;
   units_.move_to(step);
   deflected_.move(units_.fallen);
+  profile.done(Profile::Phase::fly);
   if (step >= hold_until_) renew(step);
   keep_appointments(step);
+  profile.done(Profile::Phase::search);
   step_contacts();
+  profile.done(Profile::Phase::forces);
   correct_courses(step);
   make_appointments(step, step + 1);
+  profile.done(Profile::Phase::appointments);
 }
 
 /// The courses of deflected grains are given up for their motion.
@@ -126,9 +132,11 @@ void Flights::link() {
 
 /// The candidates do not hold any more.
 void Flights::renew(std::int64_t step) {
+  slice_.profile.begin_build();
   land(step);
   candidates_.sort_anew(state_, slice_, step);
   begin(step, step);
+  slice_.profile.done_build();
 }
 
 /// As leaves_skin(), for all grains when they have just been listed.

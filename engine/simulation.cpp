@@ -103,17 +103,28 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
 
 Simulation::~Simulation() = default;
 
+void Simulation::start_profile() {
+  profile_ = Profile(true);
+  candidates_->slices().front().profile = profile_;
+}
+
 /// One step of all grains, by all threads together, each with its slice: the leapfrog form of
 /// velocity Verlet.
 void Simulation::step(Slice& mine, std::int64_t step) {
+  Profile& profile = mine.profile;
+  profile.begin_step(step);
   drift(mine, step);
 #pragma omp barrier
+  profile.done(Profile::Phase::fly);
   if (!candidates_->spend_step(mine)) candidates_->look_again(state_, mine, step);
   find_overlapping(mine, state_, candidates_->coarse(), candidates_->units());
+  profile.done(Profile::Phase::search);
   resolve_contacts(mine, state_, model_);
+  profile.done(Profile::Phase::forces);
 #pragma omp barrier
   receive_kicks(state_.grains, candidates_->slices(), mine);
   candidates_->note_speeds(state_, mine);
+  profile.done(Profile::Phase::receive);
 }
 
 void Simulation::advance(std::int64_t steps) {
@@ -138,6 +149,7 @@ void Simulation::choose_stepping() {
   } else {
     candidates_ = std::make_unique<Candidates>(state_, threads_, Candidates::short_skin);
   }
+  candidates_->slices().front().profile = Profile(profile_.on());
 }
 
 /// Decided by the state and the number of threads. In units of what plain stepping takes for a
@@ -202,6 +214,8 @@ void Simulation::collect() {
   for (Slice& slice : candidates_->slices()) {
     state_.tally.merge(slice.tally);
     slice.tally = {};
+    profile_.merge(slice.profile);
+    slice.profile = Profile(slice.profile.on());
   }
 }
 

@@ -49,6 +49,10 @@ public:
   const ContactModel& model() const { return model_; }
   int threads() const { return threads_; }
 
+  /// From now on the time that stepping takes is measured, by phase: that of the first thread.
+  void start_profile();
+  const Profile& profile() const { return profile_; }
+
 private:
   void choose_stepping();
   bool flights_pay() const;
@@ -65,6 +69,7 @@ private:
   Fixed fall_;  // per step
   const int threads_;
   const Stepping stepping_;
+  Profile profile_;
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<Flights> flights_;  // while stepping by windows
 };

@@ -4,6 +4,7 @@
 #include "engine/aligned.hpp"
 #include "engine/fixed_point.hpp"
 #include "engine/live_contacts.hpp"
+#include "engine/profile.hpp"
 #include "engine/tally.hpp"
 
 #include <cstddef>
@@ -79,6 +80,7 @@ struct Slice {
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
   double budget = 0.0;    ///< m, displacement that leaves the candidates valid; equal in all slices
 
+  Profile profile;                     ///< of the thread's work
   Tally tally;                         ///< of contacts that began or ended in the last advance
   std::optional<ContactName> trouble;  ///< a contact whose force is no usable number
   std::optional<std::int32_t> lost;    ///< id of a grain that has left the representable space

@@ -1,0 +1,36 @@
+#include "app/print_profile.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+
+namespace riesel::app {
+
+void print_profile(const Profile& profile, const RunTimes& times, std::int64_t steps) {
+  using Phase = Profile::Phase;
+  struct Row {
+    const char* name;
+    double seconds;
+  };
+  double phases = 0.0;
+  for (std::size_t p = 0; p < Profile::phases; ++p)
+    phases += profile.seconds(static_cast<Phase>(p));
+  const std::array rows{Row{"fly", profile.seconds(Phase::fly)},
+                        Row{"build", profile.seconds(Phase::build)},
+                        Row{"search", profile.seconds(Phase::search)},
+                        Row{"forces", profile.seconds(Phase::forces)},
+                        Row{"receive", profile.seconds(Phase::receive)},
+                        Row{"appointments", profile.seconds(Phase::appointments)},
+                        Row{"stepping, other", times.stepping - phases},
+                        Row{"measure", times.measuring},
+                        Row{"output", times.output}};
+  const double total = times.stepping + times.measuring + times.output;
+  fmt::print("{:<18}{:>10}{:>8}{:>12}\n", "phase", "s", "%", "ns/step");
+  for (const Row& row : rows)
+    fmt::print("{:<18}{:>10.3f}{:>8.1f}{:>12.1f}\n", row.name, row.seconds,
+               100.0 * row.seconds / total, 1e9 * row.seconds / static_cast<double>(steps));
+  fmt::print("one step in {} was looked at in detail, on the first thread\n",
+             Profile::steps_per_sample);
+}
+
+}  // namespace riesel::app

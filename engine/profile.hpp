@@ -1,0 +1,70 @@
+// Where the time of stepping goes, for whoever asks.
+//
+// A look at the clock costs as much as a few contacts, so only one step in many is looked at in
+// detail, and what it took stands for the others. Sorting and listing happen rarely and are timed
+// each time. What is measured has no way back into the simulation.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace riesel {
+
+class Profile {
+public:
+  enum class Phase {
+    fly,           ///< positions and velocities move on
+    build,         ///< sorting, listing of candidates
+    search,        ///< which contacts begin
+    forces,        ///< contacts: forces, lives, kicks
+    receive,       ///< kicks reach the grains, speeds are noted
+    appointments,  ///< flights only: courses, and when to look again
+  };
+  static constexpr std::size_t phases = 6;
+  /// No divisor of the round numbers of steps after which other things happen.
+  static constexpr std::int64_t steps_per_sample = 61;
+
+  explicit Profile(bool on = false) : on_(on) {}
+
+  bool on() const { return on_; }
+
+  void begin_step(std::int64_t step) {
+    sampled_ = on_ && step % steps_per_sample == 0;
+    if (sampled_) last_ = Clock::now();
+  }
+  /// What was done since the last call belongs to this phase.
+  void done(Phase phase) {
+    if (sampled_) add(phase, steps_per_sample);
+  }
+
+  void begin_build() {
+    if (on_) last_ = Clock::now();
+  }
+  void done_build() {
+    if (on_) add(Phase::build, 1.0);
+  }
+
+  double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
+
+  void merge(const Profile& other) {
+    for (std::size_t p = 0; p < phases; ++p) seconds_[p] += other.seconds_[p];
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void add(Phase phase, double weight) {
+    const Clock::time_point now = Clock::now();
+    seconds_[static_cast<std::size_t>(phase)] +=
+        weight * std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+  bool on_, sampled_ = false;
+  Clock::time_point last_;
+  std::array<double, phases> seconds_{};
+};
+
+}  // namespace riesel

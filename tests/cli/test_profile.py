@@ -1,0 +1,33 @@
+"""run --profile tells where the time went, and changes nothing."""
+
+from riesel_command import SMALL_TUBE, CommandTest
+
+PHASES = ["fly", "build", "search", "forces", "receive", "appointments", "stepping, other",
+          "measure", "output"]
+
+
+class Profile(CommandTest):
+
+    def profile(self, out, stepping):
+        self.write("settings.yaml", SMALL_TUBE)
+        result = self.riesel("run", "settings.yaml", "--out", out, "--threads", 1, "--profile",
+                             "--set", f"run.stepping={stepping}")
+        self.assert_done(result)
+        lines = result.stdout.splitlines()
+        header = next(i for i, line in enumerate(lines) if line.startswith("phase"))
+        rows = {}
+        for line in lines[header + 1:header + 1 + len(PHASES)]:
+            name, seconds, share, _ = line.rsplit(maxsplit=3)
+            rows[name] = (float(seconds), float(share))
+        self.assertEqual(list(rows), PHASES)
+        self.assertAlmostEqual(sum(share for _, share in rows.values()), 100.0, delta=1.0)
+        return rows, self.state_hash(self.home / out)
+
+    def test_the_shares_belong_to_the_stepping_and_the_bits_to_the_run(self):
+        plain, hash_of_plain = self.profile("plain", "plain")
+        windows, hash_of_windows = self.profile("windows", "windows")
+        self.assertEqual(plain["appointments"], (0.0, 0.0))
+        self.assertEqual(windows["receive"], (0.0, 0.0))
+        self.assertGreater(windows["appointments"][1], 0.0)
+        unprofiled = self.state_hash(self.run_small_tube("unprofiled"))
+        self.assertEqual({hash_of_plain, hash_of_windows}, {unprofiled})
