@@ -13,6 +13,23 @@ std::string explanation(const std::string& state) {
   return "too few independent samples for a steady mean";
 }
 
+void print_visits(const io::FlowSummary::WallVisits& v) {
+  fmt::print("  {:<22}{:.3g} +- {:.1g} contacts, {:.3g} +- {:.1g} m/s lost ({:.0f} visits)\n",
+             "visit to a wall", v.contacts.value, v.contacts.error, v.dv_y.value, v.dv_y.error,
+             v.visits);
+}
+
+/// The verdict, and the findings that are the reason for it.
+void print_validity(const ValidityVerdict& v) {
+  fmt::print("  {:<22}{}\n", "validity", name(v.verdict));
+  for (const Finding& f : v.findings) {
+    if (f.verdict == Validity::valid) continue;
+    const double threshold = f.verdict == Validity::unphysical ? f.unphysical : f.suspect;
+    fmt::print("  {:<22}{} = {:.3g}, {} {:.3g}: {}; {}\n", name(f.verdict), f.name, f.value,
+               f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
+  }
+}
+
 void print_common(const io::RunSummary& run, const std::filesystem::path& directory) {
   fmt::print("  {:<22}{:.1f} million particle-steps/s on {} thread{} ({:.1f} s)\n", "speed",
              run.particle_steps_per_second / 1e6, run.threads, run.threads == 1 ? "" : "s",
@@ -30,13 +47,13 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
              s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
   fmt::print("  {:<22}{}: {}\n", "state", s.state, explanation(s.state));
   fmt::print("  {:<22}{:.4g} m^2/s^2\n", "granular temperature", s.granular_temperature);
-  fmt::print("  {:<22}{:.4g} 1/s x {:.4g} m/s = {:.4g} m/s^2, gravity {:.4g} m/s^2\n",
-             "wall collisions", s.balance.n_dot, s.balance.dv_y, s.balance.n_dot_dv_y,
-             s.balance.gravity);
+  fmt::print("  {:<22}{:.4g} 1/s x {:.4g} m/s = {:.4g} +- {:.2g} m/s^2, gravity {:.4g} m/s^2\n",
+             "wall collisions", s.balance.n_dot.value, s.balance.dv_y.value,
+             s.balance.n_dot_dv_y.value, s.balance.n_dot_dv_y.error, s.balance.gravity);
+  print_visits(s.wall_visits);
   fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
              s.energy.residual / (s.energy.initial + s.energy.gravity_work));
-  fmt::print("  {:<22}{:.2g} of the mean grain diameter\n", "largest overlap",
-             s.validity.max_overlap_ratio);
+  print_validity(s.validity.verdict);
   print_common(s.run, directory);
 }
 

@@ -119,7 +119,7 @@ private:
 
   void add_row() {
     last_ = observe(simulation_.state());
-    file_.append(series_row(last_));
+    file_.append(series_row(last_, simulation_.state().tally));
     if (last_.outside > 0.0)
       throw RunFailure(fmt::format(
           "{:.0f} grains have gone through a wall at t = {:.6g} s: the contacts are too soft for "

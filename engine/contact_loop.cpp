@@ -67,6 +67,7 @@ void live(Contact& c, bool begins, const ContactBatch::Who& who, const Touch& t,
   c.friction_loss += t.friction_power * units.dt;
   if (who.second == no_slot) {
     const double impulse = t.fy * units.dt;
+    c.impulse_x += t.fx * units.dt;
     c.impulse_y += impulse;
     c.impulse_y_times_step += impulse * units.step;
   }

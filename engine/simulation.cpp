@@ -35,12 +35,14 @@ void check_grains(const Grains& g) {
 void check_contacts(const State& state) {
   const auto grains = static_cast<std::int32_t>(state.grains.size());
   const auto walls = static_cast<std::int32_t>(state.walls.size());
-  for (const Contact& contact : state.contacts) {
+  const auto check = [&](const Contact& contact, std::int32_t first_wall) {
     const auto& [wall, grain, partner] = contact.name;
     const bool known_partner = partner >= 0 && (wall != no_wall || partner < grains);
-    require(grain >= 0 && grain < grains && known_partner && wall >= no_wall && wall < walls,
+    require(grain >= 0 && grain < grains && known_partner && wall >= first_wall && wall < walls,
             "a contact of bodies that do not exist");
-  }
+  };
+  for (const Contact& contact : state.contacts) check(contact, no_wall);
+  for (const Contact& contact : state.visiting) check(contact, 0);
 }
 
 /// `state` if a simulation can start from it, its balances opened.
@@ -97,7 +99,8 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       model_(model),
       fall_(fall_per_step(state_)),
       stepping_(stepping),
-      candidates_(state_, team_size(threads)) {
+      candidates_(state_, team_size(threads)),
+      wall_watch_(state_, model_) {
   if (stepping == Stepping::windows && threads > 1)
     throw std::invalid_argument("windows are stepped on one thread");
 }
@@ -187,6 +190,7 @@ void Simulation::collect() {
     state_.tally.merge(slice.tally);
     slice.tally = {};
   }
+  wall_watch_.look(state_);
 }
 
 void Simulation::fail_if_in_trouble() const {

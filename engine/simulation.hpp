@@ -4,6 +4,7 @@
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
+#include "engine/wall_watch.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -63,6 +64,7 @@ private:
   Fixed fall_;  // per step
   const Stepping stepping_;
   Candidates candidates_;
+  const WallWatch wall_watch_;
   std::unique_ptr<Flights> flights_;  // while stepping by windows
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace riesel::io {
@@ -82,20 +83,38 @@ bool is_finite(const Contact& contact) {
   return finite;
 }
 
-std::string flaw_of_contacts(const State& state) {
-  const ContactName* last = nullptr;
-  for (const auto& contact : state.contacts) {
+/// `in_order(a, b)`: whether b may follow a.
+template <class InOrder>
+std::string flaw_of_contacts(const State& state, const std::vector<Contact>& contacts,
+                             InOrder in_order) {
+  const Contact* last = nullptr;
+  for (const auto& contact : contacts) {
     const auto& name = contact.name;
     const auto text = [&] {
       return fmt::format("the contact (wall {}, grain {}, partner {})", name.wall, name.grain,
                          name.partner);
     };
     if (!names_bodies_of(state, name)) return text() + " is between bodies that do not exist";
-    if (last != nullptr && !(*last < name)) return text() + " is out of order";
+    if (last != nullptr && !in_order(*last, contact)) return text() + " is out of order";
     if (!is_finite(contact)) return text() + " has a value that is not finite";
-    last = &name;
+    last = &contact;
   }
   return {};
+}
+
+std::string flaw_of_lasting(const State& state) {
+  return flaw_of_contacts(state, state.contacts,
+                          [](const Contact& a, const Contact& b) { return a.name < b.name; });
+}
+
+std::string flaw_of_visiting(const State& state) {
+  const auto key = [](const Contact& c) {
+    return std::tie(c.name.wall, c.name.grain, c.begin, c.name.partner);
+  };
+  for (const auto& contact : state.visiting)
+    if (contact.name.wall == no_wall) return "a contact of a visit to a wall is with no wall";
+  return flaw_of_contacts(state, state.visiting,
+                          [&](const Contact& a, const Contact& b) { return key(a) < key(b); });
 }
 
 std::string flaw_of_tally(const ContactTally& tally) {
@@ -110,7 +129,8 @@ std::string flaw_of(const State& state) {
   auto flaw = flaw_of_scalars(state);
   if (flaw.empty()) flaw = flaw_of_walls(state);
   if (flaw.empty()) flaw = flaw_of_grains(state.grains);
-  if (flaw.empty()) flaw = flaw_of_contacts(state);
+  if (flaw.empty()) flaw = flaw_of_lasting(state);
+  if (flaw.empty()) flaw = flaw_of_visiting(state);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.grains);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.walls);
   return flaw;

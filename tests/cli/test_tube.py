@@ -7,12 +7,13 @@ from riesel_command import FAILED, SMALL_TUBE, CommandTest, data_of
 
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
-                 "validity"}
+                 "wall_visits", "validity"}
 NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
                 "mean_axial_velocity": {"value", "error"},
                 "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},
                 "energy": {"residual"},
-                "validity": {"max_overlap_ratio", "v_crit"}}
+                "validity": {"verdict", "max_overlap_ratio", "brake_failure_fraction",
+                             "contacts_per_wall_visit", "v_crit", "findings"}}
 
 
 class Tube(CommandTest):
