@@ -161,6 +161,8 @@ private:
         summarise(file_, simulation_.state(), simulation_.model(), last_,
                   static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step);
     s.run = run_summary();
+    file_.write_validity(s.validity.verdict);
+    file_.flush();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));
     print_summary(s, directory_.path());
     return exit_done;
