@@ -58,8 +58,9 @@ TEST_CASE("contacts that pull are never more than suspect") {
 
 TEST_CASE("few steps are bad, many are good") {
   CHECK(verdict_with(&Evidence::steps_per_contact, 1e6) == Validity::valid);
-  CHECK(verdict_with(&Evidence::steps_per_contact, 9.0) == Validity::suspect);
-  CHECK(verdict_with(&Evidence::steps_per_contact, 1.0) == Validity::unphysical);
+  CHECK(verdict_with(&Evidence::steps_per_contact, 9.9) == Validity::suspect);
+  CHECK(verdict_with(&Evidence::steps_per_contact, 3.1) == Validity::suspect);
+  CHECK(verdict_with(&Evidence::steps_per_contact, 2.9) == Validity::unphysical);
 }
 
 TEST_CASE("what is not known is suspect") {
