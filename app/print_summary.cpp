@@ -14,6 +14,10 @@ std::string explanation(const std::string& state) {
 }
 
 void print_visits(const io::FlowSummary::WallVisits& v) {
+  if (v.visits == 0.0) {
+    fmt::print("  {:<22}none after the transient\n", "visit to a wall");
+    return;
+  }
   fmt::print("  {:<22}{:.3g} +- {:.1g} contacts, {:.3g} +- {:.1g} m/s lost ({:.0f} visits)\n",
              "visit to a wall", v.contacts.value, v.contacts.error, v.dv_y.value, v.dv_y.error,
              v.visits);

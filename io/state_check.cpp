@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -123,6 +124,14 @@ std::string flaw_of_tally(const ContactTally& tally) {
   return {};
 }
 
+std::string flaw_of_walls_tally(const Tally& tally) {
+  const auto& visits = tally.visits.of_contacts;
+  const bool negative =
+      tally.brakes.contacts < 0 || tally.brakes.cut_short < 0 || tally.visits.contacts < 0
+      || std::any_of(visits.begin(), visits.end(), [](std::int64_t count) { return count < 0; });
+  return negative ? "a count of contacts with walls is negative" : std::string();
+}
+
 }  // namespace
 
 std::string flaw_of(const State& state) {
@@ -133,6 +142,7 @@ std::string flaw_of(const State& state) {
   if (flaw.empty()) flaw = flaw_of_visiting(state);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.grains);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.walls);
+  if (flaw.empty()) flaw = flaw_of_walls_tally(state.tally);
   return flaw;
 }
 

@@ -8,7 +8,7 @@ import math
 
 import h5py
 
-from riesel_command import CommandTest
+from riesel_command import DONE, CommandTest
 
 TUBE = """\
 scenario: periodic_tube
@@ -29,7 +29,7 @@ class Validity(CommandTest):
         options = [part for key, value in overrides.items()
                    for part in ("--set", f"{key.replace('__', '.')}={value}")]
         result = self.riesel("run", path, "--out", out, "--threads", 1, *options)
-        self.assert_done(result)
+        self.assertEqual(result.returncode, DONE, result)  # a busy machine may report progress
         return self.summary(self.home / out), result.stdout
 
 

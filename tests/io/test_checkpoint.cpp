@@ -286,6 +286,18 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "a count of contacts is negative");
   CHECK(refusal([](auto& c) { c.state.tally.grains.max_overlap = nan; })
         == "the greatest overlap is not finite");
+  CHECK(refusal([](auto& c) { std::swap(c.state.visiting[0], c.state.visiting[1]); })
+        == "the contact (wall 0, grain 0, partner 82) is out of order");
+  CHECK(refusal([](auto& c) { c.state.visiting[2].name.grain = 4; })
+        == "the contact (wall 1, grain 4, partner 0) is between bodies that do not exist");
+  CHECK(refusal([](auto& c) { c.state.visiting[0].name = {no_wall, 0, 1}; })
+        == "a contact of a visit to a wall is with no wall");
+  CHECK(refusal([](auto& c) { c.state.visiting[2].impulse_x = nan; })
+        == "the contact (wall 1, grain 3, partner 0) has a value that is not finite");
+  CHECK(refusal([](auto& c) { c.state.tally.brakes.cut_short = -1; })
+        == "a count of contacts with walls is negative");
+  CHECK(refusal([](auto& c) { c.state.tally.visits.of_contacts[7] = -1; })
+        == "a count of contacts with walls is negative");
   CHECK(refusal([](auto& c) { c.rows = -1; }) == "the number of rows is negative");
   CHECK(refusal([](auto& c) { c.wall_seconds = nan; }) == "the time taken is negative");
 }
