@@ -35,14 +35,15 @@ void check_grains(const Grains& g) {
 void check_contacts(const State& state) {
   const auto grains = static_cast<std::int32_t>(state.grains.size());
   const auto walls = static_cast<std::int32_t>(state.walls.size());
-  const auto check = [&](const Contact& contact, std::int32_t first_wall) {
+  for (const Contact& contact : state.contacts) {
     const auto& [wall, grain, partner] = contact.name;
     const bool known_partner = partner >= 0 && (wall != no_wall || partner < grains);
-    require(grain >= 0 && grain < grains && known_partner && wall >= first_wall && wall < walls,
+    require(grain >= 0 && grain < grains && known_partner && wall >= no_wall && wall < walls,
             "a contact of bodies that do not exist");
-  };
-  for (const Contact& contact : state.contacts) check(contact, no_wall);
-  for (const Contact& contact : state.visiting) check(contact, 0);
+  }
+  for (const WallVisit& v : state.open_visits)
+    require(v.grain >= 0 && v.grain < grains && v.wall >= 0 && v.wall < walls,
+            "a visit of a grain or to a wall that does not exist");
 }
 
 /// `state` if a simulation can start from it, its balances opened.

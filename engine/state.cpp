@@ -36,6 +36,14 @@ void add(Hash& hash, const ContactTally& t) {
   for (const auto count : t.durations.counts()) hash.add(count);
 }
 
+void add(Hash& hash, const WallVisit& v) {
+  for (const auto part : {v.wall, v.grain}) hash.add(part);
+  for (const auto part : {v.span.begin, v.span.end, v.entry_rate, v.entry_slip}) hash.add(part);
+  hash.add(v.contacts);
+  add(hash, v.impulse_x);
+  add(hash, v.impulse_y);
+}
+
 void add(Hash& hash, const BrakeTally& t) {
   hash.add(t.contacts);
   hash.add(t.cut_short);
@@ -136,7 +144,7 @@ std::uint64_t state_hash(const State& state) {
   const Grains ordered = ordered_by_id(state.grains);
   for (std::size_t i = 0; i < ordered.size(); ++i) add(hash, ordered, i);
   for (const Contact& contact : state.contacts) add(hash, contact);
-  for (const Contact& contact : state.visiting) add(hash, contact);
+  for (const WallVisit& visit : state.open_visits) add(hash, visit);
   add(hash, state.tally.grains);
   add(hash, state.tally.walls);
   add(hash, state.tally.brakes);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <tuple>
 
 namespace riesel {
 
@@ -25,22 +26,45 @@ Span visit_span(const Contact& contact, double mass, double spacing, double grav
   return {contact.begin, contact.end + time};
 }
 
+WallVisit::WallVisit(const Contact& contact, const Span& its_span)
+    : wall(contact.name.wall),
+      grain(contact.name.grain),
+      span(its_span),
+      contacts(1),
+      entry_rate(contact.entry_rate),
+      entry_slip(std::abs(contact.entry_slip)) {
+  impulse_x.add(contact.impulse_x);
+  impulse_y.add(contact.impulse_y);
+}
+
+void WallVisit::join(const WallVisit& other) {
+  // Two contacts may begin at the very same time: any rule will do that knows no order of arrival.
+  const auto entry = [](const WallVisit& v) {
+    return std::tie(v.span.begin, v.entry_rate, v.entry_slip);
+  };
+  if (entry(other) < entry(*this)) {
+    span.begin = other.span.begin;
+    entry_rate = other.entry_rate;
+    entry_slip = other.entry_slip;
+  }
+  span.end = std::max(span.end, other.span.end);
+  contacts += other.contacts;
+  impulse_x.add(other.impulse_x);
+  impulse_y.add(other.impulse_y);
+}
+
 std::int64_t VisitTally::visits() const {
   return std::accumulate(of_contacts.begin(), of_contacts.end(), std::int64_t{0});
 }
 
-void VisitTally::add(std::span<const Contact> visit, double mass, double away) {
-  double impulse_x = 0.0, impulse_y = 0.0;
-  for (const Contact& contact : visit) {
-    impulse_x += contact.impulse_x;
-    impulse_y += contact.impulse_y;
-  }
-  ++of_contacts[std::min(visit.size(), longest) - 1];
-  contacts += static_cast<std::int64_t>(visit.size());
-  dv_y.add(-impulse_y / mass);
-  dv_x.add(away * impulse_x / mass);
-  entry_rate.add(visit.front().entry_rate);
-  entry_slip.add(std::abs(visit.front().entry_slip));
+void VisitTally::add(const WallVisit& visit, double mass, double away) {
+  const auto count = static_cast<std::size_t>(visit.contacts);
+  ++of_contacts[std::min(count, longest) - 1];
+  contacts += visit.contacts;
+  dv_y.add(-visit.impulse_y.value() / mass);
+  dv_x.add(away * visit.impulse_x.value() / mass);
+  entry_rate.add(visit.entry_rate);
+  entry_slip.add(visit.entry_slip);
 }
 
 void VisitTally::merge(const VisitTally& other) {

@@ -8,7 +8,8 @@
 //
 // So each contact has a span, from its beginning to its end plus the time for that path, and
 // the visits are the connected pieces of the spans of one grain and one wall. That is a property of
-// the set of contacts: it does not matter when, or in what order, we hear of them.
+// the set of contacts: it does not matter when, or in what order, we hear of them. Contacts that we
+// have heard of are joined to pieces of visits, and pieces to larger ones.
 #pragma once
 
 #include "engine/contact.hpp"
@@ -17,7 +18,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace riesel {
 
@@ -31,6 +31,25 @@ struct Span {
 /// (m/s^2) adds to it. `mass` in kg, `spacing` in m.
 Span visit_span(const Contact& contact, double mass, double spacing, double gravity);
 
+/// A piece of a visit: contacts of one grain with one wall whose spans are connected. What is
+/// summed is summed exactly, so that pieces can be joined in any order.
+struct WallVisit {
+  std::int32_t wall;
+  std::int32_t grain;
+  Span span;
+  std::int64_t contacts;
+  double entry_rate;              ///< m/s, normal velocity at the beginning of the first contact
+  double entry_slip;              ///< m/s, its |slip|
+  ExactSum impulse_x, impulse_y;  ///< kg m/s, given to the grain
+
+  /// A single contact.
+  WallVisit(const Contact& contact, const Span& its_span);
+  WallVisit() = default;
+
+  /// Adds a piece of the same visit.
+  void join(const WallVisit& other);
+};
+
 /// Sums over visits that are over.
 struct VisitTally {
   /// Visits of one contact, of two, ..., of `longest` or more.
@@ -43,9 +62,9 @@ struct VisitTally {
   ExactSum entry_slip;        ///< m/s, its |slip|
 
   std::int64_t visits() const;
-  /// Adds a visit: its contacts in the order of their beginnings. `away` is the sign of the
-  /// direction from the wall into the tube.
-  void add(std::span<const Contact> visit, double mass, double away);
+  /// Adds a visit by a grain of mass `mass` (kg). `away` is the sign of the direction from the wall
+  /// into the tube.
+  void add(const WallVisit& visit, double mass, double away);
   void merge(const VisitTally& other);
 };
 

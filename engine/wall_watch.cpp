@@ -3,34 +3,35 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <span>
 #include <tuple>
 
 namespace riesel {
 
 namespace {
 
-auto visitor(const Contact& c) { return std::tie(c.name.wall, c.name.grain); }
+constexpr double never = std::numeric_limits<double>::infinity();
 
-bool earlier(const Contact& a, const Contact& b) {
-  return std::tie(a.name.wall, a.name.grain, a.begin, a.name.partner)
-         < std::tie(b.name.wall, b.name.grain, b.begin, b.name.partner);
+bool earlier(const WallVisit& a, const WallVisit& b) {
+  return std::tie(a.wall, a.grain, a.span.begin) < std::tie(b.wall, b.grain, b.span.begin);
 }
 
-/// Whether a contact that is not in the list of the ended ones may belong to a visit that reaches
-/// until then.
-bool may_go_on(const State& state, const ContactName& of, double until) {
-  // A contact that is seen in the next step may have begun up to a step ago.
-  if (state.time() <= until + state.time_step) return true;
-  const ContactName lowest{of.wall, of.grain, std::numeric_limits<std::int32_t>::min()};
-  auto lasting =
+bool same_visitor(const WallVisit& a, const WallVisit& b) {
+  return a.wall == b.wall && a.grain == b.grain;
+}
+
+/// s, when the first of the lasting contacts of this grain with this wall began; `never` if there
+/// is none.
+double lasting_since(const State& state, const WallVisit& visit) {
+  const ContactName lowest{visit.wall, visit.grain, std::numeric_limits<std::int32_t>::min()};
+  auto contact =
       std::lower_bound(state.contacts.begin(), state.contacts.end(), lowest,
                        [](const Contact& c, const ContactName& name) { return c.name < name; });
-  for (; lasting != state.contacts.end() && lasting->name.wall == of.wall
-         && lasting->name.grain == of.grain;
-       ++lasting)
-    if (lasting->begin <= until) return true;
-  return false;
+  double since = never;
+  for (; contact != state.contacts.end() && contact->name.wall == visit.wall
+         && contact->name.grain == visit.grain;
+       ++contact)
+    since = std::min(since, contact->begin);
+  return since;
 }
 
 }  // namespace
@@ -41,49 +42,49 @@ WallWatch::WallWatch(const State& state, const ContactModel& model)
     mass_[static_cast<std::size_t>(state.grains.id[slot])] = state.grains.mass[slot];
 }
 
-double WallWatch::mass(const Contact& contact) const {
-  return mass_[static_cast<std::size_t>(contact.name.grain)];
-}
-
 void WallWatch::look(State& state) const {
   take_up(state);
-  close_visits(state);
+  join_and_close(state);
 }
 
 void WallWatch::take_up(State& state) const {
-  std::vector<Contact>& ended = state.tally.ended_at_walls;
-  for (const Contact& contact : ended) state.tally.brakes.add(contact, model_, mass(contact));
-  std::sort(ended.begin(), ended.end(), earlier);
-  const auto old = static_cast<std::ptrdiff_t>(state.visiting.size());
-  state.visiting.insert(state.visiting.end(), ended.begin(), ended.end());
-  std::inplace_merge(state.visiting.begin(), state.visiting.begin() + old, state.visiting.end(),
-                     earlier);
-  ended.clear();
+  std::vector<WallVisit>& visits = state.open_visits;
+  const auto old = static_cast<std::ptrdiff_t>(visits.size());
+  for (const Contact& contact : state.tally.ended_at_walls) {
+    const double m = mass(contact.name.grain);
+    const WallLattice& wall = state.walls[static_cast<std::size_t>(contact.name.wall)];
+    state.tally.brakes.add(contact, model_, m);
+    visits.emplace_back(contact, visit_span(contact, m, wall.spacing(state.box), state.gravity));
+  }
+  state.tally.ended_at_walls.clear();
+  std::sort(visits.begin() + old, visits.end(), earlier);
+  std::inplace_merge(visits.begin(), visits.begin() + old, visits.end(), earlier);
 }
 
-void WallWatch::close_visits(State& state) const {
-  std::vector<Contact>& contacts = state.visiting;
-  auto kept = contacts.begin();
-  for (auto first = contacts.begin(); first != contacts.end();) {
-    const WallLattice& wall = state.walls[static_cast<std::size_t>(first->name.wall)];
-    const double spacing = wall.spacing(state.box), m = mass(*first);
-    const auto until = [&](const Contact& c) {
-      return visit_span(c, m, spacing, state.gravity).end;
-    };
-    double end = until(*first);
-    auto last = std::next(first);
-    for (; last != contacts.end() && visitor(*last) == visitor(*first) && last->begin <= end;
-         ++last)
-      end = std::max(end, until(*last));
-    if (may_go_on(state, first->name, end)) {
-      kept = std::move(first, last, kept);
-    } else {
-      const double away = wall.line < 0.5 * state.box.width ? 1.0 : -1.0;
-      state.tally.visits.add(std::span(first, last), m, away);
-    }
-    first = last;
+void WallWatch::join_and_close(State& state) const {
+  std::vector<WallVisit>& visits = state.open_visits;
+  auto kept = visits.begin();
+  for (auto next = visits.begin(); next != visits.end();) {
+    WallVisit visit = *next++;
+    // A lasting contact will join what ended since it began.
+    const double lasting = lasting_since(state, visit);
+    while (next != visits.end() && same_visitor(*next, visit)
+           && std::min(next->span.begin, lasting) <= visit.span.end)
+      visit.join(*next++);
+    // A contact that is seen in the next step may have begun up to a step ago.
+    const bool over = visit.span.end < std::min(state.time() - state.time_step, lasting);
+    if (over)
+      close(state, visit);
+    else
+      *kept++ = visit;
   }
-  contacts.erase(kept, contacts.end());
+  visits.erase(kept, visits.end());
+}
+
+void WallWatch::close(State& state, const WallVisit& visit) const {
+  const WallLattice& wall = state.walls[static_cast<std::size_t>(visit.wall)];
+  const double away = wall.line < 0.5 * state.box.width ? 1.0 : -1.0;
+  state.tally.visits.add(visit, mass(visit.grain), away);
 }
 
 }  // namespace riesel

@@ -109,8 +109,8 @@ void write(Hdf5Group root, const State& state) {
   write_records(walls, state.walls);
   auto contacts = root.create_group("contacts");
   write_records(contacts, state.contacts);
-  auto visiting = root.create_group("visiting");
-  write_records(visiting, state.visiting);
+  auto open_visits = root.create_group("open_visits");
+  write_records(open_visits, state.open_visits);
   write(root.create_group("tally"), state.tally);
 }
 
@@ -120,7 +120,7 @@ State read_state(const Hdf5Group& root, std::size_t most_bytes) {
   state.grains = read_grains(root.group("grains"), most_bytes);
   state.walls = read_records<WallLattice>(root.group("walls"), most_bytes);
   state.contacts = read_records<Contact>(root.group("contacts"), most_bytes);
-  state.visiting = read_records<Contact>(root.group("visiting"), most_bytes);
+  state.open_visits = read_records<WallVisit>(root.group("open_visits"), most_bytes);
   state.tally = read_tally(root.group("tally"));
   return state;
 }

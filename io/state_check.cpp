@@ -84,38 +84,43 @@ bool is_finite(const Contact& contact) {
   return finite;
 }
 
-/// `in_order(a, b)`: whether b may follow a.
-template <class InOrder>
-std::string flaw_of_contacts(const State& state, const std::vector<Contact>& contacts,
-                             InOrder in_order) {
-  const Contact* last = nullptr;
-  for (const auto& contact : contacts) {
+std::string flaw_of_contacts(const State& state) {
+  const ContactName* last = nullptr;
+  for (const auto& contact : state.contacts) {
     const auto& name = contact.name;
     const auto text = [&] {
       return fmt::format("the contact (wall {}, grain {}, partner {})", name.wall, name.grain,
                          name.partner);
     };
     if (!names_bodies_of(state, name)) return text() + " is between bodies that do not exist";
-    if (last != nullptr && !in_order(*last, contact)) return text() + " is out of order";
+    if (last != nullptr && !(*last < name)) return text() + " is out of order";
     if (!is_finite(contact)) return text() + " has a value that is not finite";
-    last = &contact;
+    last = &name;
   }
   return {};
 }
 
-std::string flaw_of_lasting(const State& state) {
-  return flaw_of_contacts(state, state.contacts,
-                          [](const Contact& a, const Contact& b) { return a.name < b.name; });
+/// The span of a grain that stands still at a wall, without gravity, has no end.
+bool has_numbers(const WallVisit& visit) {
+  return std::isfinite(visit.span.begin) && !std::isnan(visit.span.end)
+         && std::isfinite(visit.entry_rate) && std::isfinite(visit.entry_slip);
 }
 
-std::string flaw_of_visiting(const State& state) {
-  const auto key = [](const Contact& c) {
-    return std::tie(c.name.wall, c.name.grain, c.begin, c.name.partner);
-  };
-  for (const auto& contact : state.visiting)
-    if (contact.name.wall == no_wall) return "a contact of a visit to a wall is with no wall";
-  return flaw_of_contacts(state, state.visiting,
-                          [&](const Contact& a, const Contact& b) { return key(a) < key(b); });
+std::string flaw_of_visits(const State& state) {
+  const auto key = [](const WallVisit& v) { return std::tie(v.wall, v.grain, v.span.begin); };
+  const WallVisit* last = nullptr;
+  for (const auto& visit : state.open_visits) {
+    const auto text = [&] {
+      return fmt::format("the visit of grain {} to wall {}", visit.grain, visit.wall);
+    };
+    if (!is_index(visit.grain, state.grains.size()) || !is_index(visit.wall, state.walls.size()))
+      return text() + " is between bodies that do not exist";
+    if (!has_numbers(visit)) return text() + " has a value that is not finite";
+    if (last != nullptr && !(key(*last) < key(visit))) return text() + " is out of order";
+    if (visit.contacts < 1) return text() + " has no contacts";
+    last = &visit;
+  }
+  return {};
 }
 
 std::string flaw_of_tally(const ContactTally& tally) {
@@ -138,8 +143,8 @@ std::string flaw_of(const State& state) {
   auto flaw = flaw_of_scalars(state);
   if (flaw.empty()) flaw = flaw_of_walls(state);
   if (flaw.empty()) flaw = flaw_of_grains(state.grains);
-  if (flaw.empty()) flaw = flaw_of_lasting(state);
-  if (flaw.empty()) flaw = flaw_of_visiting(state);
+  if (flaw.empty()) flaw = flaw_of_contacts(state);
+  if (flaw.empty()) flaw = flaw_of_visits(state);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.grains);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.walls);
   if (flaw.empty()) flaw = flaw_of_walls_tally(state.tally);

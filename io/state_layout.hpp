@@ -66,6 +66,30 @@ void for_each_member(Visit visit) {
       "impulse_y_times_step", "kg m/s", [](auto& c) -> auto& { return c.impulse_y_times_step; });
 }
 
+/// Calls visit(name, unit, member) for each member of an open visit; member(visit) is the member.
+template <std::same_as<WallVisit> Record, class Visit>
+void for_each_member(Visit visit) {
+  static_assert(sizeof(WallVisit) == 8 + 5 * sizeof(double) + 2 * sizeof(ExactSum));
+  visit(
+      "wall", "1", [](auto& v) -> auto& { return v.wall; });
+  visit(
+      "grain", "1", [](auto& v) -> auto& { return v.grain; });
+  visit(
+      "begin", "s", [](auto& v) -> auto& { return v.span.begin; });
+  visit(
+      "end", "s", [](auto& v) -> auto& { return v.span.end; });
+  visit(
+      "contacts", "1", [](auto& v) -> auto& { return v.contacts; });
+  visit(
+      "entry_rate", "m/s", [](auto& v) -> auto& { return v.entry_rate; });
+  visit(
+      "entry_slip", "m/s", [](auto& v) -> auto& { return v.entry_slip; });
+  visit(
+      "impulse_x", "2^-90 kg m/s", [](auto& v) -> auto& { return v.impulse_x; });
+  visit(
+      "impulse_y", "2^-90 kg m/s", [](auto& v) -> auto& { return v.impulse_y; });
+}
+
 /// Calls visit(name, unit, member) for each member of a wall; member(wall) is the member.
 template <std::same_as<WallLattice> Record, class Visit>
 void for_each_member(Visit visit) {
@@ -139,7 +163,8 @@ void for_each_kind(AnyTally& tally, Visit visit) {
 /// units. The bindings name the rest, too, which for_each_array() and the others are for.
 template <class AnyState, class Visit>
 void for_each_scalar(AnyState& state, Visit visit) {
-  auto& [box, walls, gravity, time_step, step, grains, contacts, visiting, tally, origin] = state;
+  auto& [box, walls, gravity, time_step, step, grains, contacts, open_visits, tally, origin] =
+      state;
   auto& [width, length] = box;
   auto& [kinetic, momentum_y] = origin;
   visit("box_width", width);

@@ -83,8 +83,8 @@ TEST_CASE("the hash notices what the balances and the tally will need") {
 }
 
 TEST_CASE("the hash notices contacts as brakes, and visits") {
-  CHECK(noticed([](State& s) { s.visiting.pop_back(); }));
-  CHECK(noticed([](State& s) { s.visiting[0].impulse_x += 1e-12; }));
+  CHECK(noticed([](State& s) { s.open_visits.pop_back(); }));
+  CHECK(noticed([](State& s) { s.open_visits[0].impulse_x.add(1e-20); }));
   CHECK(noticed([](State& s) { s.contacts[0].impulse_x += 1e-12; }));
   CHECK(noticed([](State& s) { s.tally.grains.durations.add(1e-5); }));
   CHECK(noticed([](State& s) { ++s.tally.brakes.cut_short; }));

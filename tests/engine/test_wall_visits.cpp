@@ -3,6 +3,7 @@
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -49,13 +50,47 @@ TEST_CASE("gravity shortens the way of a slow grain") {
 }
 
 TEST_CASE("a visit is the sum of its contacts and enters with the first") {
-  std::array<Contact, 3> visit = {contact_of(0.2, -1.0), contact_of(0.1, 0.9),
-                                  contact_of(0.1, 0.8)};
-  visit[0].impulse_x = 2e-7;
-  visit[1].impulse_x = 1e-7;
-  visit[2].impulse_x = -5e-8;
-  visit[0].impulse_y = -3e-7;
-  visit[2].impulse_y = 1e-7;
+  std::array<Contact, 3> contacts = {contact_of(0.2, -1.0), contact_of(0.1, 0.9),
+                                     contact_of(0.1, 0.8)};
+  contacts[1].begin = contacts[2].begin = 2.0;
+  contacts[0].impulse_x = 2e-7;
+  contacts[1].impulse_x = 1e-7;
+  contacts[2].impulse_x = -5e-8;
+  contacts[0].impulse_y = -3e-7;
+  contacts[2].impulse_y = 1e-7;
+  const auto piece = [&](std::size_t i) {
+    return WallVisit(contacts[i], {contacts[i].begin, 5.0 - static_cast<double>(i)});
+  };
+  std::array<std::size_t, 3> order = {0, 1, 2};
+  do {
+    WallVisit visit = piece(order[0]);
+    visit.join(piece(order[1]));
+    visit.join(piece(order[2]));
+    CHECK(visit.span.begin == 1.0);
+    CHECK(visit.span.end == 5.0);
+    CHECK(visit.contacts == 3);
+    CHECK(visit.entry_rate == 0.2);
+    CHECK(visit.entry_slip == 1.0);
+    CHECK(std::abs(visit.impulse_x.value() - 2.5e-7) < 1e-20);
+    CHECK(std::abs(visit.impulse_y.value() + 2e-7) < 1e-20);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("contacts that begin at once are joined alike in any order") {
+  const WallVisit left(contact_of(0.3, 0.4), {1.0, 2.0}), right(contact_of(0.3, -0.39), {1.0, 2.1});
+  WallVisit one = left, other = right;
+  one.join(right);
+  other.join(left);
+  CHECK(one.entry_slip == other.entry_slip);
+  CHECK(one.span.end == other.span.end);
+}
+
+TEST_CASE("the tally of visits sums in units of velocity") {
+  Contact contact = contact_of(0.2, -1.0);
+  contact.impulse_x = 2.5e-7;
+  contact.impulse_y = -2e-7;
+  WallVisit visit(contact, {1.0, 2.0});
+  visit.contacts = 3;
   VisitTally tally;
   tally.add(visit, mass, 1.0);
   CHECK(tally.visits() == 1);
@@ -77,10 +112,13 @@ TEST_CASE("a visit is the sum of its contacts and enters with the first") {
 }
 
 TEST_CASE("long visits are counted together") {
-  const std::vector<Contact> many(11, contact_of(0.1, 0.1));
+  WallVisit visit(contact_of(0.1, 0.1), {1.0, 2.0});
   VisitTally tally;
-  tally.add(many, mass, 1.0);
-  tally.add(std::span(many).first(8), mass, 1.0);
+  for (const std::int64_t contacts : {8, 11, 7}) {
+    visit.contacts = contacts;
+    tally.add(visit, mass, 1.0);
+  }
   CHECK(tally.of_contacts[7] == 2);
-  CHECK(tally.contacts == 19);
+  CHECK(tally.of_contacts[6] == 1);
+  CHECK(tally.contacts == 26);
 }

@@ -112,6 +112,13 @@ inline riesel::Contact contact(riesel::ContactName name, double first) {
   return contact;
 }
 
+inline riesel::WallVisit visit(std::int32_t wall, std::int32_t grain, double begin) {
+  riesel::WallVisit visit(contact({wall, grain, 0}, 1.0 / 7.0), {begin, begin + 1.0 / 3.0});
+  visit.contacts = 5;
+  visit.impulse_y.add(-1e9 / 3.0);
+  return visit;
+}
+
 inline riesel::ContactTally tally(double scale) {
   riesel::ContactTally tally;
   tally.begun = 7;
@@ -180,8 +187,8 @@ inline riesel::State special_state(std::size_t n = 4) {
   grains.mass[3] = std::numeric_limits<double>::max();
   state.contacts = {contact({riesel::no_wall, 0, 3}, 0.1), contact({riesel::no_wall, 1, 2}, -0.0),
                     contact({0, 0, 82}, denormal), contact({1, 2, 0}, 1e300)};
-  state.visiting = {contact({0, 0, 82}, -1.0 / 3.0), contact({0, 0, 3}, 0.1),
-                    contact({1, 3, 0}, denormal)};
+  state.open_visits = {visit(0, 0, -1.0 / 3.0), visit(0, 0, 0.1), visit(1, 3, denormal)};
+  state.open_visits[2].span.end = std::numeric_limits<double>::infinity();
   state.tally = whole_tally();
   state.origin = {.kinetic = 1.0 / 7.0, .momentum_y = -0.0};
   return state;
@@ -237,6 +244,13 @@ public:
     add(t.contacts);
     for (const auto* sum : {&t.dv_y, &t.dv_x, &t.entry_rate, &t.entry_slip}) add(*sum);
   }
+  void add(const riesel::WallVisit& v) {
+    add_all(std::vector{v.wall, v.grain});
+    add_all(std::vector{v.span.begin, v.span.end, v.entry_rate, v.entry_slip});
+    add(v.contacts);
+    add(v.impulse_x);
+    add(v.impulse_y);
+  }
   void add(const riesel::Contact& c) {
     add_all(std::vector{c.name.wall, c.name.grain, c.name.partner});
     add_all(std::vector{c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
@@ -264,7 +278,7 @@ inline std::string bits_of(const riesel::State& state) {
   bits.add_all(g.mass);
   bits.add_all(g.id);
   for (const auto& contact : state.contacts) bits.add(contact);
-  for (const auto& contact : state.visiting) bits.add(contact);
+  for (const auto& visit : state.open_visits) bits.add(visit);
   bits.add(state.tally.grains);
   bits.add(state.tally.walls);
   bits.add(state.tally.brakes);

@@ -55,7 +55,7 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
     const auto old = Hdf5File::open(path).root();
     auto root = file.root();
     for (const auto* name :
-         {"grains", "walls", "contacts", "visiting", "tally", "settings", "source"}) {
+         {"grains", "walls", "contacts", "open_visits", "tally", "settings", "source"}) {
       root.copy(old, name);
     }
     const auto copy_attribute = [&](const char* name, auto value) {
@@ -286,14 +286,16 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "a count of contacts is negative");
   CHECK(refusal([](auto& c) { c.state.tally.grains.max_overlap = nan; })
         == "the greatest overlap is not finite");
-  CHECK(refusal([](auto& c) { std::swap(c.state.visiting[0], c.state.visiting[1]); })
-        == "the contact (wall 0, grain 0, partner 82) is out of order");
-  CHECK(refusal([](auto& c) { c.state.visiting[2].name.grain = 4; })
-        == "the contact (wall 1, grain 4, partner 0) is between bodies that do not exist");
-  CHECK(refusal([](auto& c) { c.state.visiting[0].name = {no_wall, 0, 1}; })
-        == "a contact of a visit to a wall is with no wall");
-  CHECK(refusal([](auto& c) { c.state.visiting[2].impulse_x = nan; })
-        == "the contact (wall 1, grain 3, partner 0) has a value that is not finite");
+  CHECK(refusal([](auto& c) { std::swap(c.state.open_visits[0], c.state.open_visits[1]); })
+        == "the visit of grain 0 to wall 0 is out of order");
+  CHECK(refusal([](auto& c) { c.state.open_visits[2].grain = 4; })
+        == "the visit of grain 4 to wall 1 is between bodies that do not exist");
+  CHECK(refusal([](auto& c) { c.state.open_visits[0].wall = no_wall; })
+        == "the visit of grain 0 to wall -1 is between bodies that do not exist");
+  CHECK(refusal([](auto& c) { c.state.open_visits[2].span.end = nan; })
+        == "the visit of grain 3 to wall 1 has a value that is not finite");
+  CHECK(refusal([](auto& c) { c.state.open_visits[1].contacts = 0; })
+        == "the visit of grain 0 to wall 0 has no contacts");
   CHECK(refusal([](auto& c) { c.state.tally.brakes.cut_short = -1; })
         == "a count of contacts with walls is negative");
   CHECK(refusal([](auto& c) { c.state.tally.visits.of_contacts[7] = -1; })
