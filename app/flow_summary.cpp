@@ -79,18 +79,19 @@ double max_overlap_ratio(const State& state) {
                   largest(state.tally.walls, true) / smallest_at_wall);
 }
 
+constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
+
 /// Of the shortest twentieth of the contacts of a kind, since the start.
 double steps_per_contact(const State& state) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const ContactTally* kind : {&state.tally.grains, &state.tally.walls})
-    if (kind->durations.total() > 0)
+    if (static_cast<double>(kind->durations.total()) >= enough_contacts)
       fewest = std::min(fewest, kind->durations.quantile(0.05) / state.time_step);
   return std::isfinite(fewest) ? fewest : unknown;
 }
 
 /// What walls do is looked at after the transient, the rest since the start.
 Evidence evidence(const CumulativeSeries& series, const State& state, double v_crit) {
-  constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
   const bool enough = series.total("wall_contacts_ended") >= enough_contacts;
   const auto of_walls = [&](const char* part, const char* whole) {
     return enough ? series.ratio(part, whole).value : unknown;

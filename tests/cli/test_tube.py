@@ -59,7 +59,9 @@ class Tube(CommandTest):
     def test_counts_and_losses_never_decrease(self):
         with h5py.File(self.out / "run.h5", "r") as file:
             for name in ("time", "grain_contacts", "wall_contacts", "normal_loss", "friction_loss",
-                         "max_overlap"):
+                         "max_overlap", "wall_contacts_ended", "wall_contacts_cut_short",
+                         "wall_braking", "wall_braking_cut_short", "wall_visits",
+                         "wall_visit_contacts", "wall_pulling_time"):
                 self.assertTrue((np.diff(file["series"][name]) >= 0.0).all(), name)
             self.assertGreater(file["series/grain_contacts"][-1], 0)
             self.assertGreater(file["series/wall_contacts"][-1], 0)
