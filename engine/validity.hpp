@@ -32,7 +32,7 @@ struct Finding {
   std::string_view name;
   double value;
   double suspect;     ///< threshold
-  double unphysical;  ///< threshold; infinite if there is none
+  double unphysical;  ///< threshold; infinite (of either sign) if there is none
   bool low_is_bad;    ///< below the thresholds instead of above them
   Validity verdict;
   std::string_view meaning;  ///< in words, of a finding that is not valid
