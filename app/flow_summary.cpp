@@ -1,15 +1,19 @@
 #include "app/flow_summary.hpp"
 
+#include "app/cumulative.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/steady_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 namespace riesel::app {
 
 namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double total_mass(const Grains& grains) {
   ExactSum sum;  // the slots have no fixed order
@@ -32,21 +36,74 @@ double mean_from(const std::vector<double>& series, std::size_t first) {
   return std::accumulate(begin, series.end(), 0.0) / static_cast<double>(series.end() - begin);
 }
 
-/// Eq. (9), from what has happened between row `first` and the last row.
-io::FlowSummary::Balance balance(const io::RunFile& file, std::size_t first, double interval,
-                                 const State& state) {
-  const std::vector<double> contacts = file.series("wall_contacts");
-  const std::vector<double> impulse = file.series("wall_impulse_y");
-  io::FlowSummary::Balance b;
-  b.gravity = state.gravity;
-  const double duration = interval * static_cast<double>(contacts.size() - 1 - first);
-  const double count = contacts.back() - contacts[first];
-  if (duration <= 0.0 || count <= 0.0) return b;
+io::Measured scaled(const io::Measured& m, double factor) {
+  return {.value = factor * m.value, .error = std::abs(factor) * m.error};
+}
+
+/// Eq. (9)
+io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& state) {
   const auto n = static_cast<double>(state.grains.size());
-  b.n_dot = count / (n * duration);
-  b.dv_y = -(impulse.back() - impulse[first]) / (total_mass(state.grains) / n) / count;
-  b.n_dot_dv_y = b.n_dot * b.dv_y;
-  return b;
+  const double mass = total_mass(state.grains);
+  return {.n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
+          .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
+          .n_dot_dv_y = scaled(series.rate("wall_impulse_y"), -1.0 / mass),
+          .gravity = state.gravity};
+}
+
+io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const VisitTally& tally) {
+  const auto per_visit = [&](const char* name) { return series.ratio(name, "wall_visits"); };
+  return {.visits = series.total("wall_visits"),
+          .contacts = per_visit("wall_visit_contacts"),
+          .dv_y = per_visit("wall_visit_dv_y"),
+          .dv_x = per_visit("wall_visit_dv_x"),
+          .entry_rate = per_visit("wall_visit_entry_rate"),
+          .entry_slip = per_visit("wall_visit_entry_slip"),
+          .of_contacts = tally.of_contacts};
+}
+
+/// Over all contacts since the start: the largest of any kind.
+double max_overlap_ratio(const State& state) {
+  const auto& radii = state.grains.radius;
+  const double smallest = *std::min_element(radii.begin(), radii.end());
+  double smallest_at_wall = smallest;
+  for (const WallLattice& wall : state.walls)
+    smallest_at_wall = std::min(smallest_at_wall, wall.radius);
+  const auto largest = [&](const ContactTally& ended, bool of_walls) {
+    double overlap = ended.max_overlap;
+    for (const Contact& contact : state.contacts)
+      if ((contact.name.wall != no_wall) == of_walls)
+        overlap = std::max(overlap, contact.max_overlap);
+    return overlap;
+  };
+  return std::max(largest(state.tally.grains, false) / smallest,
+                  largest(state.tally.walls, true) / smallest_at_wall);
+}
+
+constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
+
+/// Of the shortest twentieth of the contacts of a kind, since the start.
+double steps_per_contact(const State& state) {
+  double fewest = std::numeric_limits<double>::infinity();
+  for (const ContactTally* kind : {&state.tally.grains, &state.tally.walls})
+    if (static_cast<double>(kind->durations.total()) >= enough_contacts)
+      fewest = std::min(fewest, kind->durations.quantile(0.05) / state.time_step);
+  return std::isfinite(fewest) ? fewest : unknown;
+}
+
+/// What walls do is looked at after the transient, the rest since the start.
+Evidence evidence(const CumulativeSeries& series, const State& state, double v_crit) {
+  const bool enough = series.total("wall_contacts_ended") >= enough_contacts;
+  const auto of_walls = [&](const char* part, const char* whole) {
+    return enough ? series.ratio(part, whole).value : unknown;
+  };
+  return {
+      .max_overlap_ratio = max_overlap_ratio(state),
+      .brake_failure_fraction = of_walls("wall_braking_cut_short", "wall_braking"),
+      .passages_per_visit = of_walls("wall_contacts_cut_short", "wall_visits"),
+      .wall_speed_ratio = of_walls("wall_entry_slip", "wall_contacts_ended") / v_crit,
+      .pulling_fraction = of_walls("wall_pulling_time", "wall_contact_time"),
+      .steps_per_contact = steps_per_contact(state),
+  };
 }
 
 }  // namespace
@@ -59,18 +116,21 @@ io::FlowSummary summarise(const io::RunFile& file, const State& state, const Con
   io::FlowSummary s;
   s.time = state.time();
   s.state = std::string(name(steady.verdict));
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   s.mean_axial_velocity = {.value = steady.mean,
                            .error = velocity.size() > 1 ? steady.error : unknown};
   s.independent_samples = steady.independent_samples;
+  const CumulativeSeries series(file, steady.transient_end, interval);
   if (steady.transient_end < velocity.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = mean_from(file.series("granular_temperature"), steady.transient_end);
-    s.balance = balance(file, steady.transient_end, interval, state);
     s.validity.v_crit =
         critical_velocity(state, model, mean_from(file.series("sigma_vx"), steady.transient_end));
   }
-  s.validity.max_overlap_ratio = last.max_overlap / mean_diameter(state.grains);
+  s.balance = balance(series, state);
+  s.wall_visits = wall_visits(series, state.tally.visits);
+  s.validity.verdict = judge(evidence(series, state, s.validity.v_crit));
+  s.validity.friction_failure_fraction =
+      series.ratio("wall_friction_loss_cut_short", "wall_friction_loss").value;
   const Energies& e = last.energies;
   s.energy = {.initial = state.origin.kinetic,
               .kinetic = e.kinetic,

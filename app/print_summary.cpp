@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <string>
+
 namespace riesel::app {
 
 namespace {
@@ -11,6 +14,39 @@ std::string explanation(const std::string& state) {
   if (state == "accelerating") return "the grains still gain speed: the mean is no steady velocity";
   if (state == "drifting") return "there still is a trend: the mean is no steady velocity";
   return "too few independent samples for a steady mean";
+}
+
+void print_balance(const io::FlowSummary::Balance& b) {
+  const std::string factors =
+      b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s x {:.4g} m/s", b.n_dot.value, b.dv_y.value)
+                          : std::string("none begun, lasting ones");
+  fmt::print("  {:<22}{} = {:.4g} +- {:.2g} m/s^2, gravity {:.4g} m/s^2\n", "wall collisions",
+             factors, b.n_dot_dv_y.value, b.n_dot_dv_y.error, b.gravity);
+}
+
+void print_visits(const io::FlowSummary::WallVisits& v) {
+  if (v.visits == 0.0) {
+    fmt::print("  {:<22}none after the transient\n", "visit to a wall");
+    return;
+  }
+  fmt::print("  {:<22}{:.3g} +- {:.1g} contacts, {:.3g} +- {:.1g} m/s lost ({:.0f} visits)\n",
+             "visit to a wall", v.contacts.value, v.contacts.error, v.dv_y.value, v.dv_y.error,
+             v.visits);
+}
+
+/// The verdict, and the findings that are the reason for it.
+void print_validity(const ValidityVerdict& v) {
+  fmt::print("  {:<22}{}\n", "validity", name(v.verdict));
+  for (const Finding& f : v.findings) {
+    if (f.verdict == Validity::valid) continue;
+    if (std::isnan(f.value)) {
+      fmt::print("  {:<22}{}: {}; {}\n", name(f.verdict), f.name, f.meaning, f.remedy);
+      continue;
+    }
+    const double threshold = f.verdict == Validity::unphysical ? f.unphysical : f.suspect;
+    fmt::print("  {:<22}{} = {:.3g}, {} {:.3g}: {}; {}\n", name(f.verdict), f.name, f.value,
+               f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
+  }
 }
 
 void print_common(const io::RunSummary& run, const std::filesystem::path& directory) {
@@ -30,13 +66,11 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
              s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
   fmt::print("  {:<22}{}: {}\n", "state", s.state, explanation(s.state));
   fmt::print("  {:<22}{:.4g} m^2/s^2\n", "granular temperature", s.granular_temperature);
-  fmt::print("  {:<22}{:.4g} 1/s x {:.4g} m/s = {:.4g} m/s^2, gravity {:.4g} m/s^2\n",
-             "wall collisions", s.balance.n_dot, s.balance.dv_y, s.balance.n_dot_dv_y,
-             s.balance.gravity);
+  print_balance(s.balance);
+  print_visits(s.wall_visits);
   fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
              s.energy.residual / (s.energy.initial + s.energy.gravity_work));
-  fmt::print("  {:<22}{:.2g} of the mean grain diameter\n", "largest overlap",
-             s.validity.max_overlap_ratio);
+  print_validity(s.validity.verdict);
   print_common(s.run, directory);
 }
 

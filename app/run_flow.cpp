@@ -126,7 +126,7 @@ private:
     const auto start = Clock::now();
     last_ = observe(simulation_.state());
     times_.measuring += seconds_since(start);
-    file_.append(series_row(last_));
+    file_.append(series_row(last_, simulation_.state().tally));
     if (last_.outside > 0.0)
       throw RunFailure(fmt::format(
           "{:.0f} grains have gone through a wall at t = {:.6g} s: the contacts are too soft for "
@@ -170,6 +170,8 @@ private:
         summarise(file_, simulation_.state(), simulation_.model(), last_,
                   static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step);
     s.run = run_summary();
+    file_.write_validity(s.validity.verdict);
+    file_.flush();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));
     print_summary(s, directory_.path());
     if (simulation_.profile().on())

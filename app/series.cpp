@@ -6,42 +6,82 @@ namespace {
 
 struct Entry {
   io::Column column;
-  double (*value)(const Observables&);
+  double (*value)(const Observables&, const Tally&);
 };
+
+double number(std::int64_t count) { return static_cast<double>(count); }
+
+/// From the sums over what has ended, all since the start.
+const std::vector<Entry>& entries_of_walls() {
+  static const std::vector<Entry> table = {
+      {{"wall_contacts_ended", "1", "Contacts with walls ended so far."},
+       [](auto&, auto& t) { return number(t.brakes.contacts); }},
+      {{"wall_contacts_cut_short", "1", "Those whose passage was shorter than t_col."},
+       [](auto&, auto& t) { return number(t.brakes.cut_short); }},
+      {{"wall_braking", "kg m/s", "Axial impulse taken by wall contacts that brake."},
+       [](auto&, auto& t) { return t.brakes.braking.value(); }},
+      {{"wall_braking_cut_short", "kg m/s", "The same by those cut short."},
+       [](auto&, auto& t) { return t.brakes.braking_cut_short.value(); }},
+      {{"wall_friction_loss", "J", "Dissipated by friction in wall contacts."},
+       [](auto&, auto& t) { return t.brakes.friction_loss.value(); }},
+      {{"wall_friction_loss_cut_short", "J", "The same in those cut short."},
+       [](auto&, auto& t) { return t.brakes.friction_loss_cut_short.value(); }},
+      {{"wall_entry_slip", "m/s", "Sum of the slip speeds at the beginning of wall contacts."},
+       [](auto&, auto& t) { return t.brakes.entry_slip.value(); }},
+      {{"wall_contact_time", "s", "Sum of the durations of wall contacts."},
+       [](auto&, auto& t) { return t.brakes.duration.value(); }},
+      {{"wall_pulling_time", "s", "The part of it in which the normal force pulls."},
+       [](auto&, auto& t) { return t.brakes.pulling.value(); }},
+      {{"wall_visits", "1", "Visits to walls that are over."},
+       [](auto&, auto& t) { return number(t.visits.visits()); }},
+      {{"wall_visit_contacts", "1", "Contacts of these visits."},
+       [](auto&, auto& t) { return number(t.visits.contacts); }},
+      {{"wall_visit_dv_y", "m/s", "Sum of the axial velocities lost in visits."},
+       [](auto&, auto& t) { return t.visits.dv_y.value(); }},
+      {{"wall_visit_dv_x", "m/s", "Sum of the velocities gained in visits away from the wall."},
+       [](auto&, auto& t) { return t.visits.dv_x.value(); }},
+      {{"wall_visit_entry_rate", "m/s", "Sum of the normal velocities at the beginning of visits."},
+       [](auto&, auto& t) { return t.visits.entry_rate.value(); }},
+      {{"wall_visit_entry_slip", "m/s", "Sum of the slip speeds at the beginning of visits."},
+       [](auto&, auto& t) { return t.visits.entry_slip.value(); }},
+  };
+  return table;
+}
 
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> table = {
-      {{"time", "s", "Time since the start."}, [](auto& o) { return o.time; }},
-      {{"mean_vx", "m/s", "Mean velocity across the tube."}, [](auto& o) { return o.mean_vx; }},
+      {{"time", "s", "Time since the start."}, [](auto& o, auto&) { return o.time; }},
+      {{"mean_vx", "m/s", "Mean velocity across the tube."},
+       [](auto& o, auto&) { return o.mean_vx; }},
       {{"mean_vy", "m/s", "Mean axial velocity, positive downstream."},
-       [](auto& o) { return o.mean_vy; }},
+       [](auto& o, auto&) { return o.mean_vy; }},
       {{"sigma_vx", "m/s", "Standard deviation of the grains' velocities across the tube."},
-       [](auto& o) { return o.sigma_vx; }},
+       [](auto& o, auto&) { return o.sigma_vx; }},
       {{"sigma_vy", "m/s", "Standard deviation of the grains' axial velocities."},
-       [](auto& o) { return o.sigma_vy; }},
+       [](auto& o, auto&) { return o.sigma_vy; }},
       {{"granular_temperature", "m^2/s^2", "Mean of the two squared standard deviations."},
-       [](auto& o) { return o.granular_temperature; }},
+       [](auto& o, auto&) { return o.granular_temperature; }},
       {{"kinetic_energy", "J", "Kinetic energy of all grains."},
-       [](auto& o) { return o.energies.kinetic; }},
+       [](auto& o, auto&) { return o.energies.kinetic; }},
       {{"elastic_energy", "J", "Energy stored in contacts."},
-       [](auto& o) { return o.energies.elastic; }},
+       [](auto& o, auto&) { return o.energies.elastic; }},
       {{"gravity_work", "J", "Work of gravity since the start."},
-       [](auto& o) { return o.energies.gravity_work; }},
+       [](auto& o, auto&) { return o.energies.gravity_work; }},
       {{"normal_loss", "J", "Dissipated by normal damping since the start."},
-       [](auto& o) { return o.energies.normal_loss; }},
+       [](auto& o, auto&) { return o.energies.normal_loss; }},
       {{"friction_loss", "J", "Dissipated by friction since the start."},
-       [](auto& o) { return o.energies.friction_loss; }},
+       [](auto& o, auto&) { return o.energies.friction_loss; }},
       {{"energy_residual", "J", "What is missing in the balance of energy."},
-       [](auto& o) { return o.energies.residual; }},
-      {{"contacts", "1", "Lasting contacts per grain."}, [](auto& o) { return o.contacts; }},
+       [](auto& o, auto&) { return o.energies.residual; }},
+      {{"contacts", "1", "Lasting contacts per grain."}, [](auto& o, auto&) { return o.contacts; }},
       {{"grain_contacts", "1", "Contacts between grains begun since the start."},
-       [](auto& o) { return o.grain_contacts_begun; }},
+       [](auto& o, auto&) { return o.grain_contacts_begun; }},
       {{"wall_contacts", "1", "Contacts with walls begun since the start."},
-       [](auto& o) { return o.wall_contacts_begun; }},
+       [](auto& o, auto&) { return o.wall_contacts_begun; }},
       {{"wall_impulse_y", "kg m/s", "Axial impulse given to the grains by the walls so far."},
-       [](auto& o) { return o.wall_impulse_y; }},
+       [](auto& o, auto&) { return o.wall_impulse_y; }},
       {{"max_overlap", "m", "Largest overlap of all contacts so far."},
-       [](auto& o) { return o.max_overlap; }},
+       [](auto& o, auto&) { return o.max_overlap; }},
   };
   return table;
 }
@@ -50,13 +90,15 @@ const std::vector<Entry>& entries() {
 
 std::vector<io::Column> series_columns() {
   std::vector<io::Column> columns;
-  for (const Entry& entry : entries()) columns.push_back(entry.column);
+  for (const auto* table : {&entries(), &entries_of_walls()})
+    for (const Entry& entry : *table) columns.push_back(entry.column);
   return columns;
 }
 
-std::vector<double> series_row(const Observables& observables) {
+std::vector<double> series_row(const Observables& observables, const Tally& tally) {
   std::vector<double> row;
-  for (const Entry& entry : entries()) row.push_back(entry.value(observables));
+  for (const auto* table : {&entries(), &entries_of_walls()})
+    for (const Entry& entry : *table) row.push_back(entry.value(observables, tally));
   return row;
 }
 

@@ -1,4 +1,4 @@
-// The time series of a flow: which observables a row of run.h5 holds.
+// The time series of a flow: which observables and which sums over contacts a row of run.h5 holds.
 #pragma once
 
 #include "engine/observables.hpp"
@@ -12,6 +12,6 @@ namespace riesel::app {
 std::vector<io::Column> series_columns();
 
 /// The values of one row.
-std::vector<double> series_row(const Observables& observables);
+std::vector<double> series_row(const Observables& observables, const Tally& tally);
 
 }  // namespace riesel::app

@@ -37,9 +37,7 @@ Flights::Flights(State& state, const ContactModel& model, Candidates& candidates
       units_(state),
       tolerance_(tolerance_per_diameter * mean_diameter(state.grains)),
       tolerance_x_(nearest_fixed(tolerance_ * std::sqrt(0.5) / state.box.quantum_x())),
-      tolerance_y_(nearest_fixed(tolerance_ * std::sqrt(0.5) / state.box.quantum_y())) {
-  begin(state.step, state.step + 1);
-}
+      tolerance_y_(nearest_fixed(tolerance_ * std::sqrt(0.5) / state.box.quantum_y())) {}
 
 /// What a step is, in the order in which it happens.
 void Flights::step(std::int64_t step) {
@@ -66,6 +64,10 @@ void Flights::land(std::int64_t step) {
 }
 
 void Flights::take_off() {
+  if (place_.empty()) {
+    begin(state_.step, state_.step + 1);
+    return;
+  }
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place)
     if (deflected_.in_use(place)) set_course(place, state_.step);
   make_appointments(state_.step, state_.step + 1);

@@ -34,16 +34,16 @@ public:
   /// an appointment.
   static constexpr double skin_per_diameter = 0.6;
 
-  /// All grains of `state` must be at its step. One slice only; nobody else uses the candidates
-  /// afterwards. Keeps references.
+  /// One slice only; nobody else uses the candidates afterwards. Keeps references.
   Flights(State& state, const ContactModel& model, Candidates& candidates);
 
-  /// One step of all that does not fly. The store is a state again after land() only.
+  /// To be called before the first step(), and between land() and the next. All grains are at the
+  /// step of the state. From here to land() the store is no state.
+  void take_off();
+  /// One step of all that does not fly.
   void step(std::int64_t step);
   /// Brings all grains to this step, which must be that of the last step().
   void land(std::int64_t step);
-  /// To be called between land() and the next step().
-  void take_off();
 
 private:
   void begin(std::int64_t step, std::int64_t earliest);

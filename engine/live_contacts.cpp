@@ -89,6 +89,7 @@ RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, Ste
         c.kick[3][i] = nearest_fixed(other_y);
         size += std::abs(other_x) + std::abs(other_y);
       } else {
+        add(RIESEL_LIFE(impulse_x), fx * u.dt);
         add(RIESEL_LIFE(impulse_y), fy * u.dt);
         add(RIESEL_LIFE(impulse_y_times_step), fy * u.dt * u.step);
       }

@@ -41,6 +41,9 @@ void check_contacts(const State& state) {
     require(grain >= 0 && grain < grains && known_partner && wall >= no_wall && wall < walls,
             "a contact of bodies that do not exist");
   }
+  for (const WallVisit& v : state.open_visits)
+    require(v.grain >= 0 && v.grain < grains && v.wall >= 0 && v.wall < walls,
+            "a visit of a grain or to a wall that does not exist");
 }
 
 /// `state` if a simulation can start from it, its balances opened.
@@ -97,7 +100,8 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       model_(model),
       fall_(fall_per_step(state_)),
       threads_(team_size(threads)),
-      stepping_(stepping) {
+      stepping_(stepping),
+      wall_watch_(state_, model_) {
   choose_stepping();
 }
 
@@ -217,6 +221,7 @@ void Simulation::collect() {
     profile_.merge(slice.profile);
     slice.profile = Profile(slice.profile.on());
   }
+  wall_watch_.look(state_);
 }
 
 void Simulation::fail_if_in_trouble() const {

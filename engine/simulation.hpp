@@ -4,6 +4,7 @@
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
+#include "engine/wall_watch.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -71,6 +72,7 @@ private:
   const Stepping stepping_;
   Profile profile_;
   std::unique_ptr<Candidates> candidates_;
+  const WallWatch wall_watch_;
   std::unique_ptr<Flights> flights_;  // while stepping by windows
 };
 

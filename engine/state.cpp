@@ -15,9 +15,15 @@ void add(Hash& hash, const Grains& g, std::size_t i) {
 
 void add(Hash& hash, const Contact& c) {
   for (const auto part : {c.name.wall, c.name.grain, c.name.partner}) hash.add(part);
-  for (const auto part : {c.begin, c.end, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path,
-                          c.normal_loss, c.friction_loss, c.impulse_y, c.impulse_y_times_step})
+  for (const auto part :
+       {c.begin, c.end, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path, c.normal_loss,
+        c.friction_loss, c.impulse_x, c.impulse_y, c.impulse_y_times_step})
     hash.add(part);
+}
+
+void add(Hash& hash, const ExactSum& sum) {
+  hash.add(sum.high());
+  hash.add(sum.low());
 }
 
 void add(Hash& hash, const ContactTally& t) {
@@ -25,10 +31,31 @@ void add(Hash& hash, const ContactTally& t) {
   hash.add(t.ended);
   hash.add(t.max_overlap);
   for (const auto& sum : {t.duration, t.slip_path, t.normal_loss, t.friction_loss, t.impulse_y,
-                          t.impulse_y_times_step}) {
-    hash.add(sum.high());
-    hash.add(sum.low());
-  }
+                          t.impulse_y_times_step})
+    add(hash, sum);
+  for (const auto count : t.durations.counts()) hash.add(count);
+}
+
+void add(Hash& hash, const WallVisit& v) {
+  for (const auto part : {v.wall, v.grain}) hash.add(part);
+  for (const auto part : {v.span.begin, v.span.end, v.entry_rate, v.entry_slip}) hash.add(part);
+  hash.add(v.contacts);
+  add(hash, v.impulse_x);
+  add(hash, v.impulse_y);
+}
+
+void add(Hash& hash, const BrakeTally& t) {
+  hash.add(t.contacts);
+  hash.add(t.cut_short);
+  for (const auto& sum : {t.braking, t.braking_cut_short, t.friction_loss,
+                          t.friction_loss_cut_short, t.entry_slip, t.duration, t.pulling})
+    add(hash, sum);
+}
+
+void add(Hash& hash, const VisitTally& t) {
+  for (const auto count : t.of_contacts) hash.add(count);
+  hash.add(t.contacts);
+  for (const auto& sum : {t.dv_y, t.dv_x, t.entry_rate, t.entry_slip}) add(hash, sum);
 }
 
 }  // namespace
@@ -117,8 +144,11 @@ std::uint64_t state_hash(const State& state) {
   const Grains ordered = ordered_by_id(state.grains);
   for (std::size_t i = 0; i < ordered.size(); ++i) add(hash, ordered, i);
   for (const Contact& contact : state.contacts) add(hash, contact);
+  for (const WallVisit& visit : state.open_visits) add(hash, visit);
   add(hash, state.tally.grains);
   add(hash, state.tally.walls);
+  add(hash, state.tally.brakes);
+  add(hash, state.tally.visits);
   return hash.value();
 }
 

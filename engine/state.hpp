@@ -53,9 +53,10 @@ struct State {
   double time_step = 0.0;  ///< s
   std::int64_t step = 0;   ///< steps done
   Grains grains;
-  std::vector<Contact> contacts;  ///< those that last, ordered by (wall, grain, partner)
-  Tally tally;                    ///< what the ended contacts did since step 0
-  Origin origin;                  ///< set by the Simulation that does the first step
+  std::vector<Contact> contacts;       ///< those that last, ordered by (wall, grain, partner)
+  std::vector<WallVisit> open_visits;  ///< visits that may go on, ordered by (wall, grain, begin)
+  Tally tally;                         ///< what the ended contacts did since step 0
+  Origin origin;                       ///< set by the Simulation that does the first step
 
   double time() const { return static_cast<double>(step) * time_step; }  ///< s
 };

@@ -24,17 +24,24 @@ void ContactTally::merge(const ContactTally& other) {
   friction_loss.add(other.friction_loss);
   impulse_y.add(other.impulse_y);
   impulse_y_times_step.add(other.impulse_y_times_step);
+  durations.merge(other.durations);
 }
 
 void Tally::end(const Contact& contact) {
   ContactTally& kind = of(contact.name);
   ++kind.ended;
   kind.add(contact);
+  kind.durations.add(contact.duration());
+  if (contact.name.wall != no_wall) ended_at_walls.push_back(contact);
 }
 
 void Tally::merge(const Tally& other) {
   grains.merge(other.grains);
   walls.merge(other.walls);
+  brakes.merge(other.brakes);
+  visits.merge(other.visits);
+  ended_at_walls.insert(ended_at_walls.end(), other.ended_at_walls.begin(),
+                        other.ended_at_walls.end());
 }
 
 }  // namespace riesel

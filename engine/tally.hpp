@@ -4,10 +4,14 @@
 // merged in any order.
 #pragma once
 
+#include "engine/brake.hpp"
 #include "engine/contact.hpp"
 #include "engine/exact_sum.hpp"
+#include "engine/log_histogram.hpp"
+#include "engine/wall_visits.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace riesel {
 
@@ -25,8 +29,9 @@ struct ContactTally {
   /// (gravity_work).
   ExactSum impulse_y;
   ExactSum impulse_y_times_step;
+  LogHistogram durations;  ///< s, of ended contacts
 
-  /// Adds all but the counts.
+  /// Adds to the sums and to the maximum.
   void add(const Contact& contact);
   void merge(const ContactTally& other);
 };
@@ -34,6 +39,11 @@ struct ContactTally {
 struct Tally {
   ContactTally grains;  ///< free grain on free grain
   ContactTally walls;   ///< free grain on wall grain
+  BrakeTally brakes;    ///< the same contacts as brakes
+  VisitTally visits;    ///< visits to walls that are over
+  /// What is not yet in `brakes` and `visits`, in any order: WallWatch takes it up when an advance
+  /// is over.
+  std::vector<Contact> ended_at_walls;
 
   ContactTally& of(const ContactName& name) { return name.wall == no_wall ? grains : walls; }
   /// Counts a contact that has ended.

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -24,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // --- one part of the checkpoint after the other, written and read ---
 
@@ -58,6 +60,12 @@ void write_value(Hdf5Object& object, const std::string& name, const ExactSum& su
   object.set_attribute(name + "_low", sum.low());
 }
 
+template <std::size_t n>
+void write_value(Hdf5Group& group, const std::string& name,
+                 const std::array<std::int64_t, n>& counts) {
+  write_column<std::int64_t>(group, name, "1", counts);
+}
+
 template <Hdf5Number T>
 void read_value(const Hdf5Object& object, const std::string& name, T& value) {
   value = object.attribute<T>(name);
@@ -68,14 +76,29 @@ void read_value(const Hdf5Object& object, const std::string& name, ExactSum& sum
                               object.attribute<std::uint64_t>(name + "_low"));
 }
 
-void write(Hdf5Group group, const ContactTally& tally) {
-  for_each_value(tally,
-                 [&](const char* name, const auto& value) { write_value(group, name, value); });
+template <std::size_t n>
+void read_value(const Hdf5Group& group, const std::string& name,
+                std::array<std::int64_t, n>& counts) {
+  std::vector<std::int64_t> values;
+  read_column(group, name, sizeof counts, values);
+  if (values.size() != n) throw Hdf5Error("the data set " + name + " has another length");
+  std::copy(values.begin(), values.end(), counts.begin());
 }
 
-ContactTally read_tally(const Hdf5Group& group) {
-  ContactTally tally;
-  for_each_value(tally, [&](const char* name, auto& value) { read_value(group, name, value); });
+void write(Hdf5Group group, const Tally& tally) {
+  for_each_kind(tally, [&](const char* kind, const auto& of_kind) {
+    auto part = group.create_group(kind);
+    for_each_value(of_kind,
+                   [&](const char* name, const auto& value) { write_value(part, name, value); });
+  });
+}
+
+Tally read_tally(const Hdf5Group& group) {
+  Tally tally;
+  for_each_kind(tally, [&](const char* kind, auto& of_kind) {
+    const auto part = group.group(kind);
+    for_each_value(of_kind, [&](const char* name, auto& value) { read_value(part, name, value); });
+  });
   return tally;
 }
 
@@ -86,9 +109,9 @@ void write(Hdf5Group root, const State& state) {
   write_records(walls, state.walls);
   auto contacts = root.create_group("contacts");
   write_records(contacts, state.contacts);
-  auto tally = root.create_group("tally");
-  write(tally.create_group("grains"), state.tally.grains);
-  write(tally.create_group("walls"), state.tally.walls);
+  auto open_visits = root.create_group("open_visits");
+  write_records(open_visits, state.open_visits);
+  write(root.create_group("tally"), state.tally);
 }
 
 State read_state(const Hdf5Group& root, std::size_t most_bytes) {
@@ -97,9 +120,8 @@ State read_state(const Hdf5Group& root, std::size_t most_bytes) {
   state.grains = read_grains(root.group("grains"), most_bytes);
   state.walls = read_records<WallLattice>(root.group("walls"), most_bytes);
   state.contacts = read_records<Contact>(root.group("contacts"), most_bytes);
-  const auto tally = root.group("tally");
-  state.tally.grains = read_tally(tally.group("grains"));
-  state.tally.walls = read_tally(tally.group("walls"));
+  state.open_visits = read_records<WallVisit>(root.group("open_visits"), most_bytes);
+  state.tally = read_tally(root.group("tally"));
   return state;
 }
 

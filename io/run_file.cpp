@@ -214,6 +214,13 @@ void RunFile::write_final_state(const State& state) {
   write_records(contacts, state.contacts);
 }
 
+void RunFile::write_validity(const ValidityVerdict& validity) {
+  auto group = replace_group(contents_->root(), "validity");
+  group.set_attribute("verdict", name(validity.verdict));
+  for (const Finding& finding : validity.findings)
+    group.set_attribute(std::string(finding.name), finding.value);
+}
+
 void RunFile::write_curve(const std::vector<Column>& columns,
                           const std::vector<std::vector<double>>& rows) {
   for (const auto& row : rows) check_row(row.size(), columns.size());

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "engine/state.hpp"
+#include "engine/validity.hpp"
 #include "io/provenance.hpp"
 
 #include <cstdint>
@@ -64,6 +65,10 @@ public:
   /// Replaces the final state in /final: grains and contacts in SI units, grains in the order of
   /// their ids, walls.
   void write_final_state(const State& state);
+
+  /// Replaces the verdict of validity in /validity: an attribute for it, and one for the value of
+  /// each finding.
+  void write_validity(const ValidityVerdict& validity);
 
   /// Replaces the curve: one data set /curve/NAME for each column. Each row has one value for each
   /// column.

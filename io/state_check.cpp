@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace riesel::io {
@@ -98,10 +100,41 @@ std::string flaw_of_contacts(const State& state) {
   return {};
 }
 
+/// The span of a grain that stands still at a wall, without gravity, has no end.
+bool has_numbers(const WallVisit& visit) {
+  return std::isfinite(visit.span.begin) && !std::isnan(visit.span.end)
+         && std::isfinite(visit.entry_rate) && std::isfinite(visit.entry_slip);
+}
+
+std::string flaw_of_visits(const State& state) {
+  const auto key = [](const WallVisit& v) { return std::tie(v.wall, v.grain, v.span.begin); };
+  const WallVisit* last = nullptr;
+  for (const auto& visit : state.open_visits) {
+    const auto text = [&] {
+      return fmt::format("the visit of grain {} to wall {}", visit.grain, visit.wall);
+    };
+    if (!is_index(visit.grain, state.grains.size()) || !is_index(visit.wall, state.walls.size()))
+      return text() + " is between bodies that do not exist";
+    if (!has_numbers(visit)) return text() + " has a value that is not finite";
+    if (last != nullptr && !(key(*last) < key(visit))) return text() + " is out of order";
+    if (visit.contacts < 1) return text() + " has no contacts";
+    last = &visit;
+  }
+  return {};
+}
+
 std::string flaw_of_tally(const ContactTally& tally) {
   if (tally.begun < 0 || tally.ended < 0) return "a count of contacts is negative";
   if (!std::isfinite(tally.max_overlap)) return "the greatest overlap is not finite";
   return {};
+}
+
+std::string flaw_of_walls_tally(const Tally& tally) {
+  const auto& visits = tally.visits.of_contacts;
+  const bool negative =
+      tally.brakes.contacts < 0 || tally.brakes.cut_short < 0 || tally.visits.contacts < 0
+      || std::any_of(visits.begin(), visits.end(), [](std::int64_t count) { return count < 0; });
+  return negative ? "a count of contacts with walls is negative" : std::string();
 }
 
 }  // namespace
@@ -111,8 +144,10 @@ std::string flaw_of(const State& state) {
   if (flaw.empty()) flaw = flaw_of_walls(state);
   if (flaw.empty()) flaw = flaw_of_grains(state.grains);
   if (flaw.empty()) flaw = flaw_of_contacts(state);
+  if (flaw.empty()) flaw = flaw_of_visits(state);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.grains);
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.walls);
+  if (flaw.empty()) flaw = flaw_of_walls_tally(state.tally);
   return flaw;
 }
 

@@ -10,4 +10,28 @@ std::vector<std::size_t> slots_by_id(const Grains& grains) {
   return slots;
 }
 
+void write_column(Hdf5Group& group, const std::string& name, const std::string& unit,
+                  const std::vector<ExactSum>& sums) {
+  std::vector<std::int64_t> halves;
+  for (const auto& sum : sums) {
+    halves.insert(halves.end(), {sum.high(), static_cast<std::int64_t>(sum.low())});
+  }
+  write_column<std::int64_t>(group, name, unit, halves, 2);
+}
+
+void read_column(const Hdf5Group& group, const std::string& name, std::size_t most_bytes,
+                 std::vector<ExactSum>& sums) {
+  const auto data = group.data(name);
+  const auto shape = data.shape();
+  if (shape.columns != 2 || shape.rows > most_bytes / sizeof(ExactSum)) {
+    throw Hdf5Error("cannot read the data set " + name + ": its size is impossible");
+  }
+  std::vector<std::int64_t> halves(2 * shape.rows);
+  data.read(std::span(halves));
+  sums.clear();
+  for (std::size_t i = 0; i < halves.size(); i += 2) {
+    sums.push_back(ExactSum::from_halves(halves[i], static_cast<std::uint64_t>(halves[i + 1])));
+  }
+}
+
 }  // namespace riesel::io

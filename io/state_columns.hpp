@@ -43,14 +43,23 @@ void read_column(const Hdf5Group& group, const std::string& name, std::size_t mo
   data.read(std::span<T>(values));
 }
 
-/// Writes each member of all records (contacts or walls) as a column.
+/// Exact sums stand as rows of two integers: the upper 64 bits, and the lower as if signed.
+void write_column(Hdf5Group& group, const std::string& name, const std::string& unit,
+                  const std::vector<ExactSum>& sums);
+void read_column(const Hdf5Group& group, const std::string& name, std::size_t most_bytes,
+                 std::vector<ExactSum>& sums);
+
+/// Writes each member of all records (contacts, visits or walls) as a column.
 template <class Record>
 void write_records(Hdf5Group& group, const std::vector<Record>& records) {
   for_each_member<Record>([&](const char* name, const char* unit, auto member) {
     using T = std::remove_cvref_t<decltype(member(records.front()))>;
     std::vector<T> values(records.size());
     for (std::size_t i = 0; i < records.size(); ++i) values[i] = member(records[i]);
-    write_column<T>(group, name, unit, values);
+    if constexpr (std::is_same_v<T, ExactSum>)
+      write_column(group, name, unit, values);
+    else
+      write_column<T>(group, name, unit, values);
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 namespace riesel::io {
 
@@ -30,7 +31,7 @@ void for_each_array(AnyGrains& grains, Visit visit) {
 /// Calls visit(name, unit, member) for each member of a contact; member(contact) is the member.
 template <std::same_as<Contact> Record, class Visit>
 void for_each_member(Visit visit) {
-  static_assert(sizeof(Contact) == 16 + 12 * sizeof(double));
+  static_assert(sizeof(Contact) == 16 + 13 * sizeof(double));
   visit(
       "wall", "1", [](auto& c) -> auto& { return c.name.wall; });
   visit(
@@ -58,9 +59,35 @@ void for_each_member(Visit visit) {
   visit(
       "friction_loss", "J", [](auto& c) -> auto& { return c.friction_loss; });
   visit(
+      "impulse_x", "kg m/s", [](auto& c) -> auto& { return c.impulse_x; });
+  visit(
       "impulse_y", "kg m/s", [](auto& c) -> auto& { return c.impulse_y; });
   visit(
       "impulse_y_times_step", "kg m/s", [](auto& c) -> auto& { return c.impulse_y_times_step; });
+}
+
+/// Calls visit(name, unit, member) for each member of an open visit; member(visit) is the member.
+template <std::same_as<WallVisit> Record, class Visit>
+void for_each_member(Visit visit) {
+  static_assert(sizeof(WallVisit) == 8 + 5 * sizeof(double) + 2 * sizeof(ExactSum));
+  visit(
+      "wall", "1", [](auto& v) -> auto& { return v.wall; });
+  visit(
+      "grain", "1", [](auto& v) -> auto& { return v.grain; });
+  visit(
+      "begin", "s", [](auto& v) -> auto& { return v.span.begin; });
+  visit(
+      "end", "s", [](auto& v) -> auto& { return v.span.end; });
+  visit(
+      "contacts", "1", [](auto& v) -> auto& { return v.contacts; });
+  visit(
+      "entry_rate", "m/s", [](auto& v) -> auto& { return v.entry_rate; });
+  visit(
+      "entry_slip", "m/s", [](auto& v) -> auto& { return v.entry_slip; });
+  visit(
+      "impulse_x", "2^-90 kg m/s", [](auto& v) -> auto& { return v.impulse_x; });
+  visit(
+      "impulse_y", "2^-90 kg m/s", [](auto& v) -> auto& { return v.impulse_y; });
 }
 
 /// Calls visit(name, unit, member) for each member of a wall; member(wall) is the member.
@@ -75,12 +102,15 @@ void for_each_member(Visit visit) {
       "count", "1", [](auto& wall) -> auto& { return wall.count; });
 }
 
-/// Calls visit(name, value) for each number and each exact sum of a tally (const or not), in SI
-/// units.
-template <class AnyTally, class Visit>
+template <class Any, class T>
+concept MaybeConst = std::same_as<std::remove_const_t<Any>, T>;
+
+/// Calls visit(name, value) for each number, exact sum and array of counts of a tally (const or
+/// not), in SI units.
+template <MaybeConst<ContactTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
   auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, impulse_y,
-         impulse_y_times_step] = tally;
+         impulse_y_times_step, durations] = tally;
   visit("begun", begun);
   visit("ended", ended);
   visit("max_overlap", max_overlap);
@@ -90,15 +120,52 @@ void for_each_value(AnyTally& tally, Visit visit) {
   visit("friction_loss", friction_loss);
   visit("impulse_y", impulse_y);
   visit("impulse_y_times_step", impulse_y_times_step);
+  visit("durations", durations.counts());
+}
+
+template <MaybeConst<BrakeTally> AnyTally, class Visit>
+void for_each_value(AnyTally& tally, Visit visit) {
+  auto& [contacts, cut_short, braking, braking_cut_short, friction_loss, friction_loss_cut_short,
+         entry_slip, duration, pulling] = tally;
+  visit("contacts", contacts);
+  visit("cut_short", cut_short);
+  visit("braking", braking);
+  visit("braking_cut_short", braking_cut_short);
+  visit("friction_loss", friction_loss);
+  visit("friction_loss_cut_short", friction_loss_cut_short);
+  visit("entry_slip", entry_slip);
+  visit("duration", duration);
+  visit("pulling", pulling);
+}
+
+template <MaybeConst<VisitTally> AnyTally, class Visit>
+void for_each_value(AnyTally& tally, Visit visit) {
+  auto& [of_contacts, contacts, dv_y, dv_x, entry_rate, entry_slip] = tally;
+  visit("of_contacts", of_contacts);
+  visit("contacts", contacts);
+  visit("dv_y", dv_y);
+  visit("dv_x", dv_x);
+  visit("entry_rate", entry_rate);
+  visit("entry_slip", entry_slip);
+}
+
+/// Calls visit(name, tally) for each kind of tally. `ended_at_walls` is empty between two advances.
+template <MaybeConst<Tally> AnyTally, class Visit>
+void for_each_kind(AnyTally& tally, Visit visit) {
+  auto& [grains, walls, brakes, visits, ended_at_walls] = tally;
+  visit("grains", grains);
+  visit("walls", walls);
+  visit("brakes", brakes);
+  visit("visits", visits);
 }
 
 /// Calls visit(name, value) for each number that stands alone in a State (const or not), in SI
 /// units. The bindings name the rest, too, which for_each_array() and the others are for.
 template <class AnyState, class Visit>
 void for_each_scalar(AnyState& state, Visit visit) {
-  auto& [box, walls, gravity, time_step, step, grains, contacts, tally, origin] = state;
+  auto& [box, walls, gravity, time_step, step, grains, contacts, open_visits, tally, origin] =
+      state;
   auto& [width, length] = box;
-  static_assert(sizeof(tally) == 2 * sizeof(ContactTally));
   auto& [kinetic, momentum_y] = origin;
   visit("box_width", width);
   visit("box_length", length);

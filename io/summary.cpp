@@ -5,6 +5,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <limits>
+#include <string_view>
+
 namespace riesel::io {
 
 namespace {
@@ -24,6 +27,57 @@ Json common_part(const RunSummary& run) {
             {"threads", run.threads}}}};
 }
 
+Json measured(const Measured& m) { return {{"value", m.value}, {"error", m.error}}; }
+
+Json wall_visits(const FlowSummary::WallVisits& v) {
+  return {{"visits", v.visits},
+          {"contacts", measured(v.contacts)},
+          {"dv_y", measured(v.dv_y)},
+          {"dv_x", measured(v.dv_x)},
+          {"entry_rate", measured(v.entry_rate)},
+          {"entry_slip", measured(v.entry_slip)},
+          {"of_contacts_since_start", v.of_contacts}};
+}
+
+Json balance(const FlowSummary::Balance& b) {
+  return {{"n_dot", b.n_dot.value},
+          {"dv_y", b.dv_y.value},
+          {"n_dot_dv_y", b.n_dot_dv_y.value},
+          {"gravity", b.gravity},
+          {"errors",
+           {{"n_dot", b.n_dot.error}, {"dv_y", b.dv_y.error}, {"n_dot_dv_y", b.n_dot_dv_y.error}}}};
+}
+
+/// A threshold that no value passes stands as null.
+Json findings(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& f : findings)
+    list.push_back({{"name", f.name},
+                    {"value", f.value},
+                    {"suspect", f.suspect},
+                    {"unphysical", f.unphysical},
+                    {"bad_if", f.low_is_bad ? "below" : "above"},
+                    {"verdict", name(f.verdict)}});
+  return list;
+}
+
+double value_of(const ValidityVerdict& verdict, std::string_view finding) {
+  for (const Finding& f : verdict.findings)
+    if (f.name == finding) return f.value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+Json validity(const FlowSummary& s) {
+  const ValidityVerdict& v = s.validity.verdict;
+  return {{"verdict", name(v.verdict)},
+          {"max_overlap_ratio", value_of(v, "max_overlap_ratio")},
+          {"brake_failure_fraction", value_of(v, "brake_failure_fraction")},
+          {"friction_failure_fraction", s.validity.friction_failure_fraction},
+          {"contacts_per_wall_visit", s.wall_visits.contacts.value},
+          {"v_crit", s.validity.v_crit},
+          {"findings", findings(v.findings)}};
+}
+
 std::string text_of(const Json& json) { return json.dump(2) + "\n"; }
 
 }  // namespace
@@ -32,22 +86,18 @@ std::string to_json(const FlowSummary& s) {
   Json json = common_part(s.run);
   json["time"] = s.time;
   json["state"] = s.state;
-  json["mean_axial_velocity"] = {{"value", s.mean_axial_velocity.value},
-                                 {"error", s.mean_axial_velocity.error}};
+  json["mean_axial_velocity"] = measured(s.mean_axial_velocity);
   json["transient_end"] = s.transient_end;
   json["independent_samples"] = s.independent_samples;
   json["granular_temperature"] = s.granular_temperature;
-  json["balance"] = {{"n_dot", s.balance.n_dot},
-                     {"dv_y", s.balance.dv_y},
-                     {"n_dot_dv_y", s.balance.n_dot_dv_y},
-                     {"gravity", s.balance.gravity}};
+  json["balance"] = balance(s.balance);
   json["energy"] = {
       {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},
       {"elastic", s.energy.elastic},         {"gravity_work", s.energy.gravity_work},
       {"normal_loss", s.energy.normal_loss}, {"friction_loss", s.energy.friction_loss},
       {"residual", s.energy.residual}};
-  json["validity"] = {{"max_overlap_ratio", s.validity.max_overlap_ratio},
-                      {"v_crit", s.validity.v_crit}};
+  json["wall_visits"] = wall_visits(s.wall_visits);
+  json["validity"] = validity(s);
   return text_of(json);
 }
 

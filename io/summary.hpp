@@ -3,6 +3,10 @@
 // The names of its members are a contract, described in docs/files.md.
 #pragma once
 
+#include "engine/validity.hpp"
+#include "engine/wall_visits.hpp"
+
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,7 +24,7 @@ struct RunSummary {
   int threads = 1;
 };
 
-/// A number and its standard error.
+/// A number and its standard error; not a number (null in the file) where it is not known.
 struct Measured {
   double value = 0.0, error = 0.0;
 };
@@ -37,10 +41,10 @@ struct FlowSummary {
 
   /// Eq. (9): in a steady state n_dot dv_y = gravity.
   struct Balance {
-    double n_dot = 0.0;       ///< 1/s, wall contacts per grain
-    double dv_y = 0.0;        ///< m/s, mean axial velocity lost per wall contact
-    double n_dot_dv_y = 0.0;  ///< m/s^2
-    double gravity = 0.0;     ///< m/s^2
+    Measured n_dot;        ///< 1/s, wall contacts per grain
+    Measured dv_y;         ///< m/s, mean axial velocity lost per wall contact
+    Measured n_dot_dv_y;   ///< m/s^2
+    double gravity = 0.0;  ///< m/s^2
   } balance;
 
   /// J; since the start, but kinetic and elastic energy are those at the end.
@@ -49,9 +53,21 @@ struct FlowSummary {
            friction_loss = 0.0, residual = 0.0;
   } energy;
 
+  /// What grains do at a wall between coming and going.
+  struct WallVisits {
+    double visits = 0.0;  ///< how many the means are of
+    Measured contacts;    ///< per visit
+    Measured dv_y;        ///< m/s, axial velocity lost
+    Measured dv_x;        ///< m/s, velocity gained away from the wall
+    Measured entry_rate;  ///< m/s, normal velocity at the beginning of the first contact
+    Measured entry_slip;  ///< m/s, its slip speed
+    std::array<std::int64_t, VisitTally::longest> of_contacts{};  ///< since the start
+  } wall_visits;
+
   struct Validity {
-    double max_overlap_ratio = 0.0;  ///< largest overlap of the run over the mean grain diameter
-    double v_crit = 0.0;             ///< m/s, above which a typical wall contact is cut short
+    ValidityVerdict verdict{};
+    double v_crit = 0.0;  ///< m/s, above which a typical wall contact is cut short
+    double friction_failure_fraction = 0.0;  ///< of the friction loss at walls, by those cut short
   } validity;
 };
 

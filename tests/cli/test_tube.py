@@ -7,12 +7,13 @@ from riesel_command import FAILED, SMALL_TUBE, CommandTest, data_of
 
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
-                 "validity"}
+                 "wall_visits", "validity"}
 NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
                 "mean_axial_velocity": {"value", "error"},
                 "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},
                 "energy": {"residual"},
-                "validity": {"max_overlap_ratio", "v_crit"}}
+                "validity": {"verdict", "max_overlap_ratio", "brake_failure_fraction",
+                             "contacts_per_wall_visit", "v_crit", "findings"}}
 
 
 class Tube(CommandTest):
@@ -58,7 +59,9 @@ class Tube(CommandTest):
     def test_counts_and_losses_never_decrease(self):
         with h5py.File(self.out / "run.h5", "r") as file:
             for name in ("time", "grain_contacts", "wall_contacts", "normal_loss", "friction_loss",
-                         "max_overlap"):
+                         "max_overlap", "wall_contacts_ended", "wall_contacts_cut_short",
+                         "wall_braking", "wall_braking_cut_short", "wall_visits",
+                         "wall_visit_contacts", "wall_pulling_time"):
                 self.assertTrue((np.diff(file["series"][name]) >= 0.0).all(), name)
             self.assertGreater(file["series/grain_contacts"][-1], 0)
             self.assertGreater(file["series/wall_contacts"][-1], 0)

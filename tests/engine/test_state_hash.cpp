@@ -82,6 +82,19 @@ TEST_CASE("the hash notices what the balances and the tally will need") {
   CHECK(noticed([](State& s) { s.origin.momentum_y *= 2.0; }));
 }
 
+TEST_CASE("the hash notices contacts as brakes, and visits") {
+  CHECK(noticed([](State& s) { s.open_visits.pop_back(); }));
+  CHECK(noticed([](State& s) { s.open_visits[0].impulse_x.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.contacts[0].impulse_x += 1e-12; }));
+  CHECK(noticed([](State& s) { s.tally.grains.durations.add(1e-5); }));
+  CHECK(noticed([](State& s) { ++s.tally.brakes.cut_short; }));
+  CHECK(noticed([](State& s) { s.tally.brakes.braking_cut_short.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.tally.brakes.pulling.add(1e-20); }));
+  CHECK(noticed([](State& s) { ++s.tally.visits.of_contacts[7]; }));
+  CHECK(noticed([](State& s) { ++s.tally.visits.contacts; }));
+  CHECK(noticed([](State& s) { s.tally.visits.dv_x.add(1e-20); }));
+}
+
 TEST_CASE("the hash notices the walls") {
   CHECK(noticed([](State& s) { s.walls.pop_back(); }));
   CHECK(noticed([](State& s) { s.walls[0].line += 1e-6; }));

@@ -102,14 +102,21 @@ std::string message_of(Action action) {
 inline riesel::Contact contact(riesel::ContactName name, double first) {
   riesel::Contact contact{.name = name};
   double value = first;
-  for (auto* member :
-       {&contact.begin, &contact.end, &contact.entry_rate, &contact.entry_slip, &contact.overlap,
-        &contact.max_overlap, &contact.slip_path, &contact.elastic_energy, &contact.normal_loss,
-        &contact.friction_loss, &contact.impulse_y, &contact.impulse_y_times_step}) {
+  for (auto* member : {&contact.begin, &contact.end, &contact.entry_rate, &contact.entry_slip,
+                       &contact.overlap, &contact.max_overlap, &contact.slip_path,
+                       &contact.elastic_energy, &contact.normal_loss, &contact.friction_loss,
+                       &contact.impulse_x, &contact.impulse_y, &contact.impulse_y_times_step}) {
     *member = value;
     value = value * -1.3 + 0.1;
   }
   return contact;
+}
+
+inline riesel::WallVisit visit(std::int32_t wall, std::int32_t grain, double begin) {
+  riesel::WallVisit visit(contact({wall, grain, 0}, 1.0 / 7.0), {begin, begin + 1.0 / 3.0});
+  visit.contacts = 5;
+  visit.impulse_y.add(-1e9 / 3.0);
+  return visit;
 }
 
 inline riesel::ContactTally tally(double scale) {
@@ -123,7 +130,28 @@ inline riesel::ContactTally tally(double scale) {
     sum->add(value);
     value *= -1.7e-4;
   }
+  tally.durations.add(3e-5 * std::abs(scale));
   return tally;
+}
+
+inline riesel::Tally whole_tally() {
+  riesel::Tally whole;
+  whole.grains = tally(-2.5);
+  whole.walls = tally(1e10 / 3.0);
+  auto& b = whole.brakes;
+  b.contacts = 11;
+  b.cut_short = 3;
+  double value = 1.0 / 3.0;
+  const auto fill = [&](riesel::ExactSum& sum) { sum.add(value *= -1.9); };
+  for (auto* sum : {&b.braking, &b.braking_cut_short, &b.friction_loss, &b.friction_loss_cut_short,
+                    &b.entry_slip, &b.duration, &b.pulling}) {
+    fill(*sum);
+  }
+  auto& v = whole.visits;
+  v.of_contacts = {9, 8, 7, 6, 5, 4, 3, 2};
+  v.contacts = 140;
+  for (auto* sum : {&v.dv_y, &v.dv_x, &v.entry_rate, &v.entry_slip}) fill(*sum);
+  return whole;
 }
 
 /// A state of `n` >= 4 grains, in the order of their ids, with numbers that a careless format would
@@ -159,7 +187,9 @@ inline riesel::State special_state(std::size_t n = 4) {
   grains.mass[3] = std::numeric_limits<double>::max();
   state.contacts = {contact({riesel::no_wall, 0, 3}, 0.1), contact({riesel::no_wall, 1, 2}, -0.0),
                     contact({0, 0, 82}, denormal), contact({1, 2, 0}, 1e300)};
-  state.tally = {.grains = tally(-2.5), .walls = tally(1e10 / 3.0)};
+  state.open_visits = {visit(0, 0, -1.0 / 3.0), visit(0, 0, 0.1), visit(1, 3, denormal)};
+  state.open_visits[2].span.end = std::numeric_limits<double>::infinity();
+  state.tally = whole_tally();
   state.origin = {.kinetic = 1.0 / 7.0, .momentum_y = -0.0};
   return state;
 }
@@ -199,12 +229,33 @@ public:
                             &t.impulse_y, &t.impulse_y_times_step}) {
       add(*sum);
     }
+    add_all(t.durations.counts());
+  }
+  void add(const riesel::BrakeTally& t) {
+    add(t.contacts);
+    add(t.cut_short);
+    for (const auto* sum : {&t.braking, &t.braking_cut_short, &t.friction_loss,
+                            &t.friction_loss_cut_short, &t.entry_slip, &t.duration, &t.pulling}) {
+      add(*sum);
+    }
+  }
+  void add(const riesel::VisitTally& t) {
+    add_all(t.of_contacts);
+    add(t.contacts);
+    for (const auto* sum : {&t.dv_y, &t.dv_x, &t.entry_rate, &t.entry_slip}) add(*sum);
+  }
+  void add(const riesel::WallVisit& v) {
+    add_all(std::vector{v.wall, v.grain});
+    add_all(std::vector{v.span.begin, v.span.end, v.entry_rate, v.entry_slip});
+    add(v.contacts);
+    add(v.impulse_x);
+    add(v.impulse_y);
   }
   void add(const riesel::Contact& c) {
     add_all(std::vector{c.name.wall, c.name.grain, c.name.partner});
     add_all(std::vector{c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
-                        c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_y,
-                        c.impulse_y_times_step});
+                        c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
+                        c.impulse_y, c.impulse_y_times_step});
   }
   const std::string& value() const { return bits_; }
 
@@ -227,8 +278,11 @@ inline std::string bits_of(const riesel::State& state) {
   bits.add_all(g.mass);
   bits.add_all(g.id);
   for (const auto& contact : state.contacts) bits.add(contact);
+  for (const auto& visit : state.open_visits) bits.add(visit);
   bits.add(state.tally.grains);
   bits.add(state.tally.walls);
+  bits.add(state.tally.brakes);
+  bits.add(state.tally.visits);
   return bits.value();
 }
 

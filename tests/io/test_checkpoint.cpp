@@ -54,7 +54,8 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
   {
     const auto old = Hdf5File::open(path).root();
     auto root = file.root();
-    for (const auto* name : {"grains", "walls", "contacts", "tally", "settings", "source"}) {
+    for (const auto* name :
+         {"grains", "walls", "contacts", "open_visits", "tally", "settings", "source"}) {
       root.copy(old, name);
     }
     const auto copy_attribute = [&](const char* name, auto value) {
@@ -191,12 +192,12 @@ TEST_CASE("A checkpoint of another version of the format is refused with the way
   const auto path = directory / "c.h5";
   write_checkpoint(path, special_checkpoint());
   forge(path, [](Hdf5Group& root) {
-    root.set_attribute("format_version", std::int64_t{2});
+    root.set_attribute("format_version", std::int64_t{99});
     root.set_attribute("riesel_version", "9.9.9");
   });
   const auto error = error_of_reading(path);
   CAPTURE(error);
-  CHECK(error.find("has version 2 of the format") != std::string::npos);
+  CHECK(error.find("has version 99 of the format") != std::string::npos);
   CHECK(error.ends_with("; use riesel 9.9.9"));
 }
 
@@ -285,6 +286,20 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "a count of contacts is negative");
   CHECK(refusal([](auto& c) { c.state.tally.grains.max_overlap = nan; })
         == "the greatest overlap is not finite");
+  CHECK(refusal([](auto& c) { std::swap(c.state.open_visits[0], c.state.open_visits[1]); })
+        == "the visit of grain 0 to wall 0 is out of order");
+  CHECK(refusal([](auto& c) { c.state.open_visits[2].grain = 4; })
+        == "the visit of grain 4 to wall 1 is between bodies that do not exist");
+  CHECK(refusal([](auto& c) { c.state.open_visits[0].wall = no_wall; })
+        == "the visit of grain 0 to wall -1 is between bodies that do not exist");
+  CHECK(refusal([](auto& c) { c.state.open_visits[2].span.end = nan; })
+        == "the visit of grain 3 to wall 1 has a value that is not finite");
+  CHECK(refusal([](auto& c) { c.state.open_visits[1].contacts = 0; })
+        == "the visit of grain 0 to wall 0 has no contacts");
+  CHECK(refusal([](auto& c) { c.state.tally.brakes.cut_short = -1; })
+        == "a count of contacts with walls is negative");
+  CHECK(refusal([](auto& c) { c.state.tally.visits.of_contacts[7] = -1; })
+        == "a count of contacts with walls is negative");
   CHECK(refusal([](auto& c) { c.rows = -1; }) == "the number of rows is negative");
   CHECK(refusal([](auto& c) { c.wall_seconds = nan; }) == "the time taken is negative");
 }

@@ -235,6 +235,27 @@ TEST_CASE("A run file holds the final state in SI units, in the order of the ids
   CHECK(read<std::int32_t>(final.group("contacts"), "partner") == std::vector<std::int32_t>{1});
 }
 
+TEST_CASE("A run file holds the last verdict of validity") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  auto file = RunFile::create(path, provenance, columns);
+  Evidence evidence{.max_overlap_ratio = 0.1,
+                    .brake_failure_fraction = std::nan(""),
+                    .passages_per_visit = 0.0,
+                    .wall_speed_ratio = 0.3,
+                    .pulling_fraction = 0.05,
+                    .steps_per_contact = 50.0};
+  file.write_validity(judge(evidence));
+  evidence.max_overlap_ratio = 0.7;
+  file.write_validity(judge(evidence));
+  file.flush();
+  const auto group = Hdf5File::open(path).root().group("validity");
+  CHECK(group.text_attribute("verdict") == "unphysical");
+  CHECK(group.attribute<double>("max_overlap_ratio") == 0.7);
+  CHECK(std::isnan(group.attribute<double>("brake_failure_fraction")));
+  CHECK(group.attribute<double>("steps_per_contact") == 50.0);
+}
+
 TEST_CASE("A run file holds a curve") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;

@@ -1,0 +1,83 @@
+#include "engine/brake.hpp"
+
+#include "engine/closed_forms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel {
+
+namespace {
+
+/// s, duration of a contact that nothing cuts short. An overdamped one creeps apart and has none:
+/// the elastic time stands for it.
+double undisturbed_time(const NormalLaw& normal, double mass, double speed) {
+  if (const auto* linear = std::get_if<LinearLaw>(&normal)) {
+    const LinearContact contact{linear->k_n, linear->gamma_n, mass};
+    if (!contact.rebounds()) return elastic_collision_time(linear->elastic_line(), mass, speed);
+  }
+  return collision_time(normal, mass, speed);
+}
+
+/// Where F_N changes its sign in the second half of overlap = 4 depth s (1 - s), 0 < s < 1.
+template <class Normal>
+double sign_change(const Normal& normal, double mass, double depth, double duration) {
+  const auto pushes = [&](double s) {
+    const double overlap = 4.0 * depth * s * (1.0 - s);
+    const double rate = 4.0 * depth * (1.0 - 2.0 * s) / duration;
+    return normal.elastic(overlap) + normal.damping(overlap, rate, mass) >= 0.0;
+  };
+  double pushing = 0.5, pulling = 1.0;
+  for (int i = 0; i < 12; ++i) {  // to 1e-4 of the duration
+    const double middle = 0.5 * (pushing + pulling);
+    (pushes(middle) ? pushing : pulling) = middle;
+  }
+  return pulling;
+}
+
+}  // namespace
+
+bool is_cut_short(const Contact& contact, const NormalLaw& normal, double mass) {
+  // A passage of one or two steps may be on its way out when it is first seen.
+  const double speed = std::max(std::abs(contact.entry_rate), 1e-9);  // m/s
+  return contact.duration() < cut_short_below * undisturbed_time(normal, mass, speed);
+}
+
+double pulling_time(const Contact& contact, const ContactModel& model, double mass) {
+  const double duration = contact.duration();
+  if (model.attraction == Attraction::clip || duration <= 0.0 || contact.max_overlap <= 0.0)
+    return 0.0;
+  return std::visit(
+      [&](const auto& normal) {
+        return duration * (1.0 - sign_change(normal, mass, contact.max_overlap, duration));
+      },
+      model.normal);
+}
+
+void BrakeTally::add(const Contact& contact, const ContactModel& model, double mass) {
+  const double braking_impulse = std::max(0.0, -contact.impulse_y);
+  ++contacts;
+  braking.add(braking_impulse);
+  friction_loss.add(contact.friction_loss);
+  entry_slip.add(std::abs(contact.entry_slip));
+  duration.add(contact.duration());
+  pulling.add(pulling_time(contact, model, mass));
+  if (!is_cut_short(contact, model.normal, mass)) return;
+  ++cut_short;
+  braking_cut_short.add(braking_impulse);
+  friction_loss_cut_short.add(contact.friction_loss);
+}
+
+void BrakeTally::merge(const BrakeTally& other) {
+  contacts += other.contacts;
+  cut_short += other.cut_short;
+  braking.add(other.braking);
+  braking_cut_short.add(other.braking_cut_short);
+  friction_loss.add(other.friction_loss);
+  friction_loss_cut_short.add(other.friction_loss_cut_short);
+  entry_slip.add(other.entry_slip);
+  duration.add(other.duration);
+  pulling.add(other.pulling);
+}
+
+}  // namespace riesel

@@ -1,0 +1,69 @@
+// How often positive values of any size came, with a resolution of a fifth of the value.
+//
+// The bins are quarters of an octave, read off the bits of the number: no logarithm, no rounding,
+// and counts that can be merged in any order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+namespace riesel {
+
+/// From 2^-30 to 2^-2 of the unit; what lies beyond is counted in the first or the last bin.
+class LogHistogram {
+public:
+  static constexpr std::size_t bins = 112;
+  using Counts = std::array<std::int64_t, bins>;
+
+  void add(double value) { ++counts_[bin_of(value)]; }
+  void merge(const LogHistogram& other) {
+    std::transform(counts_.begin(), counts_.end(), other.counts_.begin(), counts_.begin(),
+                   std::plus<>());
+  }
+
+  const Counts& counts() const { return counts_; }
+  Counts& counts() { return counts_; }
+  std::int64_t total() const {
+    return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
+  }
+
+  /// Where the bin begins: 1, 1.25, 1.5, 1.75 times a power of two.
+  static double lower_edge(std::size_t bin) {
+    return std::bit_cast<double>((first_quarter + bin) << bits_below_a_quarter);
+  }
+
+  /// The lower edge of the bin that holds the value below which this part of all lies; 0 if there
+  /// are none.
+  double quantile(double part) const {
+    const double wanted = part * static_cast<double>(total());
+    double below = 0.0;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      below += static_cast<double>(counts_[bin]);
+      if (below > wanted) return lower_edge(bin);
+    }
+    return 0.0;
+  }
+
+  bool operator==(const LogHistogram&) const = default;
+
+private:
+  // A positive double, taken as an integer, grows with its value; all but the upper two bits of the
+  // mantissa are cut off.
+  static constexpr int bits_below_a_quarter = 50;
+  static constexpr std::uint64_t first_quarter =
+      std::bit_cast<std::uint64_t>(0x1p-30) >> bits_below_a_quarter;
+
+  static std::size_t bin_of(double value) {
+    if (!(value > 0x1p-30)) return 0;
+    const std::uint64_t quarter = std::bit_cast<std::uint64_t>(value) >> bits_below_a_quarter;
+    return static_cast<std::size_t>(std::min<std::uint64_t>(quarter - first_quarter, bins - 1));
+  }
+
+  Counts counts_{};
+};
+
+}  // namespace riesel

@@ -1,0 +1,80 @@
+#include "engine/validity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace riesel {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+struct Criterion {
+  std::string_view name;
+  double Evidence::*value;
+  double suspect, unphysical;
+  bool low_is_bad;
+  std::string_view meaning, remedy;
+};
+
+constexpr std::string_view stiffer = "raise contact.stiffness";
+
+constexpr std::array<Criterion, 6> criteria = {{
+    {"max_overlap_ratio", &Evidence::max_overlap_ratio, 0.2, 0.5, false,
+     "grains sink deep into each other", stiffer},
+    {"brake_failure_fraction", &Evidence::brake_failure_fraction, 0.1, 0.5, false,
+     "walls brake by contacts that are passed through before they can push", stiffer},
+    {"passages_per_wall_visit", &Evidence::passages_per_visit, 0.5, 2.0, false,
+     "grains scrape through the wall grains one after the other", stiffer},
+    {"wall_speed_over_v_crit", &Evidence::wall_speed_ratio, 1.0, 3.0, false,
+     "grains pass the wall grains faster than contacts can push them away", stiffer},
+    {"pulling_fraction", &Evidence::pulling_fraction, 0.2, none, false,
+     "the damping makes contacts pull", "compare with contact.attraction: clip"},
+    {"steps_per_contact", &Evidence::steps_per_contact, 10.0, -none, true,
+     "the time step does not resolve the shortest contacts", "raise run.steps_per_collision"},
+}};
+
+Validity judge(const Criterion& c, double value) {
+  if (std::isnan(value)) return Validity::suspect;
+  const auto beyond = [&](double threshold) {
+    return c.low_is_bad ? value < threshold : value > threshold;
+  };
+  if (beyond(c.unphysical)) return Validity::unphysical;
+  return beyond(c.suspect) ? Validity::suspect : Validity::valid;
+}
+
+}  // namespace
+
+ValidityVerdict judge(const Evidence& evidence) {
+  ValidityVerdict result{.verdict = Validity::valid, .findings = {}};
+  for (const Criterion& c : criteria) {
+    const double value = evidence.*c.value;
+    const Validity verdict = judge(c, value);
+    result.findings.push_back({.name = c.name,
+                               .value = value,
+                               .suspect = c.suspect,
+                               .unphysical = c.unphysical,
+                               .low_is_bad = c.low_is_bad,
+                               .verdict = verdict,
+                               .meaning = std::isnan(value) ? "not known" : c.meaning,
+                               .remedy = std::isnan(value) ? "run longer" : c.remedy});
+    result.verdict = std::max(result.verdict, verdict);
+  }
+  return result;
+}
+
+std::string_view name(Validity validity) {
+  switch (validity) {
+  case Validity::valid:
+    return "valid";
+  case Validity::suspect:
+    return "suspect";
+  case Validity::unphysical:
+    return "unphysical";
+  }
+  return "unknown";
+}
+
+}  // namespace riesel

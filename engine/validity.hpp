@@ -1,0 +1,52 @@
+// Whether the numbers of a run are physics of hard grains or an artefact of soft contacts.
+//
+// A soft-sphere calculation stands for hard grains as long as contacts are shallow, short, resolved
+// by the time step and push the grains apart before they have passed through each other. Each of
+// these is a finding with its own thresholds; the verdict is the worst of them. The thresholds and
+// their reasons are in docs/validity.md.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace riesel {
+
+/// Ordered: later is worse.
+enum class Validity {
+  valid,      ///< no finding
+  suspect,    ///< a finding that may change the result, or evidence that is missing
+  unphysical  ///< a finding that makes the result an artefact
+};
+
+/// What the verdict rests on. Not a number stands for what is not known: that is suspect.
+struct Evidence {
+  double max_overlap_ratio;       ///< largest overlap over the radius of the smaller body
+  double brake_failure_fraction;  ///< of the braking by walls, done by contacts cut short
+  double passages_per_visit;      ///< contacts cut short per visit to a wall
+  double wall_speed_ratio;        ///< mean slip speed at the beginning of wall contacts over v_crit
+  double pulling_fraction;        ///< of the time of wall contacts, with F_N < 0
+  double steps_per_contact;       ///< time steps of the shortest twentieth of contacts, at most
+};
+
+struct Finding {
+  std::string_view name;
+  double value;
+  double suspect;     ///< threshold
+  double unphysical;  ///< threshold; infinite (of either sign) if there is none
+  bool low_is_bad;    ///< below the thresholds instead of above them
+  Validity verdict;
+  std::string_view meaning;  ///< in words, of a finding that is not valid
+  std::string_view remedy;
+};
+
+struct ValidityVerdict {
+  Validity verdict;
+  std::vector<Finding> findings;  ///< all, in the order of Evidence
+};
+
+ValidityVerdict judge(const Evidence& evidence);
+
+/// The verdict as it is written to files: "valid", "suspect", "unphysical".
+std::string_view name(Validity validity);
+
+}  // namespace riesel

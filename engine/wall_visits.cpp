@@ -1,0 +1,80 @@
+#include "engine/wall_visits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <tuple>
+
+namespace riesel {
+
+namespace {
+
+/// (m/s)^2; the wall does not move, so that what the grain has lost is what was dissipated.
+double leaving_speed_squared(const Contact& c, double mass) {
+  const double entry2 = c.entry_rate * c.entry_rate + c.entry_slip * c.entry_slip;
+  return std::max(entry2 - 2.0 * (c.normal_loss + c.friction_loss) / mass, 0.01 * entry2);
+}
+
+}  // namespace
+
+Span visit_span(const Contact& contact, double mass, double spacing, double gravity) {
+  const double speed2 = leaving_speed_squared(contact, mass);
+  const double path = 2.0 * spacing;
+  // spacing = speed t + gravity t^2 / 2
+  const double time = path / (std::sqrt(speed2) + std::sqrt(speed2 + path * std::abs(gravity)));
+  return {contact.begin, contact.end + time};
+}
+
+WallVisit::WallVisit(const Contact& contact, const Span& its_span)
+    : wall(contact.name.wall),
+      grain(contact.name.grain),
+      span(its_span),
+      contacts(1),
+      entry_rate(contact.entry_rate),
+      entry_slip(std::abs(contact.entry_slip)) {
+  impulse_x.add(contact.impulse_x);
+  impulse_y.add(contact.impulse_y);
+}
+
+void WallVisit::join(const WallVisit& other) {
+  // Two contacts may begin at the very same time: any rule will do that knows no order of arrival.
+  const auto entry = [](const WallVisit& v) {
+    return std::tie(v.span.begin, v.entry_rate, v.entry_slip);
+  };
+  if (entry(other) < entry(*this)) {
+    span.begin = other.span.begin;
+    entry_rate = other.entry_rate;
+    entry_slip = other.entry_slip;
+  }
+  span.end = std::max(span.end, other.span.end);
+  contacts += other.contacts;
+  impulse_x.add(other.impulse_x);
+  impulse_y.add(other.impulse_y);
+}
+
+std::int64_t VisitTally::visits() const {
+  return std::accumulate(of_contacts.begin(), of_contacts.end(), std::int64_t{0});
+}
+
+void VisitTally::add(const WallVisit& visit, double mass, double away) {
+  const auto count = static_cast<std::size_t>(visit.contacts);
+  ++of_contacts[std::min(count, longest) - 1];
+  contacts += visit.contacts;
+  dv_y.add(-visit.impulse_y.value() / mass);
+  dv_x.add(away * visit.impulse_x.value() / mass);
+  entry_rate.add(visit.entry_rate);
+  entry_slip.add(visit.entry_slip);
+}
+
+void VisitTally::merge(const VisitTally& other) {
+  std::transform(of_contacts.begin(), of_contacts.end(), other.of_contacts.begin(),
+                 of_contacts.begin(), std::plus<>());
+  contacts += other.contacts;
+  dv_y.add(other.dv_y);
+  dv_x.add(other.dv_x);
+  entry_rate.add(other.entry_rate);
+  entry_slip.add(other.entry_slip);
+}
+
+}  // namespace riesel

@@ -1,0 +1,71 @@
+// Visits: what a grain does at a wall between coming and going.
+//
+// A visit is a chain of contacts of one grain with one wall. A contact belongs to the visit before
+// it if it begins before the grain has gone one spacing of the wall grains since an earlier contact
+// of that visit ended, at the speed with which that contact let it go. A grain that has not left
+// the reach of a wall of spacing s meets the next wall grain within a path of s; one that has left
+// comes back that soon only if another grain throws it back on the spot.
+//
+// So each contact has a span, from its beginning to its end plus the time for that path, and
+// the visits are the connected pieces of the spans of one grain and one wall. That is a property of
+// the set of contacts: it does not matter when, or in what order, we hear of them. Contacts that we
+// have heard of are joined to pieces of visits, and pieces to larger ones.
+#pragma once
+
+#include "engine/contact.hpp"
+#include "engine/exact_sum.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace riesel {
+
+/// s since step 0
+struct Span {
+  double begin, end;
+};
+
+/// For how long after its beginning contacts belong to the same visit as this one that has ended.
+/// The leaving speed follows from the losses, and is at least a tenth of the entry speed; gravity
+/// (m/s^2) adds to it. `mass` in kg, `spacing` in m.
+Span visit_span(const Contact& contact, double mass, double spacing, double gravity);
+
+/// A piece of a visit: contacts of one grain with one wall whose spans are connected. What is
+/// summed is summed exactly, so that pieces can be joined in any order.
+struct WallVisit {
+  std::int32_t wall;
+  std::int32_t grain;
+  Span span;
+  std::int64_t contacts;
+  double entry_rate;              ///< m/s, normal velocity at the beginning of the first contact
+  double entry_slip;              ///< m/s, its |slip|
+  ExactSum impulse_x, impulse_y;  ///< kg m/s, given to the grain
+
+  /// A single contact.
+  WallVisit(const Contact& contact, const Span& its_span);
+  WallVisit() = default;
+
+  /// Adds a piece of the same visit.
+  void join(const WallVisit& other);
+};
+
+/// Sums over visits that are over.
+struct VisitTally {
+  /// Visits of one contact, of two, ..., of `longest` or more.
+  static constexpr std::size_t longest = 8;
+  std::array<std::int64_t, longest> of_contacts{};
+  std::int64_t contacts = 0;  ///< of all visits
+  ExactSum dv_y;              ///< m/s, axial velocity lost
+  ExactSum dv_x;              ///< m/s, velocity gained away from the wall
+  ExactSum entry_rate;        ///< m/s, normal velocity at the beginning of the first contact
+  ExactSum entry_slip;        ///< m/s, its |slip|
+
+  std::int64_t visits() const;
+  /// Adds a visit by a grain of mass `mass` (kg). `away` is the sign of the direction from the wall
+  /// into the tube.
+  void add(const WallVisit& visit, double mass, double away);
+  void merge(const VisitTally& other);
+};
+
+}  // namespace riesel

@@ -1,0 +1,90 @@
+#include "engine/wall_watch.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <tuple>
+
+namespace riesel {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+bool earlier(const WallVisit& a, const WallVisit& b) {
+  return std::tie(a.wall, a.grain, a.span.begin) < std::tie(b.wall, b.grain, b.span.begin);
+}
+
+bool same_visitor(const WallVisit& a, const WallVisit& b) {
+  return a.wall == b.wall && a.grain == b.grain;
+}
+
+/// s, when the first of the lasting contacts of this grain with this wall began; `never` if there
+/// is none.
+double lasting_since(const State& state, const WallVisit& visit) {
+  const ContactName lowest{visit.wall, visit.grain, std::numeric_limits<std::int32_t>::min()};
+  auto contact =
+      std::lower_bound(state.contacts.begin(), state.contacts.end(), lowest,
+                       [](const Contact& c, const ContactName& name) { return c.name < name; });
+  double since = never;
+  for (; contact != state.contacts.end() && contact->name.wall == visit.wall
+         && contact->name.grain == visit.grain;
+       ++contact)
+    since = std::min(since, contact->begin);
+  return since;
+}
+
+}  // namespace
+
+WallWatch::WallWatch(const State& state, const ContactModel& model)
+    : model_(model), mass_(state.grains.size()) {
+  for (std::size_t slot = 0; slot < mass_.size(); ++slot)
+    mass_[static_cast<std::size_t>(state.grains.id[slot])] = state.grains.mass[slot];
+}
+
+void WallWatch::look(State& state) const {
+  take_up(state);
+  join_and_close(state);
+}
+
+void WallWatch::take_up(State& state) const {
+  std::vector<WallVisit>& visits = state.open_visits;
+  const auto old = static_cast<std::ptrdiff_t>(visits.size());
+  for (const Contact& contact : state.tally.ended_at_walls) {
+    const double m = mass(contact.name.grain);
+    const WallLattice& wall = state.walls[static_cast<std::size_t>(contact.name.wall)];
+    state.tally.brakes.add(contact, model_, m);
+    visits.emplace_back(contact, visit_span(contact, m, wall.spacing(state.box), state.gravity));
+  }
+  state.tally.ended_at_walls.clear();
+  std::sort(visits.begin() + old, visits.end(), earlier);
+  std::inplace_merge(visits.begin(), visits.begin() + old, visits.end(), earlier);
+}
+
+void WallWatch::join_and_close(State& state) const {
+  std::vector<WallVisit>& visits = state.open_visits;
+  auto kept = visits.begin();
+  for (auto next = visits.begin(); next != visits.end();) {
+    WallVisit visit = *next++;
+    // A lasting contact will join what ended since it began.
+    const double lasting = lasting_since(state, visit);
+    while (next != visits.end() && same_visitor(*next, visit)
+           && std::min(next->span.begin, lasting) <= visit.span.end)
+      visit.join(*next++);
+    // A contact that is seen in the next step may have begun up to a step ago.
+    const bool over = visit.span.end < std::min(state.time() - state.time_step, lasting);
+    if (over)
+      close(state, visit);
+    else
+      *kept++ = visit;
+  }
+  visits.erase(kept, visits.end());
+}
+
+void WallWatch::close(State& state, const WallVisit& visit) const {
+  const WallLattice& wall = state.walls[static_cast<std::size_t>(visit.wall)];
+  const double away = wall.line < 0.5 * state.box.width ? 1.0 : -1.0;
+  state.tally.visits.add(visit, mass(visit.grain), away);
+}
+
+}  // namespace riesel

@@ -1,0 +1,50 @@
+#include "engine/log_histogram.hpp"
+#include "tests/catch.hpp"
+
+#include <cmath>
+
+using riesel::LogHistogram;
+
+TEST_CASE("a value falls into the bin that begins at or below it") {
+  for (double value = 1.0001e-9; value < 0.2; value *= 1.013) {
+    LogHistogram histogram;
+    histogram.add(value);
+    const double edge = histogram.quantile(0.5);
+    CHECK(edge <= value);
+    CHECK(value < 1.25 * edge);
+  }
+}
+
+TEST_CASE("the bins are quarters of an octave, one after the other") {
+  CHECK(LogHistogram::lower_edge(0) == 0x1p-30);
+  CHECK(LogHistogram::lower_edge(3) == 1.75 * 0x1p-30);
+  CHECK(LogHistogram::lower_edge(4) == 0x1p-29);
+  for (std::size_t bin = 0; bin + 1 < LogHistogram::bins; ++bin) {
+    LogHistogram histogram;
+    histogram.add(LogHistogram::lower_edge(bin));
+    histogram.add(std::nextafter(LogHistogram::lower_edge(bin + 1), 0.0));
+    CHECK(histogram.counts()[bin] == 2);
+  }
+}
+
+TEST_CASE("what is too small or too large stands at the ends") {
+  LogHistogram histogram;
+  for (const double value : {-1.0, 0.0, 1e-300}) histogram.add(value);
+  CHECK(histogram.counts().front() == 3);
+  for (const double value : {0.25, 1e300}) histogram.add(value);
+  CHECK(histogram.counts().back() == 2);
+  CHECK(histogram.total() == 5);
+}
+
+TEST_CASE("a quantile is the edge of the bin where the counts pass it") {
+  LogHistogram low, high;
+  for (int i = 0; i < 4; ++i) low.add(1e-6);
+  for (int i = 0; i < 96; ++i) high.add(1e-3);
+  CHECK(low.quantile(0.05) == LogHistogram(low).quantile(0.99));
+  LogHistogram both = low;
+  both.merge(high);
+  CHECK(both.total() == 100);
+  CHECK(both.quantile(0.039) == low.quantile(0.5));
+  CHECK(both.quantile(0.041) == high.quantile(0.5));
+  CHECK(LogHistogram().quantile(0.5) == 0.0);
+}

@@ -1,0 +1,87 @@
+// The verdict and its thresholds.
+#include "engine/validity.hpp"
+#include "tests/catch.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+using namespace riesel;
+
+namespace {
+
+/// Evidence of grains as hard as one could wish.
+constexpr Evidence hard = {.max_overlap_ratio = 0.01,
+                           .brake_failure_fraction = 0.001,
+                           .passages_per_visit = 0.01,
+                           .wall_speed_ratio = 0.1,
+                           .pulling_fraction = 0.05,
+                           .steps_per_contact = 50.0};
+
+Validity verdict_with(double Evidence::*member, double value) {
+  Evidence evidence = hard;
+  evidence.*member = value;
+  return judge(evidence).verdict;
+}
+
+}  // namespace
+
+TEST_CASE("hard grains are valid, with all findings told") {
+  const ValidityVerdict v = judge(hard);
+  CHECK(v.verdict == Validity::valid);
+  REQUIRE(v.findings.size() == 6);
+  for (const Finding& finding : v.findings) CHECK(finding.verdict == Validity::valid);
+  CHECK(v.findings[1].name == "brake_failure_fraction");
+  CHECK(v.findings[1].value == hard.brake_failure_fraction);
+}
+
+TEST_CASE("each threshold separates two verdicts") {
+  struct Case {
+    double Evidence::*member;
+    double suspect, unphysical;
+  };
+  const Case c = GENERATE(Case{&Evidence::max_overlap_ratio, 0.2, 0.5},
+                          Case{&Evidence::brake_failure_fraction, 0.1, 0.5},
+                          Case{&Evidence::passages_per_visit, 0.5, 2.0},
+                          Case{&Evidence::wall_speed_ratio, 1.0, 3.0});
+  CHECK(verdict_with(c.member, 0.99 * c.suspect) == Validity::valid);
+  CHECK(verdict_with(c.member, 1.01 * c.suspect) == Validity::suspect);
+  CHECK(verdict_with(c.member, 0.99 * c.unphysical) == Validity::suspect);
+  CHECK(verdict_with(c.member, 1.01 * c.unphysical) == Validity::unphysical);
+}
+
+TEST_CASE("contacts that pull are never more than suspect") {
+  CHECK(verdict_with(&Evidence::pulling_fraction, 0.19) == Validity::valid);
+  CHECK(verdict_with(&Evidence::pulling_fraction, 0.21) == Validity::suspect);
+  CHECK(verdict_with(&Evidence::pulling_fraction, 1.0) == Validity::suspect);
+}
+
+TEST_CASE("few steps are suspect and no proof") {
+  CHECK(verdict_with(&Evidence::steps_per_contact, 1e6) == Validity::valid);
+  CHECK(verdict_with(&Evidence::steps_per_contact, 9.9) == Validity::suspect);
+  CHECK(verdict_with(&Evidence::steps_per_contact, 0.1) == Validity::suspect);
+}
+
+TEST_CASE("what is not known is suspect") {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const auto member : {&Evidence::max_overlap_ratio, &Evidence::brake_failure_fraction,
+                            &Evidence::passages_per_visit, &Evidence::wall_speed_ratio,
+                            &Evidence::pulling_fraction, &Evidence::steps_per_contact})
+    CHECK(verdict_with(member, unknown) == Validity::suspect);
+}
+
+TEST_CASE("the worst finding is the verdict, and says what to do") {
+  Evidence evidence = hard;
+  evidence.pulling_fraction = 0.3;
+  evidence.brake_failure_fraction = 0.9;
+  const ValidityVerdict v = judge(evidence);
+  CHECK(v.verdict == Validity::unphysical);
+  CHECK(std::string(v.findings[1].remedy).find("contact.stiffness") != std::string::npos);
+  CHECK(v.findings[4].verdict == Validity::suspect);
+}
+
+TEST_CASE("verdicts have names") {
+  CHECK(name(Validity::valid) == "valid");
+  CHECK(name(Validity::suspect) == "suspect");
+  CHECK(name(Validity::unphysical) == "unphysical");
+}
