@@ -9,6 +9,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -79,6 +80,15 @@ int team_size(int wanted) {
   return granted;
 }
 
+/// What to try first. In units of what plain stepping takes for a grain without contacts on one
+/// thread, a contact takes plain stepping 7.5 and flights 10, and flights take next to nothing for
+/// a grain: docs/performance.md.
+bool flights_look_faster(const State& state, int threads) {
+  const auto contacts = static_cast<double>(state.contacts.size());
+  const auto grains = static_cast<double>(state.grains.size());
+  return 10.0 * contacts < (grains + 7.5 * contacts) / static_cast<double>(threads);
+}
+
 std::string partners(const ContactName& name) {
   const std::string grain = "grain " + std::to_string(name.grain);
   const std::string partner = std::to_string(name.partner);
@@ -101,8 +111,9 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       fall_(fall_per_step(state_)),
       threads_(team_size(threads)),
       stepping_(stepping),
+      choice_(flights_look_faster(state_, threads_)),
       wall_watch_(state_, model_) {
-  choose_stepping();
+  prepare();
 }
 
 Simulation::~Simulation() = default;
@@ -133,18 +144,40 @@ void Simulation::step(Slice& mine, std::int64_t step) {
 
 void Simulation::advance(std::int64_t steps) {
   const std::int64_t last = state_.step + steps;
-  if (!in_trouble()) choose_stepping();
+  do {
+    advance_piece(std::min(last, state_.step + piece()));
+  } while (state_.step < last);
+}
+
+/// Steps between two thoughts about the stepping: many enough to be timed.
+std::int64_t Simulation::piece() const {
+  constexpr std::int64_t particle_steps = 20'000'000;
+  if (stepping_ != Stepping::automatic) return INT64_MAX / 2;
+  return std::max<std::int64_t>(16,
+                                particle_steps / static_cast<std::int64_t>(state_.grains.size()));
+}
+
+void Simulation::advance_piece(std::int64_t last) {
+  const auto now = std::chrono::steady_clock::now;
+  const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
+  const std::int64_t first = state_.step;
+  const auto begin = now();
+  if (!in_trouble()) prepare();
+  const auto start = now();
   if (flights_)
     advance_by_flights(last);
   else
     advance_plainly(last);
+  if (state_.step > first)
+    choice_.note(state_.step - first, seconds(now() - start), seconds(start - begin));
   collect();
   fail_if_in_trouble();
 }
 
 /// Whoever is to step the grains starts from the state alone, as after a checkpoint.
-void Simulation::choose_stepping() {
-  const bool by_flights = flights_pay();
+void Simulation::prepare() {
+  const bool by_flights =
+      stepping_ == Stepping::automatic ? choice_.by_flights() : stepping_ == Stepping::windows;
   if (candidates_ && by_flights == (flights_ != nullptr)) return;
   flights_.reset();
   if (by_flights) {
@@ -154,20 +187,6 @@ void Simulation::choose_stepping() {
     candidates_ = std::make_unique<Candidates>(state_, threads_, Candidates::short_skin);
   }
   candidates_->slices().front().profile = Profile(profile_.on());
-}
-
-/// Decided by the state and the number of threads. In units of what plain stepping takes for a
-/// grain without contacts on one thread, a contact takes plain stepping 11 and flights 14, and
-/// flights take next to nothing for a grain: see docs/performance.md.
-bool Simulation::flights_pay() const {
-  if (stepping_ != Stepping::automatic) return stepping_ == Stepping::windows;
-  const auto contacts = static_cast<double>(state_.contacts.size());
-  const auto grains = static_cast<double>(state_.grains.size());
-  const double by_flights = 10.0 * contacts;
-  const double plainly = (grains + 7.5 * contacts) / static_cast<double>(threads_);
-  // A change costs a sorting: stay with what there is where it makes little difference.
-  const double bias = flights_ ? 1.1 : 0.9;
-  return by_flights < bias * plainly;
 }
 
 void Simulation::advance_plainly(std::int64_t last) {

@@ -4,6 +4,7 @@
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
+#include "engine/stepping_choice.hpp"
 #include "engine/wall_watch.hpp"
 
 #include <cstdint>
@@ -28,8 +29,7 @@ enum class Stepping {
   plain,     ///< all grains in each step
   windows,   ///< grains that touch nothing cross many steps at once; by one thread, whatever is
              ///< given
-  automatic  ///< windows while so few grains touch that one thread is faster with them than all
-             ///< threads are without, else plain
+  automatic  ///< whatever is faster: windows on one thread or plain on all
 };
 
 class Simulation {
@@ -55,8 +55,9 @@ public:
   const Profile& profile() const { return profile_; }
 
 private:
-  void choose_stepping();
-  bool flights_pay() const;
+  std::int64_t piece() const;
+  void advance_piece(std::int64_t last);
+  void prepare();
   void advance_plainly(std::int64_t last);
   void advance_by_flights(std::int64_t last);
   void step(Slice& mine, std::int64_t step);
@@ -70,6 +71,7 @@ private:
   Fixed fall_;  // per step
   const int threads_;
   const Stepping stepping_;
+  SteppingChoice choice_;  // where the stepping is automatic
   Profile profile_;
   std::unique_ptr<Candidates> candidates_;
   const WallWatch wall_watch_;
