@@ -132,7 +132,7 @@ io::FlowSummary summarise(const io::RunFile& file, const State& state, const Con
   s.validity.friction_failure_fraction =
       series.ratio("wall_friction_loss_cut_short", "wall_friction_loss").value;
   const Energies& e = last.energies;
-  s.energy = {.initial = state.origin.kinetic,
+  s.energy = {.initial = state.origin.energy,
               .kinetic = e.kinetic,
               .elastic = e.elastic,
               .gravity_work = e.gravity_work,

@@ -65,7 +65,7 @@ double standard_deviation(double sum, double sum_of_squares, double n) {
 
 Origin origin_of(const State& state) {
   const GrainSums sums = sum_over_grains(state);
-  return {.kinetic = sums.kinetic.value(), .momentum_y = sums.momentum_y.value()};
+  return {.energy = sums.kinetic.value() + stored_energy(state), .momentum_y = sums.momentum_y.value()};
 }
 
 Observables observe(const State& state) {
@@ -86,7 +86,7 @@ Observables observe(const State& state) {
   o.energies.gravity_work = work_of_gravity(state, sums.mass.value(), at_walls);
   o.energies.normal_loss = among_grains.normal_loss.value() + at_walls.normal_loss.value();
   o.energies.friction_loss = among_grains.friction_loss.value() + at_walls.friction_loss.value();
-  o.energies.residual = state.origin.kinetic + o.energies.gravity_work - o.energies.kinetic
+  o.energies.residual = state.origin.energy + o.energies.gravity_work - o.energies.kinetic
                         - o.energies.elastic - o.energies.normal_loss - o.energies.friction_loss;
   o.contacts = static_cast<double>(state.contacts.size()) / n;
   o.grain_contacts_begun = static_cast<double>(among_grains.begun);

@@ -134,7 +134,7 @@ std::uint64_t state_hash(const State& state) {
   hash.add(state.gravity);
   hash.add(state.time_step);
   hash.add(state.step);
-  hash.add(state.origin.kinetic);
+  hash.add(state.origin.energy);
   hash.add(state.origin.momentum_y);
   for (const WallLattice& wall : state.walls) {
     hash.add(wall.line);

@@ -42,7 +42,7 @@ struct Grains {
 
 /// The system at step 0, for the balances of energy and momentum.
 struct Origin {
-  double kinetic = 0.0;     ///< J
+  double energy = 0.0;      ///< J, kinetic, and elastic where contacts last from before
   double momentum_y = 0.0;  ///< kg m/s
 };
 

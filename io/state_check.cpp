@@ -25,7 +25,7 @@ std::string flaw_of_scalars(const State& state) {
   if (!is_positive(state.box.length)) return "the length of the box is not positive";
   if (!is_positive(state.time_step)) return "the time step is not positive";
   if (!std::isfinite(state.gravity)) return "gravity is not finite";
-  if (!std::isfinite(state.origin.kinetic) || !std::isfinite(state.origin.momentum_y)) {
+  if (!std::isfinite(state.origin.energy) || !std::isfinite(state.origin.momentum_y)) {
     return "the energy or momentum at the start is not finite";
   }
   if (state.step < 0) return "the number of steps is negative";

@@ -166,13 +166,13 @@ void for_each_scalar(AnyState& state, Visit visit) {
   auto& [box, walls, gravity, time_step, step, grains, contacts, open_visits, tally, origin] =
       state;
   auto& [width, length] = box;
-  auto& [kinetic, momentum_y] = origin;
+  auto& [energy, momentum_y] = origin;
   visit("box_width", width);
   visit("box_length", length);
   visit("gravity", gravity);
   visit("time_step", time_step);
   visit("step", step);
-  visit("origin_kinetic", kinetic);
+  visit("origin_energy", energy);
   visit("origin_momentum_y", momentum_y);
 }
 

@@ -32,11 +32,11 @@ TEST_CASE("means and spreads are over grains, not over mass") {
 TEST_CASE("a start has its kinetic energy and nothing else") {
   State state = pair_of_grains();
   state.origin = origin_of(state);
-  CHECK(state.origin.kinetic == Approx(0.5 * (1e-6 * 26.0 + 2e-6 * 10.0)));
+  CHECK(state.origin.energy == Approx(0.5 * (1e-6 * 26.0 + 2e-6 * 10.0)));
   CHECK(state.origin.momentum_y == Approx(1e-6 * 5.0 + 2e-6 * 1.0));
   const Observables o = observe(state);
   CHECK(o.time == 0.0);
-  CHECK(o.energies.kinetic == state.origin.kinetic);
+  CHECK(o.energies.kinetic == state.origin.energy);
   CHECK(o.energies.elastic == 0.0);
   CHECK(o.energies.gravity_work == 0.0);
   CHECK(o.energies.residual == 0.0);

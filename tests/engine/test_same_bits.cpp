@@ -56,7 +56,7 @@ bool same(const State& a, const State& b) {
          && all_of(a.tally.walls) == all_of(b.tally.walls)
          && all_of(a.tally.brakes) == all_of(b.tally.brakes)
          && all_of(a.tally.visits) == all_of(b.tally.visits) && a.tally.ended_at_walls.empty()
-         && b.tally.ended_at_walls.empty() && a.origin.kinetic == b.origin.kinetic
+         && b.tally.ended_at_walls.empty() && a.origin.energy == b.origin.energy
          && a.origin.momentum_y == b.origin.momentum_y && state_hash(a) == state_hash(b)
          && observe(a).energies.residual == observe(b).energies.residual;
 }

@@ -78,7 +78,7 @@ TEST_CASE("the hash notices what the balances and the tally will need") {
   CHECK(noticed([](State& s) { s.contacts[0].impulse_y_times_step += 1e-12; }));
   CHECK(noticed([](State& s) { s.tally.walls.impulse_y.add(1e-20); }));
   CHECK(noticed([](State& s) { s.tally.walls.impulse_y_times_step.add(1e-20); }));
-  CHECK(noticed([](State& s) { s.origin.kinetic *= 2.0; }));
+  CHECK(noticed([](State& s) { s.origin.energy *= 2.0; }));
   CHECK(noticed([](State& s) { s.origin.momentum_y *= 2.0; }));
 }
 

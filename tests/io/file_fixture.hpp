@@ -190,7 +190,7 @@ inline riesel::State special_state(std::size_t n = 4) {
   state.open_visits = {visit(0, 0, -1.0 / 3.0), visit(0, 0, 0.1), visit(1, 3, denormal)};
   state.open_visits[2].span.end = std::numeric_limits<double>::infinity();
   state.tally = whole_tally();
-  state.origin = {.kinetic = 1.0 / 7.0, .momentum_y = -0.0};
+  state.origin = {.energy = 1.0 / 7.0, .momentum_y = -0.0};
   return state;
 }
 
@@ -266,7 +266,7 @@ private:
 inline std::string bits_of(const riesel::State& state) {
   Bits bits;
   bits.add_all(std::vector{state.box.width, state.box.length, state.gravity, state.time_step,
-                           state.origin.kinetic, state.origin.momentum_y});
+                           state.origin.energy, state.origin.momentum_y});
   bits.add(state.step);
   for (const auto& wall : state.walls) {
     bits.add_all(std::vector{wall.line, wall.radius});
