@@ -45,12 +45,11 @@ void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed
 template <class Ended>
 void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
   if (contacts.trouble()) slice.trouble = contacts.trouble();
-  const auto& indices = contacts.ended();
-  for (auto i = indices.rbegin(); i != indices.rend(); ++i) {
-    slice.tally.end(contacts.contact(*i));
-    note_over(slice, contacts.meeting(*i));
-    ended(*i);
-    contacts.remove(*i);
+  for (const std::size_t i : contacts.ended()) {
+    slice.tally.end(contacts.contact(i));
+    note_over(slice, contacts.meeting(i));
+    ended(i);
+    contacts.remove(i);
   }
 }
 

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace riesel {
 
 namespace {
 
 constexpr std::size_t lanes = 8;
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double never = 1e18;  // steps
 
 /// Bounds are rounded to the safe side by this factor, which is far above the error of the
 /// arithmetic.
@@ -21,7 +20,7 @@ constexpr double generous = 1.0 + 1e-9, cautious = 1.0 - 1e-9;
 /// Fewer steps than this are not worth a generous answer.
 constexpr double few_steps = 4.0;
 
-/// The first s with |(x, y) + s (ux, uy)| = reach: 0 if they are closer already, infinite if never.
+/// The first s with |(x, y) + s (ux, uy)| = reach: 0 if they are closer already.
 [[gnu::always_inline]] inline double first_touch(double x, double y, double ux, double uy,
                                                  double reach) {
   const double apart = x * x + y * y - reach * reach;

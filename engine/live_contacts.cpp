@@ -45,6 +45,53 @@ template <LiveContacts::Partner partner, class Columns>
                      c.reduced_mass[i], units);
 }
 
+/// Carries the life of contact i on by one step, if it is one.
+template <LiveContacts::Partner partner, class Columns>
+[[gnu::always_inline]] inline void carry_on(const Columns& c, std::size_t i, bool touching,
+                                            const Touch& t, const StepUnits& u) {
+  const auto set = [&](std::size_t member, double value) {
+    const double before = c.life[member][i];
+    c.life[member][i] = touching ? value : before;
+  };
+  const auto add = [&](std::size_t member, double value) {
+    c.life[member][i] += touching ? value : 0.0;
+  };
+  const double deepest = c.life[RIESEL_LIFE(max_overlap)][i];
+  set(RIESEL_LIFE(end), u.time + t.until);
+  set(RIESEL_LIFE(overlap), t.overlap);
+  set(RIESEL_LIFE(max_overlap), std::max(deepest, t.overlap));
+  set(RIESEL_LIFE(elastic_energy), t.elastic_energy);
+  add(RIESEL_LIFE(slip_path), std::abs(t.slip) * u.dt);
+  add(RIESEL_LIFE(normal_loss), t.normal_power * u.dt);
+  add(RIESEL_LIFE(friction_loss), t.friction_power * u.dt);
+  if constexpr (partner == LiveContacts::Partner::wall) {
+    add(RIESEL_LIFE(impulse_x), t.fx * u.dt);
+    add(RIESEL_LIFE(impulse_y), t.fy * u.dt);
+    add(RIESEL_LIFE(impulse_y_times_step), t.fy * u.dt * u.step);
+  }
+}
+
+/// Writes the kicks of contact i; returns the sum of their sizes, which is not a number if one of
+/// them is not.
+template <LiveContacts::Partner partner, class Columns>
+[[gnu::always_inline]] inline double kick_bodies(const Columns& c, std::size_t i, bool touching,
+                                                 const Touch& t, const StepUnits& u) {
+  const double fx = touching ? t.fx : 0.0, fy = touching ? t.fy : 0.0;
+  const double x = fx * c.per_mass_first[i] * u.kick_x;
+  const double y = fy * c.per_mass_first[i] * u.kick_y;
+  c.kick[0][i] = nearest_fixed(x);
+  c.kick[1][i] = nearest_fixed(y);
+  double size = std::abs(x) + std::abs(y);
+  if constexpr (partner == LiveContacts::Partner::grain) {
+    const double other_x = -fx * c.per_mass_second[i] * u.kick_x;
+    const double other_y = -fy * c.per_mass_second[i] * u.kick_y;
+    c.kick[2][i] = nearest_fixed(other_x);
+    c.kick[3][i] = nearest_fixed(other_y);
+    size += std::abs(other_x) + std::abs(other_y);
+  }
+  return size;
+}
+
 /// One step of `count` contacts, a multiple of `lanes`. Lanes that do not touch compute nonsense,
 /// which is not kept.
 template <LiveContacts::Partner partner, std::size_t lanes, class Columns, class Normal, class Slip>
@@ -58,43 +105,11 @@ RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, Ste
       const Encounter e = encounter_of<partner>(c, i, b, u);
       const bool touching = e.x * e.x + e.y * e.y < e.reach * e.reach;
       const Touch t = touch(e, normal, slip, mu, attraction, u.dt);
-      const auto live = [&](std::size_t member, double value) {
-        const double before = c.life[member][i];
-        c.life[member][i] = touching ? value : before;
-      };
-      const auto add = [&](std::size_t member, double value) {
-        c.life[member][i] += touching ? value : 0.0;
-      };
-      live(RIESEL_LIFE(end), u.time + t.until);
-      live(RIESEL_LIFE(overlap), t.overlap);
-      const double deepest = c.life[RIESEL_LIFE(max_overlap)][i];
-      live(RIESEL_LIFE(max_overlap), std::max(deepest, t.overlap));
-      live(RIESEL_LIFE(elastic_energy), t.elastic_energy);
-      add(RIESEL_LIFE(slip_path), std::abs(t.slip) * u.dt);
-      add(RIESEL_LIFE(normal_loss), t.normal_power * u.dt);
-      add(RIESEL_LIFE(friction_loss), t.friction_power * u.dt);
-
-      const double fx = touching ? t.fx : 0.0, fy = touching ? t.fy : 0.0;
-      const double x = fx * c.per_mass_first[i] * u.kick_x;
-      const double y = fy * c.per_mass_first[i] * u.kick_y;
-      c.kick[0][i] = nearest_fixed(x);
-      c.kick[1][i] = nearest_fixed(y);
-      // Kicks are integers: a force that is not a number, or beyond all bounds, must not become
-      // one.
-      double size = std::abs(x) + std::abs(y);
-      if constexpr (partner == LiveContacts::Partner::grain) {
-        const double other_x = -fx * c.per_mass_second[i] * u.kick_x;
-        const double other_y = -fy * c.per_mass_second[i] * u.kick_y;
-        c.kick[2][i] = nearest_fixed(other_x);
-        c.kick[3][i] = nearest_fixed(other_y);
-        size += std::abs(other_x) + std::abs(other_y);
-      } else {
-        add(RIESEL_LIFE(impulse_x), fx * u.dt);
-        add(RIESEL_LIFE(impulse_y), fy * u.dt);
-        add(RIESEL_LIFE(impulse_y_times_step), fy * u.dt * u.step);
-      }
-      const std::int64_t over = touching ? 0 : apart;
+      carry_on<partner>(c, i, touching, t, u);
+      const double size = kick_bodies<partner>(c, i, touching, t, u);
+      // Kicks are integers: what is not a number, or beyond all bounds, must not become one.
       const std::int64_t bad = size < 0x1p62 ? 0 : unusable;
+      const std::int64_t over = touching ? 0 : apart;
       c.flags[i] = over | bad;
       any |= c.reach[i] > 0.0 ? over | bad : 0;  // no lane of the padding
     }
@@ -215,6 +230,7 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
       if ((flags_[i] & unusable) != 0) trouble_ = meetings_[i].name;
     }
   }
+  std::reverse(ended_.begin(), ended_.end());
 }
 
 }  // namespace riesel

@@ -69,8 +69,8 @@ public:
   /// What has ended then stands in ended() and gives no kick.
   void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
 
-  /// Indices of the contacts that the last step() found apart, increasing; to be removed, from the
-  /// last to the first, before the next.
+  /// Indices of the contacts that the last step() found apart, decreasing; to be removed in this
+  /// order before the next.
   const std::vector<std::size_t>& ended() const { return ended_; }
   /// The last contact takes the place of contact `i`.
   void remove(std::size_t i);

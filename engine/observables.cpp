@@ -65,7 +65,8 @@ double standard_deviation(double sum, double sum_of_squares, double n) {
 
 Origin origin_of(const State& state) {
   const GrainSums sums = sum_over_grains(state);
-  return {.energy = sums.kinetic.value() + stored_energy(state), .momentum_y = sums.momentum_y.value()};
+  return {.energy = sums.kinetic.value() + stored_energy(state),
+          .momentum_y = sums.momentum_y.value()};
 }
 
 Observables observe(const State& state) {
