@@ -12,7 +12,7 @@ Usage: docs/paper/reproduce.sh FIGURE...
 
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (a minute)
-  fig6_short   tube, one seed, 3 s (a quarter of an hour on two cores)
+  fig6_short   tube, one seed, 3 s (a quarter to half an hour on two cores)
 
 The program is \$RIESEL, or else $riesel (./setup.sh build).
 END

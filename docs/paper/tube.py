@@ -57,7 +57,7 @@ def draw_fig6(plt, points):
             if p.state == "accelerating":
                 axes.annotate("", (p.e_n, 1.45 * p.velocity), (p.e_n, 1.1 * p.velocity),
                               arrowprops={"arrowstyle": "->", "color": color})
-        axes.set(xlabel="e_N", title=f"k_N = {k_n:g} N/m", yscale="log", xlim=(0.55, 1))
+        axes.set(xlabel="e_N", title=f"k_N = {k_n:g} N/m", yscale="log", xlim=(0.55, 1), ylim=(1, 80))
     panels[0].set_ylabel("mean axial velocity (m/s)")
     for branch, (marker, color) in MARKERS.items():
         panels[0].plot([], [], marker=marker, color=color, linestyle="none", label=f"{branch} start")
