@@ -116,7 +116,7 @@ lint() {
   say "clang-format"
   cpp_files | xargs clang-format --dry-run -Werror || complaints+=("clang-format (try ./setup.sh format)")
   say "shellcheck"
-  shellcheck setup.sh .ci/run || complaints+=(shellcheck)
+  shellcheck setup.sh .ci/run docs/paper/reproduce.sh || complaints+=(shellcheck)
   # One process per source, as many as there are processors. Headers are checked where they are
   # included; the outside project of the packaging test is not in the compiler's command lines.
   say "clang-tidy"

@@ -1,0 +1,54 @@
+"""The files of the paper's figures: each sweep can be run, and docs/paper.md says what they give."""
+
+import subprocess
+
+from riesel_command import SHIPPED, CommandTest, plain_number
+
+DOCS = SHIPPED.parent / "docs"
+
+# file: number of its points
+POINTS = {
+    "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5,
+    "fig6": 144, "fig6_short": 36, "fig6_hysteresis": 63, "fig6_map": 480,
+}
+
+
+class Paper(CommandTest):
+
+    def tables_of(self, figure):
+        """The lines of the tables that figures.py prints of the sweeps in this home."""
+        done = subprocess.run(["/usr/bin/python3", "-B", DOCS / "paper/figures.py", figure, "--out", "."],
+                              cwd=self.home, timeout=60, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater((self.home / f"{figure}.svg").stat().st_size, 0)
+        lines = [line for line in done.stdout.splitlines() if line.startswith("|")]
+        self.assertGreater(len(lines), 5)
+        return lines
+
+    def assert_quoted(self, figure):
+        manual = (DOCS / "paper.md").read_text(encoding="utf-8").splitlines()
+        for line in self.tables_of(figure):
+            self.assertIn(line, manual)
+
+    def test_each_file_is_a_sweep_that_can_be_run(self):
+        self.assertEqual({path.stem for path in (SHIPPED / "paper").iterdir()}, set(POINTS))
+        for name, points in POINTS.items():
+            with self.subTest(name):
+                result = self.riesel("sweep", SHIPPED / f"paper/{name}.yaml", "--dry-run")
+                self.assert_done(result)
+                self.assertEqual(plain_number(result.stdout, r"(\d+) points, "), points)
+        self.assertEqual(list(self.home.iterdir()), [])
+
+    def test_the_numbers_of_fig_3_are_those_of_the_manual(self):
+        for name in ("fig3", "fig3_time_step", "fig3_laws"):
+            self.assert_done(self.riesel("sweep", SHIPPED / f"paper/{name}.yaml"))
+        self.assert_quoted("fig3")
+
+    def test_the_numbers_of_fig_6_are_those_of_the_kept_table(self):
+        self.assert_quoted("fig6_short")
+
+    def test_a_missing_result_is_told(self):
+        done = subprocess.run(["/usr/bin/python3", "-B", DOCS / "paper/figures.py", "fig3"], cwd=self.home,
+                              timeout=60, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assert_one_message(done.stderr.replace("figures.py:", "riesel:", 1), "reproduce.sh")
