@@ -31,7 +31,7 @@ io::Range range_with(std::vector<double> values, const std::optional<io::Measure
 }  // namespace
 
 io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks) {
-  io::Plot plot(width, 220.0, series.column.doc,
+  io::Plot plot(width, 250.0, series.column.doc,
                 {.label = label_of(time.column), .range = io::range_of(time.values)},
                 {.label = label_of(series.column), .range = range_with(series.values, marks.mean)});
   const io::Range before{plot.x().range.low, marks.transient_end};

@@ -125,10 +125,11 @@ private:
     add_figure(
         "state", figure.svg,
         fmt::format("{} at t = {:.6g} s, coloured by their axial velocity; gravity points down. "
-                    "Grey: wall grains. Red lines: contacts, from centre to centre.{} The slowest "
+                    "The tube is {:.4g} mm wide and {:.4g} mm long. Grey: wall grains. Red lines: "
+                    "contacts, from centre to centre.{} The slowest "
                     "and the fastest hundredth of all grains may lie beyond the ends of the "
                     "colour bar and have their colours.",
-                    shown, state.time, cut));
+                    shown, state.time, 1e3 * state.box.width, 1e3 * state.box.length, cut));
   }
 
   /// The mean velocity has an error; of the others only what summary.json knows is marked.
@@ -148,7 +149,9 @@ private:
       const io::Series& series = record_->run.series_of(name);
       std::string caption = series.column.doc;
       if (of_mean) caption += " Orange: the mean after the transient";
-      if (of_mean) caption += std::isnan(of_mean->error) ? "." : ", and its error as a band.";
+      if (of_mean)
+        caption +=
+            std::isnan(of_mean->error) ? "; its error is not known." : ", and its error as a band.";
       add_figure(name, draw_series(time, series, {s.transient_end, of_mean}), caption);
     }
     page_.paragraph(fmt::format(

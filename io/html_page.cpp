@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+
 namespace riesel::io {
 namespace {
 
@@ -15,26 +18,24 @@ svg { max-width: 100%; height: auto; } figure { margin: 1em 0; }
 figcaption { color: #555; font-size: 0.9em; max-width: 50em; }
 table { border-collapse: collapse; } th, td { padding: 0.2em 0.8em; text-align: left;
        border-bottom: 1px solid #ddd; vertical-align: top; overflow-wrap: anywhere; }
-td.number { text-align: right; white-space: nowrap; }
+th.number, td.number { text-align: right; white-space: nowrap; }
 .good, .doubtful, .bad { padding: 0.4em 0.8em; border-left: 0.4em solid; }
 .good { border-color: #2e7d32; } .doubtful { border-color: #e6a100; } .bad { border-color: #c62828; }
 pre { background: #f5f5f5; padding: 0.8em; overflow-x: auto; font-size: 0.85em; }
 summary { cursor: pointer; }
 )";
 
+using Rows = std::vector<std::vector<std::string>>;
+
 bool is_number(std::string_view cell) {
-  return !cell.empty() && (cell.front() == '-' || (cell.front() >= '0' && cell.front() <= '9'));
+  return !cell.empty() && cell.find_first_not_of("0123456789+-.e %") == std::string_view::npos;
 }
 
-std::string row_of(const std::vector<std::string>& cells, bool is_head) {
-  std::string row = "<tr>";
-  for (const auto& cell : cells) {
-    if (is_head)
-      row += "<th>" + escaped(cell) + "</th>";
-    else
-      row += (is_number(cell) ? "<td class=\"number\">" : "<td>") + escaped(cell) + "</td>";
-  }
-  return row + "</tr>\n";
+/// Below the head.
+bool has_numbers_only(const Rows& rows, std::size_t column) {
+  return rows.size() > 1 && std::all_of(rows.begin() + 1, rows.end(), [&](const auto& row) {
+           return is_number(row.at(column));
+         });
 }
 
 }  // namespace
@@ -58,7 +59,15 @@ void HtmlPage::list(const std::vector<std::string>& items) {
 
 void HtmlPage::table(const std::vector<std::vector<std::string>>& rows) {
   body_ += "<table>\n";
-  for (std::size_t i = 0; i < rows.size(); ++i) body_ += row_of(rows[i], i == 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string_view element = i == 0 ? "th" : "td";
+    body_ += "<tr>";
+    for (std::size_t column = 0; column < rows[i].size(); ++column)
+      body_ += fmt::format("<{}{}>{}</{}>", element,
+                           has_numbers_only(rows, column) ? " class=\"number\"" : "",
+                           escaped(rows[i][column]), element);
+    body_ += "</tr>\n";
+  }
   body_ += "</table>\n";
 }
 

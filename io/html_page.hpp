@@ -19,7 +19,7 @@ public:
   /// `name` is a class of the style below: "good", "doubtful", "bad"; or empty.
   void paragraph(std::string_view text, std::string_view name = "");
   void list(const std::vector<std::string>& items);
-  /// The first row is the head. Cells that begin with a digit or a sign stand on the right.
+  /// The first row is the head; all rows are of one length. Columns of numbers stand on the right.
   void table(const std::vector<std::vector<std::string>>& rows);
   void figure(const Svg& svg, std::string_view caption);
   /// Text as it is, folded away under its name.

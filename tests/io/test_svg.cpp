@@ -86,16 +86,17 @@ TEST_CASE("A page holds its parts in their order, escaped") {
   HtmlPage page("1 < 2");
   page.heading("R&D");
   page.paragraph("<script>", "good");
-  page.table({{"name", "J"}, {"a<b", "-1.5"}});
+  page.table({{"name", "J"}, {"a<b", "-1.5e-07"}});
+  page.table({{"of both"}, {"1 m/s"}, {"2"}});
   page.figure(Svg(10.0, 10.0, "nothing"), "c > d");
   page.folded("settings", "a: {b: 'c'}\n");
   const auto text = page.text();
   std::size_t last = 0;
   for (const std::string part :
        {"<!DOCTYPE html>", "<title>1 &lt; 2</title>", "<h1>1 &lt; 2</h1>", "<h2>R&amp;D</h2>",
-        "<p class=\"good\">&lt;script&gt;</p>", "<th>name</th><th>J</th>",
-        "<td>a&lt;b</td><td class=\"number\">-1.5</td>", "<svg ",
-        "<figcaption>c &gt; d</figcaption>", "<summary>settings</summary>",
+        "<p class=\"good\">&lt;script&gt;</p>", "<th>name</th><th class=\"number\">J</th>",
+        "<td>a&lt;b</td><td class=\"number\">-1.5e-07</td>", "<td>1 m/s</td>", "<td>2</td>",
+        "<svg ", "<figcaption>c &gt; d</figcaption>", "<summary>settings</summary>",
         "<pre>a: {b: &#39;c&#39;}\n</pre>", "</html>"}) {
     const auto found = text.find(part, last);
     INFO(part);
