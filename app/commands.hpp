@@ -69,6 +69,9 @@ int sweep_status(const std::filesystem::path& directory);
 /// Gathers the results of the sweep in a directory into one table.
 int sweep_collect(const std::filesystem::path& directory);
 
+/// Writes a page with figures beside the files of the finished run in a directory.
+int report(const std::filesystem::path& directory);
+
 int list_scenarios();
 
 /// The reference page of the settings, in Markdown.

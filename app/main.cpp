@@ -54,11 +54,13 @@ public:
     add_run();
     add_resume();
     add_check();
+    add_directory("report", "Make a page with figures of a flow that is over", "the run",
+                  app::report);
     add_sweep();
     add_sweep_task();
-    add_sweep_directory("status", "Tell how far a sweep has come", app::sweep_status);
-    add_sweep_directory("collect", "Gather the results of a sweep into one table",
-                        app::sweep_collect);
+    add_directory("status", "Tell how far a sweep has come", "the sweep", app::sweep_status);
+    add_directory("collect", "Gather the results of a sweep into one table", "the sweep",
+                  app::sweep_collect);
     program_.add_subcommand("scenarios", "List the scenarios")->callback([this] {
       command_ = app::list_scenarios;
     });
@@ -124,12 +126,12 @@ private:
     set_command(*task, *index, [this] { return app::sweep_task(task_); });
   }
 
-  void add_sweep_directory(const std::string& name, const std::string& what,
-                           int (*act)(const std::filesystem::path&)) {
+  /// A subcommand whose only argument is the directory of something that was made.
+  void add_directory(const std::string& name, const std::string& what, const std::string& of,
+                     int (*act)(const std::filesystem::path&)) {
     CLI::App* subcommand = program_.add_subcommand(name, what);
-    CLI::Option* directory =
-        subcommand->add_option("DIR", sweep_directory_, "Directory of the sweep");
-    set_command(*subcommand, *directory, [this, act] { return act(sweep_directory_); });
+    CLI::Option* directory = subcommand->add_option("DIR", directory_, "Directory of " + of);
+    set_command(*subcommand, *directory, [this, act] { return act(directory_); });
   }
 
   /// The argument is required, but asked for only after CLI11 has complained of unknown options,
@@ -149,7 +151,7 @@ private:
   app::CheckOptions check_;
   app::SweepOptions sweep_;
   app::SweepTaskOptions task_;
-  std::filesystem::path sweep_directory_;
+  std::filesystem::path directory_;
   std::function<int()> command_;
 };
 

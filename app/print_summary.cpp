@@ -1,20 +1,14 @@
 #include "app/print_summary.hpp"
 
+#include "app/plain_words.hpp"
+
 #include <fmt/core.h>
 
-#include <cmath>
 #include <string>
 
 namespace riesel::app {
 
 namespace {
-
-std::string explanation(const std::string& state) {
-  if (state == "steady") return "no trend after the transient";
-  if (state == "accelerating") return "the grains still gain speed: the mean is no steady velocity";
-  if (state == "drifting") return "there still is a trend: the mean is no steady velocity";
-  return "too few independent samples for a steady mean";
-}
 
 void print_balance(const io::FlowSummary::Balance& b) {
   const std::string factors =
@@ -39,13 +33,7 @@ void print_validity(const ValidityVerdict& v) {
   fmt::print("  {:<22}{}\n", "validity", name(v.verdict));
   for (const Finding& f : v.findings) {
     if (f.verdict == Validity::valid) continue;
-    if (std::isnan(f.value)) {
-      fmt::print("  {:<22}{}: {}; {}\n", name(f.verdict), f.name, f.meaning, f.remedy);
-      continue;
-    }
-    const double threshold = f.verdict == Validity::unphysical ? f.unphysical : f.suspect;
-    fmt::print("  {:<22}{} = {:.3g}, {} {:.3g}: {}; {}\n", name(f.verdict), f.name, f.value,
-               f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
+    fmt::print("  {:<22}{}\n", name(f.verdict), explanation(f));
   }
 }
 

@@ -2,7 +2,7 @@
 
 from riesel_command import BAD_INPUT, SHIPPED, CommandTest
 
-SUBCOMMANDS = ["run", "resume", "check", "scenarios", "settings"]
+SUBCOMMANDS = ["run", "resume", "check", "report", "scenarios", "settings"]
 
 
 class Usage(CommandTest):
@@ -30,6 +30,7 @@ class Usage(CommandTest):
         self.assert_usage_error("run", mentions="FILE")
         self.assert_usage_error("check", mentions="FILE")
         self.assert_usage_error("resume", mentions="DIR")
+        self.assert_usage_error("report", mentions="DIR")
 
     def test_an_option_without_its_value_is_named(self):
         for option in ("--out", "--set", "--threads"):

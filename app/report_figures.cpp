@@ -1,0 +1,85 @@
+#include "app/report_figures.hpp"
+
+#include "io/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel::app {
+
+namespace {
+
+constexpr double width = 760.0;  // px
+constexpr std::string_view blue = "#26548c", orange = "#d9730d", pale_orange = "#f9dcc0",
+                           grey = "#777777", pale_grey = "#eeeeee";
+
+std::string label_of(const io::Column& column) {
+  return column.unit == "1" ? column.name : fmt::format("{} ({})", column.name, column.unit);
+}
+
+/// With room for the mean and its error.
+io::Range range_with(std::vector<double> values, const std::optional<io::Measured>& mean) {
+  if (mean) {
+    const double error = std::isfinite(mean->error) ? mean->error : 0.0;
+    values.insert(values.end(), {mean->value - error, mean->value + error});
+  }
+  return io::range_of(values);
+}
+
+}  // namespace
+
+io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks) {
+  io::Plot plot(width, 250.0, series.column.doc,
+                {.label = label_of(time.column), .range = io::range_of(time.values)},
+                {.label = label_of(series.column), .range = range_with(series.values, marks.mean)});
+  const io::Range before{plot.x().range.low, marks.transient_end};
+  const io::Range after{marks.transient_end, plot.x().range.high};
+  if (marks.transient_end > 0.0) plot.area(before, plot.y().range, {.fill = pale_grey});
+  if (marks.mean && std::isfinite(marks.mean->error))
+    plot.area(after, {marks.mean->value - marks.mean->error, marks.mean->value + marks.mean->error},
+              {.fill = pale_orange});
+  plot.curve(time.values, series.values, {.stroke = blue, .stroke_width = 1.2});
+  if (marks.mean) plot.level(after, marks.mean->value, {.stroke = orange, .stroke_width = 1.5});
+  if (marks.transient_end > 0.0)
+    plot.moment(marks.transient_end, "end of the transient", {.stroke = grey, .dashes = "4 3"});
+  return plot.svg();
+}
+
+std::vector<EnergyPart> parts_of(const io::FlowSummary::Energy& e) {
+  return {{"kinetic, at the start", e.initial, true},
+          {"work of gravity", e.gravity_work, true},
+          {"kinetic, at the end", e.kinetic, false},
+          {"elastic, at the end", e.elastic, false},
+          {"lost by normal damping", e.normal_loss, false},
+          {"lost by friction", e.friction_loss, false},
+          {"residual", e.residual, false}};
+}
+
+io::Svg draw_energy(const std::vector<EnergyPart>& parts) {
+  constexpr double left = 190.0, right_margin = 90.0, row = 24.0, bar = 16.0;
+  double low = 0.0, high = 0.0;
+  for (const EnergyPart& part : parts) {
+    low = std::min(low, part.value);
+    high = std::max(high, part.value);
+  }
+  const double scale = (width - left - right_margin) / (high > low ? high - low : 1.0);
+  const double zero = left - low * scale;
+  const double height = row * static_cast<double>(parts.size()) + 8.0;
+
+  io::Svg svg(width, height, "The budget of energy");
+  double y = 4.0;
+  for (const EnergyPart& part : parts) {
+    const double length = std::abs(part.value) * scale;
+    const double begin = part.value < 0.0 ? zero - length : zero;
+    svg.text({left - 10.0, y + 13.0}, part.name, {.anchor = "end"});
+    svg.rectangle({begin, y}, length, bar, {.fill = part.came_in ? blue : orange});
+    svg.text({begin + length + 6.0, y + 13.0}, fmt::format("{:.3g} J", part.value));
+    y += row;
+  }
+  svg.line({zero, 0.0}, {zero, height}, {.stroke = grey});
+  return svg;
+}
+
+}  // namespace riesel::app

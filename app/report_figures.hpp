@@ -1,0 +1,36 @@
+// Figures of a report but the state (state_figure.hpp): series and the budget of energy.
+#pragma once
+
+#include "io/run_reader.hpp"
+#include "io/summary.hpp"
+#include "io/svg.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riesel::app {
+
+/// What a series is marked with.
+struct SeriesMarks {
+  double transient_end = 0.0;        ///< s
+  std::optional<io::Measured> mean;  ///< of what comes after it; without a band if the error is
+                                     ///< not known
+};
+
+/// `time` is as long as `series`.
+io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks);
+
+/// A part of the budget of energy.
+struct EnergyPart {
+  std::string name;
+  double value;  ///< J
+  bool came_in;  ///< otherwise it is where the energy is now
+};
+
+std::vector<EnergyPart> parts_of(const io::FlowSummary::Energy& energy);
+
+/// A bar for each part; all are finite.
+io::Svg draw_energy(const std::vector<EnergyPart>& parts);
+
+}  // namespace riesel::app

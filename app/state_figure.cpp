@@ -1,0 +1,227 @@
+#include "app/state_figure.hpp"
+
+#include "io/colour_scale.hpp"
+#include "io/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace riesel::app {
+
+namespace {
+
+using io::Point;
+
+constexpr double most_width = 960.0, most_height = 640.0, gap = 18.0;  // px
+constexpr double room_below = 64.0;                                    // px, for the colour bar
+constexpr double largest_grain = 40.0, smallest_grain = 5.0;           // px, diameter
+constexpr double most_grains = 20000.0;                                // a page of a few MB
+constexpr std::size_t most_columns = 24;
+
+double mean_diameter(const io::FinalState& state) {
+  double sum = 0.0;
+  for (const Grain& grain : state.grains) sum += 2.0 * grain.radius;
+  return sum / static_cast<double>(state.grains.size());
+}
+
+/// m, by which bodies can stand out of the box.
+double margin_of(const io::FinalState& state) {
+  double margin = 0.0;
+  for (const Grain& grain : state.grains) margin = std::max(margin, grain.radius);
+  for (const WallLattice& wall : state.walls) margin = std::max(margin, wall.radius);
+  return margin;
+}
+
+/// Where what is drawn: the tube cut into columns of equal length.
+class Layout {
+public:
+  explicit Layout(const io::FinalState& state)
+      : tube_length_(state.box.length),
+        margin_(margin_of(state)),
+        outer_width_(state.box.width + 2.0 * margin_) {
+    const double diameter = mean_diameter(state);
+    show_all(diameter);
+    if (scale_ * diameter < smallest_grain) show_a_part(smallest_grain / diameter);
+    const double density = static_cast<double>(state.grains.size()) / tube_length_;
+    column_length_ = std::min(column_length_, most_grains / (density * number_of_columns()));
+  }
+
+  std::size_t columns() const { return columns_; }
+  double scale() const { return scale_; }  ///< px/m
+  bool is_whole() const { return length_shown() > (1.0 - 1e-9) * tube_length_; }
+  double length_shown() const { return number_of_columns() * column_length_; }  ///< m
+  double width() const {
+    return number_of_columns() * (outer_width_ * scale_ + gap) - gap;
+  }                                                                            ///< px
+  double height() const { return (column_length_ + 2.0 * margin_) * scale_; }  ///< px
+
+  /// Of a body with this y (m, in the box); none if it is not shown.
+  std::optional<std::size_t> column_of(double y) const {
+    const auto column = static_cast<std::size_t>(std::max(y, 0.0) / column_length_);
+    if (column < columns_) return column;
+    return is_whole() ? std::optional(columns_ - 1) : std::nullopt;
+  }
+
+  Point place(std::size_t column, double x, double y) const {
+    const auto index = static_cast<double>(column);
+    return {index * (outer_width_ * scale_ + gap) + (x + margin_) * scale_,
+            (y - index * column_length_ + margin_) * scale_};
+  }
+
+private:
+  double number_of_columns() const { return static_cast<double>(columns_); }
+
+  /// As many columns as give the largest grains.
+  void show_all(double diameter) {
+    for (std::size_t n = 1; n <= most_columns; ++n) {
+      const auto columns = static_cast<double>(n);
+      const double across = (most_width - (columns - 1.0) * gap) / (columns * outer_width_);
+      const double along = most_height / (tube_length_ / columns + 2.0 * margin_);
+      const double scale = std::min({across, along, largest_grain / diameter});
+      if (scale <= scale_) continue;
+      scale_ = scale;
+      columns_ = n;
+      column_length_ = tube_length_ / columns;
+    }
+  }
+
+  /// At a scale at which grains are seen, if the width of the tube allows it.
+  void show_a_part(double wanted_scale) {
+    scale_ = std::min(wanted_scale, most_width / outer_width_);
+    const double fitting = (most_width + gap) / (outer_width_ * scale_ + gap);
+    columns_ = static_cast<std::size_t>(std::max(1.0, std::floor(fitting)));
+    const double height = most_height / scale_;
+    column_length_ = std::min(std::max(height - 2.0 * margin_, 0.5 * height),
+                              tube_length_ / number_of_columns());
+  }
+
+  double tube_length_, margin_, outer_width_;  // m
+  double scale_ = 0.0;
+  std::size_t columns_ = 1;
+  double column_length_ = 0.0;  // m
+};
+
+/// Without the slowest and the fastest hundredth, which would take the colours from all others.
+io::Range velocity_range(const io::FinalState& state) {
+  std::vector<double> velocities;
+  for (const Grain& grain : state.grains) velocities.push_back(grain.vy);
+  std::sort(velocities.begin(), velocities.end());
+  const auto at = [&](double part) {
+    return velocities[static_cast<std::size_t>(part * static_cast<double>(velocities.size() - 1))];
+  };
+  const io::Range range{at(0.01), at(0.99)};
+  return range.low < range.high ? range : io::range_of(velocities);
+}
+
+class Drawing {
+public:
+  explicit Drawing(const io::FinalState& state)
+      : state_(&state),
+        layout_(state),
+        velocities_(velocity_range(state)),
+        svg_(std::max(layout_.width(), 420.0), layout_.height() + room_below,
+             fmt::format("The grains at t = {:.6g} s, coloured by their axial velocity",
+                         state.time)) {
+    draw_walls();
+    draw_grains();
+    draw_contacts();
+    draw_colour_bar();
+  }
+
+  StateFigure figure() && {
+    return {.svg = std::move(svg_),
+            .columns = layout_.columns(),
+            .length_shown = std::min(layout_.length_shown(), state_->box.length),
+            .grains_drawn = grains_drawn_};
+  }
+
+private:
+  void draw_walls() {
+    svg_.begin_group("walls", {.fill = "#9a9a9a"});
+    for (const WallLattice& wall : state_->walls) {
+      const double spacing = wall.spacing(state_->box);
+      for (std::int64_t k = 0; k < wall.count; ++k) {
+        const double y = static_cast<double>(k) * spacing;
+        const auto column = layout_.column_of(y);
+        if (!column) break;
+        svg_.disc(layout_.place(*column, wall.line, y), wall.radius * layout_.scale());
+      }
+    }
+    svg_.end_group();
+  }
+
+  void draw_grains() {
+    svg_.begin_group("grains", {.stroke = "#222222", .stroke_width = 0.3});
+    for (const Grain& grain : state_->grains) {
+      const auto column = layout_.column_of(grain.y);
+      if (!column) continue;
+      ++grains_drawn_;
+      const double place = (grain.vy - velocities_.low) / (velocities_.high - velocities_.low);
+      svg_.disc(layout_.place(*column, grain.x, grain.y), grain.radius * layout_.scale(),
+                {.fill = io::colour(place)});
+    }
+    svg_.end_group();
+  }
+
+  /// From centre to centre.
+  void draw_contacts() {
+    svg_.begin_group("contacts", {.stroke = "#d01c1c", .stroke_width = 1.5});
+    for (const Contact& contact : state_->contacts) {
+      const Grain& grain = state_->grains[static_cast<std::size_t>(contact.name.grain)];
+      const auto column = layout_.column_of(grain.y);
+      if (!column) continue;
+      const auto [x, y] = place_of_partner(contact.name);
+      const double along = std::remainder(y - grain.y, state_->box.length);
+      svg_.line(layout_.place(*column, grain.x, grain.y),
+                layout_.place(*column, x, grain.y + along));
+    }
+    svg_.end_group();
+  }
+
+  /// m
+  Point place_of_partner(const ContactName& name) const {
+    if (name.wall == no_wall) {
+      const Grain& partner = state_->grains[static_cast<std::size_t>(name.partner)];
+      return {partner.x, partner.y};
+    }
+    const WallLattice& wall = state_->walls[static_cast<std::size_t>(name.wall)];
+    return {wall.line, static_cast<double>(name.partner) * wall.spacing(state_->box)};
+  }
+
+  void draw_colour_bar() {
+    constexpr double left = 10.0, width = 300.0, height = 14.0;
+    constexpr int steps = 60;
+    const double top = layout_.height() + 14.0;
+    svg_.begin_group("colour_bar");
+    for (int i = 0; i < steps; ++i) {  // each goes on under the next, so that no seam is seen
+      const double part = static_cast<double>(i) / steps;
+      svg_.rectangle({left + part * width, top}, (1.0 - part) * width, height,
+                     {.fill = io::colour((i + 0.5) / steps)});
+    }
+    for (const double value : io::ticks(velocities_, 6)) {
+      const double part = (value - velocities_.low) / (velocities_.high - velocities_.low);
+      const double x = left + part * width;
+      svg_.line({x, top + height}, {x, top + height + 4.0}, {.stroke = "#333333"});
+      svg_.text({x, top + height + 17.0}, fmt::format("{:.6g}", value), {.anchor = "middle"});
+    }
+    svg_.text({left + width + 14.0, top + 12.0}, "v_y (m/s)");
+    svg_.end_group();
+  }
+
+  const io::FinalState* state_;
+  Layout layout_;
+  io::Range velocities_;
+  io::Svg svg_;
+  std::size_t grains_drawn_ = 0;
+};
+
+}  // namespace
+
+StateFigure draw_state(const io::FinalState& state) { return Drawing(state).figure(); }
+
+}  // namespace riesel::app

@@ -1,0 +1,37 @@
+// A page in HTML that stands alone: style and figures are in it, nothing is fetched, nothing is
+// executed.
+#pragma once
+
+#include "io/svg.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace riesel::io {
+
+/// Parts appear in the order in which they are added. All texts are escaped.
+class HtmlPage {
+public:
+  explicit HtmlPage(std::string_view title);
+
+  void heading(std::string_view text);
+  /// `name` is a class of the style below: "good", "doubtful", "bad"; or empty.
+  void paragraph(std::string_view text, std::string_view name = "");
+  void list(const std::vector<std::string>& items);
+  /// The first row is the head; all rows are of one length. Columns of numbers stand on the right.
+  void table(const std::vector<std::vector<std::string>>& rows);
+  void figure(const Svg& svg, std::string_view caption);
+  /// Text as it is, folded away under its name.
+  void folded(std::string_view name, std::string_view text);
+
+  /// The whole page.
+  std::string text() const;
+
+private:
+  void add(std::string_view element, std::string_view text, std::string_view name = "");
+
+  std::string title_, body_;
+};
+
+}  // namespace riesel::io

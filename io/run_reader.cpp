@@ -1,0 +1,165 @@
+#include "io/run_reader.hpp"
+
+#include "io/file_error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/state_columns.hpp"
+#include "io/state_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+
+namespace riesel::io {
+namespace {
+
+/// In the order of a report. What is about files (settings, source) is not among it.
+constexpr auto told_of_provenance = {
+    "date",         "command",   "threads",      "seed",         "riesel_version",
+    "git_commit",   "git_dirty", "compiler",     "flags",        "build_type",
+    "cpu",          "host",      "slurm_job_id", "hdf5_version", "yaml_cpp_version",
+    "eigen_version"};
+
+void require(bool is_so, const std::string& flaw) {
+  if (!is_so) throw Hdf5Error(flaw);
+}
+
+std::vector<double> read_numbers(const Hdf5Group& group, const std::string& name,
+                                 std::size_t most_bytes) {
+  std::vector<double> values;
+  read_column(group, name, most_bytes, values);
+  return values;
+}
+
+/// Rows of two components, one after the other.
+std::vector<double> read_pairs(const Hdf5Group& group, const std::string& name, std::size_t rows) {
+  const auto data = group.data(name);
+  require(data.shape().columns == 2 && data.shape().rows == rows,
+          "the data set " + name + " has another size than the grains");
+  std::vector<double> values(2 * rows);
+  data.read(std::span(values));
+  return values;
+}
+
+std::vector<Grain> read_grains(const Hdf5Group& group, std::size_t most_bytes) {
+  const auto radius = read_numbers(group, "radius", most_bytes);
+  const auto mass = read_numbers(group, "mass", most_bytes);
+  require(mass.size() == radius.size(), "masses and radii differ in number");
+  const auto position = read_pairs(group, "position", radius.size());
+  const auto velocity = read_pairs(group, "velocity", radius.size());
+  std::vector<Grain> grains;
+  for (std::size_t i = 0; i < radius.size(); ++i)
+    grains.push_back({.x = position[2 * i],
+                      .y = position[2 * i + 1],
+                      .vx = velocity[2 * i],
+                      .vy = velocity[2 * i + 1],
+                      .radius = radius[i],
+                      .mass = mass[i]});
+  return grains;
+}
+
+bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
+
+bool is_sound(const Grain& grain) {
+  return std::isfinite(grain.x) && std::isfinite(grain.y) && std::isfinite(grain.vx)
+         && std::isfinite(grain.vy) && is_positive(grain.radius);
+}
+
+bool is_sound(const WallLattice& wall) {
+  return std::isfinite(wall.line) && is_positive(wall.radius) && wall.count > 0;
+}
+
+bool fits(const ContactName& name, const FinalState& state) {
+  const auto is_index = [](std::int32_t i, auto size) {
+    return i >= 0 && i < static_cast<std::int64_t>(size);
+  };
+  if (!is_index(name.grain, state.grains.size())) return false;
+  if (name.wall == no_wall) return is_index(name.partner, state.grains.size());
+  return is_index(name.wall, state.walls.size())
+         && is_index(name.partner, state.walls[static_cast<std::size_t>(name.wall)].count);
+}
+
+void check(const FinalState& state) {
+  require(is_positive(state.box.width) && is_positive(state.box.length), "the box has no size");
+  require(!state.grains.empty(), "there are no grains");
+  require(std::ranges::all_of(state.grains, [](const Grain& g) { return is_sound(g); }),
+          "a grain has impossible values");
+  require(std::ranges::all_of(state.walls, [](const WallLattice& w) { return is_sound(w); }),
+          "a wall has impossible values");
+  require(
+      std::ranges::all_of(state.contacts, [&](const Contact& c) { return fits(c.name, state); }),
+      "a contact names bodies that are not there");
+}
+
+FinalState read_final_state(const Hdf5Group& group, std::size_t most_bytes) {
+  FinalState state{.box = {.width = group.attribute<double>("box_width"),
+                           .length = group.attribute<double>("box_length")},
+                   .time = group.attribute<double>("time"),
+                   .step = group.attribute<std::int64_t>("step"),
+                   .grains = read_grains(group, most_bytes),
+                   .walls = read_records<WallLattice>(group.group("walls"), most_bytes),
+                   .contacts = read_records<Contact>(group.group("contacts"), most_bytes)};
+  check(state);
+  return state;
+}
+
+std::vector<Series> read_series(const Hdf5Group& group, std::size_t most_bytes) {
+  std::vector<Series> series;
+  std::istringstream names(group.text_attribute("columns"));
+  for (std::string name; std::getline(names, name, ',');) {
+    const auto data = group.data(name);
+    series.push_back({.column = {.name = name,
+                                 .unit = data.text_attribute("unit"),
+                                 .doc = data.text_attribute("doc")},
+                      .values = read_numbers(group, name, most_bytes)});
+    require(series.back().values.size() == series.front().values.size(),
+            "the series " + name + " is not as long as the others");
+  }
+  return series;
+}
+
+Provenance read_provenance(const Hdf5Group& group, std::size_t most_bytes) {
+  Provenance provenance;
+  for (const char* name : told_of_provenance)
+    if (group.has(name)) provenance.emplace_back(name, group.read_text(name, most_bytes));
+  return provenance;
+}
+
+RunContents read_contents(const Hdf5Group& root, std::size_t most_bytes) {
+  require(root.text_attribute("format") == "riesel run", "it is no run of riesel");
+  require(root.has("final"), "it holds no final state");
+  const auto provenance = root.group("provenance");
+  RunContents contents{.final_state = read_final_state(root.group("final"), most_bytes),
+                       .series = read_series(root.group("series"), most_bytes),
+                       .start = read_provenance(provenance, most_bytes),
+                       .resumes = {}};
+  for (int i = 1; provenance.has(fmt::format("resume_{}", i)); ++i)
+    contents.resumes.push_back(
+        read_provenance(provenance.group(fmt::format("resume_{}", i)), most_bytes));
+  return contents;
+}
+
+}  // namespace
+
+const Series& RunContents::series_of(const std::string& name) const {
+  const auto found = std::ranges::find_if(
+      series, [&](const Series& candidate) { return candidate.column.name == name; });
+  if (found == series.end()) throw std::out_of_range("there is no series " + name);
+  return *found;
+}
+
+RunContents read_run_file(const std::filesystem::path& path) {
+  try {
+    const auto root = Hdf5File::open(path).root();
+    return read_contents(root, std::filesystem::file_size(path));
+  } catch (const Hdf5Error& error) {
+    throw FileError(path, fmt::format("is damaged, or no record of a flow ({})", error.what()),
+                    "restore the file, or make the run again");
+  }
+}
+
+}  // namespace riesel::io

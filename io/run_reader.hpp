@@ -1,0 +1,46 @@
+// run.h5 read back: what a report of a run that is over needs of it.
+#pragma once
+
+#include "engine/box.hpp"
+#include "engine/contact.hpp"
+#include "engine/state.hpp"
+#include "engine/wall_lattice.hpp"
+#include "io/provenance.hpp"
+#include "io/run_file.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+/// /final: what there is to see of a State.
+struct FinalState {
+  Box box{};
+  double time = 0.0;  ///< s
+  std::int64_t step = 0;
+  std::vector<Grain> grains;  ///< a grain's id is its place
+  std::vector<WallLattice> walls;
+  std::vector<Contact> contacts;  ///< their names fit the grains and the walls
+};
+
+struct Series {
+  Column column;
+  std::vector<double> values;
+};
+
+struct RunContents {
+  FinalState final_state;
+  std::vector<Series> series;       ///< all of the same length
+  Provenance start;                 ///< what tells how the run was started, and by what
+  std::vector<Provenance> resumes;  ///< the same of each time it was resumed
+
+  /// Throws std::out_of_range for a name that is not there.
+  const Series& series_of(const std::string& name) const;
+};
+
+/// Throws FileError if the file cannot be read, is damaged, or is of something else than a flow.
+RunContents read_run_file(const std::filesystem::path& path);
+
+}  // namespace riesel::io

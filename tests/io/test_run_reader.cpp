@@ -1,0 +1,118 @@
+// run.h5 read back: what was written is there, and what is damaged is refused.
+#include "io/run_reader.hpp"
+
+#include "io/file_error.hpp"
+#include "tests/io/file_fixture.hpp"
+
+#include <stdexcept>
+
+using namespace riesel;
+using namespace riesel::io;
+using namespace file_fixture;
+
+namespace {
+
+const std::vector<Column> columns = {{"time", "s", "Time since the start."},
+                                     {"velocity", "m/s", "Mean axial velocity."}};
+
+RunFile write_run(const fs::path& path, const State& state) {
+  auto file = RunFile::create(
+      path, {{"date", "today"}, {"command", "riesel run"}, {"settings", "a: 1"}}, columns);
+  for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0 / (i + 1)});
+  file.write_final_state(state);
+  file.flush();
+  return file;
+}
+
+std::string complaint(const fs::path& path) {
+  return message_of<FileError>([&] { read_run_file(path); });
+}
+
+}  // namespace
+
+TEST_CASE("What was written to a run file is read back") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  const State state = special_state();
+  write_run(path, reversed(state));
+  const auto run = read_run_file(path);
+
+  CHECK(run.final_state.box.width == state.box.width);
+  CHECK(run.final_state.box.length == state.box.length);
+  CHECK(run.final_state.step == state.step);
+  CHECK(run.final_state.time == state.time());
+  REQUIRE(run.final_state.grains.size() == state.grains.size());
+  for (std::size_t i = 0; i < state.grains.size(); ++i) {
+    const Grain expected = grain_at(state, i);
+    const Grain& found = run.final_state.grains[i];
+    CHECK(std::vector{found.x, found.y, found.vx, found.vy, found.radius, found.mass}
+          == std::vector{expected.x, expected.y, expected.vx, expected.vy, expected.radius,
+                         expected.mass});
+  }
+  REQUIRE(run.final_state.walls.size() == 2);
+  CHECK(run.final_state.walls[0].radius == state.walls[0].radius);
+  CHECK(run.final_state.walls[0].count == 83);
+  REQUIRE(run.final_state.contacts.size() == state.contacts.size());
+  for (std::size_t i = 0; i < state.contacts.size(); ++i)
+    CHECK((run.final_state.contacts[i].name == state.contacts[i].name));
+
+  CHECK(run.series.size() == 2);
+  CHECK(run.series_of("velocity").column.unit == "m/s");
+  CHECK(run.series_of("velocity").column.doc == "Mean axial velocity.");
+  CHECK(run.series_of("velocity").values == std::vector{-1.0, -1.0 / 2, -1.0 / 3});
+  CHECK_THROWS_AS(run.series_of("speed"), std::out_of_range);
+  CHECK(run.start == Provenance{{"date", "today"}, {"command", "riesel run"}});
+  CHECK(run.resumes.empty());
+}
+
+TEST_CASE("Each resume of a run is told of") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  write_run(path, special_state());
+  for (const std::string day : {"tomorrow", "later"}) {
+    auto file = RunFile::reopen(path, {{"date", day}}, columns, 3);
+    file.write_final_state(special_state());
+    file.flush();
+  }
+  const auto run = read_run_file(path);
+  CHECK(run.resumes == std::vector<Provenance>{{{"date", "tomorrow"}}, {{"date", "later"}}});
+}
+
+TEST_CASE("A run file that is damaged or no record of a flow is refused") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  CHECK(complaint(path).find("run.h5: ") != std::string::npos);
+  overwrite(path, "no HDF5 at all");
+  CHECK(complaint(path).find("is damaged") != std::string::npos);
+  fs::remove(path);
+
+  auto file = RunFile::create(path, {}, columns);
+  CHECK(complaint(path).find("no final state") != std::string::npos);
+  fs::remove(path);
+
+  write_run(path, special_state());
+  CHECK(complaint(path).empty());
+  const auto whole = contents(path);
+  for (const std::size_t part : {1U, 2U, 3U}) {
+    overwrite(path, whole.substr(0, part * whole.size() / 4));
+    CHECK(complaint(path).find("is damaged") != std::string::npos);
+  }
+}
+
+TEST_CASE("A final state that cannot be is refused") {
+  const ScratchDirectory directory;
+  const auto refused = [&](const char* name, auto spoil) {
+    State state = special_state();
+    spoil(state);
+    write_run(directory / name, state);
+    return complaint(directory / name);
+  };
+  CHECK(refused("a.h5", [](State& s) { s.contacts[0].name.partner = 4; }).find("bodies")
+        != std::string::npos);
+  CHECK(refused("b.h5", [](State& s) { s.contacts[2].name.partner = 83; }).find("bodies")
+        != std::string::npos);
+  CHECK(refused("c.h5", [](State& s) { s.grains.radius[1] = -1.0; }).find("a grain")
+        != std::string::npos);
+  CHECK(refused("d.h5", [](State& s) { s.walls[1].count = 0; }).find("wall") != std::string::npos);
+  CHECK(refused("e.h5", [](State& s) { s.box.length = 0.0; }).find("box") != std::string::npos);
+}

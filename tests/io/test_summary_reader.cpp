@@ -1,0 +1,98 @@
+// summary.json read back: reading and writing again gives the same text, and what does not fit is
+// refused.
+#include "io/summary_reader.hpp"
+
+#include "io/file_error.hpp"
+#include "tests/io/file_fixture.hpp"
+
+#include <cmath>
+
+using namespace riesel;
+using namespace riesel::io;
+using namespace file_fixture;
+
+namespace {
+
+/// Each number is another one, some are not known.
+FlowSummary special_summary() {
+  FlowSummary s;
+  s.run = {.scenario = "periodic_tube",
+           .grains = 1403,
+           .steps = 123456789012,
+           .state_hash = 0x00ffee0012345678U,
+           .wall_seconds = 1.0 / 3.0,
+           .particle_steps_per_second = 2e7 / 3.0,
+           .threads = 3};
+  s.time = 0.1;
+  s.transient_end = 0.02;
+  s.state = "drifting";
+  s.mean_axial_velocity = {.value = 10.0 / 7.0, .error = std::nan("")};
+  s.independent_samples = 11.5;
+  s.granular_temperature = 1e-300;
+  s.balance = {.n_dot = {1.1, 0.1}, .dv_y = {1.2, 0.2}, .n_dot_dv_y = {1.3, 0.3}, .gravity = -0.0};
+  s.energy = {.initial = 1.0 / 9.0,
+              .kinetic = 2.1,
+              .elastic = 2.2,
+              .gravity_work = -2.3,
+              .normal_loss = 2.4,
+              .friction_loss = 2.5,
+              .residual = -1e-12 / 3.0};
+  s.wall_visits = {.visits = 44.0,
+                   .contacts = {3.1, 0.31},
+                   .dv_y = {3.2, 0.32},
+                   .dv_x = {3.3, 0.33},
+                   .entry_rate = {3.4, 0.34},
+                   .entry_slip = {3.5, 0.35},
+                   .of_contacts = {1, 2, 3, 4, 5, 6, 7, 8}};
+  s.validity = {.verdict = judge({.max_overlap_ratio = 0.3,
+                                  .brake_failure_fraction = 0.05,
+                                  .passages_per_visit = 2.5,
+                                  .wall_speed_ratio = 0.7,
+                                  .pulling_fraction = std::nan(""),
+                                  .steps_per_contact = 12.0}),
+                .v_crit = 2.2,
+                .friction_failure_fraction = 0.125};
+  return s;
+}
+
+std::string complaint(const fs::path& path) {
+  return message_of<FileError>([&] { read_flow_summary(path); });
+}
+
+std::string with(std::string text, const std::string& old, const std::string& replacement) {
+  const auto at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), replacement);
+}
+
+}  // namespace
+
+TEST_CASE("A summary that is read back and written again is the same text") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  const auto text = to_json(special_summary());
+  overwrite(path, text);
+  const auto summary = read_flow_summary(path);
+  CHECK(to_json(summary) == text);
+  CHECK(std::isnan(summary.mean_axial_velocity.error));
+  CHECK(summary.validity.verdict.findings.at(2).verdict == Validity::unphysical);
+  CHECK(summary.validity.verdict.findings.at(0).meaning == "grains sink deep into each other");
+}
+
+TEST_CASE("A summary that does not fit is refused with a reason") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  const auto text = to_json(special_summary());
+  CHECK(complaint(path).find("cannot be read") != std::string::npos);
+  for (const auto& damaged :
+       {std::string(), std::string("[]"), text.substr(0, text.size() / 2),
+        with(text, "\"gravity_work\"", "\"work\""),
+        with(text, "\"grains\": 1403", "\"grains\": \"many\""),
+        with(text, "\"verdict\": \"unphysical\"", "\"verdict\": \"valid\"")}) {
+    overwrite(path, damaged);
+    INFO(damaged.substr(0, 200));
+    CHECK(complaint(path).find("is damaged, or of another version") != std::string::npos);
+  }
+  overwrite(path, to_json(CurveSummary{}));
+  CHECK(complaint(path).find("impact") != std::string::npos);
+}
