@@ -252,7 +252,7 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "the length of the box is not positive");
   CHECK(refusal([](auto& c) { c.state.time_step = -1.0; }) == "the time step is not positive");
   CHECK(refusal([](auto& c) { c.state.gravity = nan; }) == "gravity is not finite");
-  CHECK(refusal([](auto& c) { c.state.origin.kinetic = nan; })
+  CHECK(refusal([](auto& c) { c.state.origin.energy = nan; })
         == "the energy or momentum at the start is not finite");
   CHECK(refusal([](auto& c) { c.state.step = -1; }) == "the number of steps is negative");
   CHECK(refusal([](auto& c) { c.state.walls[0].line = nan; })
