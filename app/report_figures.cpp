@@ -20,7 +20,7 @@ std::string label_of(const io::Column& column) {
 }
 
 /// With room for the mean and its error.
-io::Range range_with(std::vector<double> values, const std::optional<io::Measured>& mean) {
+io::Interval range_with(std::vector<double> values, const std::optional<io::Measured>& mean) {
   if (mean) {
     const double error = std::isfinite(mean->error) ? mean->error : 0.0;
     values.insert(values.end(), {mean->value - error, mean->value + error});
@@ -34,8 +34,8 @@ io::Svg draw_series(const io::Series& time, const io::Series& series, const Seri
   io::Plot plot(width, 250.0, series.column.doc,
                 {.label = label_of(time.column), .range = io::range_of(time.values)},
                 {.label = label_of(series.column), .range = range_with(series.values, marks.mean)});
-  const io::Range before{plot.x().range.low, marks.transient_end};
-  const io::Range after{marks.transient_end, plot.x().range.high};
+  const io::Interval before{plot.x().range.low, marks.transient_end};
+  const io::Interval after{marks.transient_end, plot.x().range.high};
   if (marks.transient_end > 0.0) plot.area(before, plot.y().range, {.fill = pale_grey});
   if (marks.mean && std::isfinite(marks.mean->error))
     plot.area(after, {marks.mean->value - marks.mean->error, marks.mean->value + marks.mean->error},

@@ -107,14 +107,14 @@ private:
 };
 
 /// Without the slowest and the fastest hundredth, which would take the colours from all others.
-io::Range velocity_range(const io::FinalState& state) {
+io::Interval velocity_range(const io::FinalState& state) {
   std::vector<double> velocities;
   for (const Grain& grain : state.grains) velocities.push_back(grain.vy);
   std::sort(velocities.begin(), velocities.end());
   const auto at = [&](double part) {
     return velocities[static_cast<std::size_t>(part * static_cast<double>(velocities.size() - 1))];
   };
-  const io::Range range{at(0.01), at(0.99)};
+  const io::Interval range{at(0.01), at(0.99)};
   return range.low < range.high ? range : io::range_of(velocities);
 }
 
@@ -215,7 +215,7 @@ private:
 
   const io::FinalState* state_;
   Layout layout_;
-  io::Range velocities_;
+  io::Interval velocities_;
   io::Svg svg_;
   std::size_t grains_drawn_ = 0;
 };

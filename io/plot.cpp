@@ -13,16 +13,16 @@ constexpr double left = 70.0, top = 10.0;  // of the frame
 constexpr double right_margin = 14.0, bottom_margin = 42.0;
 constexpr std::string_view ink = "#333333", faint = "#dddddd";
 
-Range clipped(Range range, Range limits) {
+Interval clipped(Interval range, Interval limits) {
   return {std::clamp(range.low, limits.low, limits.high),
           std::clamp(range.high, limits.low, limits.high)};
 }
 
-bool contains(Range range, double value) { return value >= range.low && value <= range.high; }
+bool contains(Interval range, double value) { return value >= range.low && value <= range.high; }
 
 }  // namespace
 
-Range range_of(std::span<const double> values) {
+Interval range_of(std::span<const double> values) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
@@ -35,7 +35,7 @@ Range range_of(std::span<const double> values) {
   return {low - room, high + room};
 }
 
-std::vector<double> ticks(Range range, int most) {
+std::vector<double> ticks(Interval range, int most) {
   const double coarsest = range.high - range.low;
   const double unit = std::pow(10.0, std::floor(std::log10(coarsest / most)));
   std::vector<double> found;
@@ -125,15 +125,15 @@ void Plot::curve(std::span<const double> x, std::span<const double> y, const Sty
   svg_.end_group();
 }
 
-void Plot::area(Range x, Range y, const Style& style) {
-  const Range across = clipped(x, x_.range), up = clipped(y, y_.range);
+void Plot::area(Interval x, Interval y, const Style& style) {
+  const Interval across = clipped(x, x_.range), up = clipped(y, y_.range);
   const Point corner = at(across.low, up.high), opposite = at(across.high, up.low);
   svg_.rectangle(corner, opposite.x - corner.x, opposite.y - corner.y, style);
 }
 
-void Plot::level(Range x, double y, const Style& style) {
+void Plot::level(Interval x, double y, const Style& style) {
   if (!contains(y_.range, y)) return;
-  const Range across = clipped(x, x_.range);
+  const Interval across = clipped(x, x_.range);
   svg_.line(at(across.low, y), at(across.high, y), style);
 }
 

@@ -11,16 +11,16 @@
 
 namespace riesel::io {
 
-struct Range {
+struct Interval {
   double low, high;  ///< low < high
 };
 
 /// The range of the finite values, a little wider; around a single value, or [0, 1] for none.
-Range range_of(std::span<const double> values);
+Interval range_of(std::span<const double> values);
 
 /// At least one and at most `most` >= 2 multiples of 1, 2 or 5 times a power of ten within the
 /// range, ascending.
-std::vector<double> ticks(Range range, int most);
+std::vector<double> ticks(Interval range, int most);
 
 /// A curve of which no more can be seen: of the points that fall into one of `columns` >= 1 columns
 /// of equal width from the first point to the last only the first, the lowest, the highest and the
@@ -29,7 +29,7 @@ std::vector<Point> thinned(std::span<const Point> points, std::size_t columns);
 
 struct Axis {
   std::string label;
-  Range range;
+  Interval range;
 };
 
 class Plot {
@@ -44,8 +44,8 @@ public:
   /// not finite are gaps.
   void curve(std::span<const double> x, std::span<const double> y, const Style& style);
   /// What lies within the axes of a rectangle or a straight line.
-  void area(Range x, Range y, const Style& style);
-  void level(Range x, double y, const Style& style);
+  void area(Interval x, Interval y, const Style& style);
+  void level(Interval x, double y, const Style& style);
   void moment(double x, std::string_view label, const Style& style);
 
   const Axis& x() const { return x_; }

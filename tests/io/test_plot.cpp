@@ -36,7 +36,7 @@ TEST_CASE("There are at least one and at most so many ticks, whatever the range"
       for (const double width : {1.0, 1.3, 2.6, 7.7, 9.9})
         for (const int most : {2, 6, 9}) {
           const double unit = std::pow(10.0, exponent);
-          const Range range{low * unit, (low + width) * unit};
+          const Interval range{low * unit, (low + width) * unit};
           const auto found = ticks(range, most);
           INFO(range.low << " ... " << range.high << ", at most " << most);
           REQUIRE(!found.empty());
