@@ -94,8 +94,8 @@ TEST_CASE("A thinned curve keeps its ends and its extremes in their order") {
   points[4321].y = 7.0;
   points[5678].y = -7.0;
   const auto kept = thinned(points, 50);
-  CHECK(kept.size() <= 4 * 51);
-  CHECK(kept.size() >= 3 * 50);
+  CHECK(kept.size() <= std::size_t{4} * 51);
+  CHECK(kept.size() >= std::size_t{3} * 50);
   CHECK(kept.front().x == points.front().x);
   CHECK(kept.back().x == points.back().x);
   const auto by_x = [](const Point& a, const Point& b) { return a.x < b.x; };
