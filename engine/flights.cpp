@@ -347,7 +347,8 @@ void Flights::make_appointments(std::int64_t now, std::int64_t earliest) {
 /// `free_steps` may be more than the calendar knows: then this is looked at once in between.
 void Flights::enter(std::uint32_t candidate, std::int64_t free_steps, std::int64_t now,
                     std::int64_t earliest) {
-  if (now + free_steps > hold_until_) {  // by then all is made anew
+  // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
+  if (now + free_steps > std::max(hold_until_, earliest)) {
     due_[candidate] = never;
     return;
   }
