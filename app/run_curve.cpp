@@ -3,7 +3,6 @@
 #include "app/cost.hpp"
 #include "app/exit_status.hpp"
 #include "app/print_summary.hpp"
-#include "engine/hash.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
@@ -53,16 +52,6 @@ void write_curve(io::RunFile& file, const std::vector<io::CurvePoint>& curve) {
                     {"passed", "1", "Starts that went through the wall; not in the means."},
                     {"stuck", "1", "Starts that were given up; not in the means."}},
                    rows);
-}
-
-std::uint64_t hash_of(const std::vector<ImpactResult>& results) {
-  Hash hash;
-  for (const ImpactResult& r : results) {
-    for (const double value : {r.dv_x, r.dv_y, r.contacts, r.contact_time, r.max_overlap})
-      hash.add(value);
-    hash.add(r.steps);
-  }
-  return hash.value();
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "bench/other_rows.hpp"
 
 #include "bench/child.hpp"
-#include "engine/hash.hpp"
 #include "io/checkpoint.hpp"
 #include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
@@ -19,16 +18,6 @@ constexpr auto fresh_tube = "tube_start";
 void add(Results& results, Row row) {
   print(row);
   results.rows.push_back(std::move(row));
-}
-
-std::uint64_t hash_of(const std::vector<ImpactResult>& impacts) {
-  Hash hash;
-  for (const ImpactResult& i : impacts) {
-    for (const double value : {i.dv_x, i.dv_y, i.contacts, i.contact_time, i.max_overlap})
-      hash.add(value);
-    hash.add(i.steps);
-  }
-  return hash.value();
 }
 
 }  // namespace

@@ -94,20 +94,9 @@ void resolve_contacts(Slice& slice, const State& state, const ContactModel& mode
   }
 
   slice.kicks.clear();
-  const auto kick = [&](std::int64_t slot, Fixed x, Fixed y) {
+  for_each_kick(slice, [&](std::int64_t slot, Fixed x, Fixed y) {
     slice.kicks.push_back({static_cast<std::uint32_t>(slot), x, y});
-  };
-  const LiveContacts& pairs = slice.pair_contacts;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ContactKick k = pairs.kick(i);
-    kick(pairs.first(i), k.first_x, k.first_y);
-    kick(pairs.second(i), k.second_x, k.second_y);
-  }
-  const LiveContacts& walls = slice.wall_contacts;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const ContactKick k = walls.kick(i);
-    kick(walls.first(i), k.first_x, k.first_y);
-  }
+  });
 }
 
 }  // namespace riesel

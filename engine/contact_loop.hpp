@@ -53,6 +53,23 @@ void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
   }
 }
 
+/// Calls kick(place, x, y) for what the last step of the contacts of `slice` gives to their bodies,
+/// in quanta; the place is that in the Bodies of that step.
+template <class GiveKick>
+void for_each_kick(const Slice& slice, GiveKick kick) {
+  const LiveContacts& pairs = slice.pair_contacts;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const ContactKick k = pairs.kick(i);
+    kick(pairs.first(i), k.first_x, k.first_y);
+    kick(pairs.second(i), k.second_x, k.second_y);
+  }
+  const LiveContacts& walls = slice.wall_contacts;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const ContactKick k = walls.kick(i);
+    kick(walls.first(i), k.first_x, k.first_y);
+  }
+}
+
 /// One step of the contacts of `slice`: those that last, and those that begin among its hits. The
 /// grains are at the step of `state`; the kicks are in the slice then.
 void resolve_contacts(Slice& slice, const State& state, const ContactModel& model);

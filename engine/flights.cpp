@@ -23,10 +23,6 @@ constexpr std::uint32_t appointments_at_a_time = 1024;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-/// Bounds are rounded to the safe side by this factor, which is far above the error of the
-/// arithmetic.
-constexpr double generous = 1.0 + 1e-9;
-
 }  // namespace
 
 Flights::Flights(State& state, const ContactModel& model, Candidates& candidates)
@@ -234,17 +230,10 @@ void Flights::step_contacts() {
     let_go(pairs.first(i));
     let_go(pairs.second(i));
   });
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ContactKick k = pairs.kick(i);
-    deflected_.add_kick(pairs.first(i), k.first_x, k.first_y);
-    deflected_.add_kick(pairs.second(i), k.second_x, k.second_y);
-  }
   LiveContacts& walls = slice_.wall_contacts;
   complete_step(slice_, walls, [&](std::size_t i) { let_go(walls.first(i)); });
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const ContactKick k = walls.kick(i);
-    deflected_.add_kick(walls.first(i), k.first_x, k.first_y);
-  }
+  for_each_kick(slice_,
+                [&](std::int64_t place, Fixed x, Fixed y) { deflected_.add_kick(place, x, y); });
 }
 
 /// Gives a new course to grains that have ended a contact or go too far from the old course.
@@ -266,8 +255,7 @@ void Flights::correct_courses(std::int64_t step) {
 /// The grains of a contact are stepped from now on.
 void Flights::take_up(LiveContacts& contacts, std::size_t contact, std::int64_t step) {
   const auto place_of = [&](std::int64_t slot) {
-    const DeflectedGrains::Place place = deflect(static_cast<std::uint32_t>(slot), step);
-    return place;
+    return deflect(static_cast<std::uint32_t>(slot), step);
   };
   const auto first = place_of(contacts.first(contact));
   const auto second = place_of(contacts.second(contact));

@@ -13,9 +13,7 @@ namespace {
 constexpr std::size_t lanes = 8;
 constexpr double never = 1e18;  // steps
 
-/// Bounds are rounded to the safe side by this factor, which is far above the error of the
-/// arithmetic.
-constexpr double generous = 1.0 + 1e-9, cautious = 1.0 - 1e-9;
+constexpr double cautious = 1.0 / generous;
 
 /// Fewer steps than this are not worth a generous answer.
 constexpr double few_steps = 4.0;

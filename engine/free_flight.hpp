@@ -13,6 +13,10 @@
 
 namespace riesel {
 
+/// Bounds are rounded to the safe side by this factor, which is far above the error of the
+/// arithmetic.
+inline constexpr double generous = 1.0 + 1e-9;
+
 /// The straight paths, in the falling frame, that grains are expected to follow; arrays by slot.
 struct Courses {
   const Fixed *x, *y;         ///< quanta, at the step `since`

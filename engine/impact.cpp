@@ -1,5 +1,6 @@
 #include "engine/impact.hpp"
 
+#include "engine/hash.hpp"
 #include "engine/simulation.hpp"
 
 #include <cmath>
@@ -102,6 +103,16 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
   }
   if (failure) std::rethrow_exception(failure);
   return results;
+}
+
+std::uint64_t hash_of(const std::vector<ImpactResult>& results) {
+  Hash hash;
+  for (const ImpactResult& r : results) {
+    for (const double value : {r.dv_x, r.dv_y, r.contacts, r.contact_time, r.max_overlap})
+      hash.add(value);
+    hash.add(r.steps);
+  }
+  return hash.value();
 }
 
 }  // namespace riesel

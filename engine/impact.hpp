@@ -58,4 +58,7 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
 /// grain 0: m.
 double just_upstream(const ImpactSetup& setup, double x);
 
+/// 64-bit hash of all results and of the steps they took.
+std::uint64_t hash_of(const std::vector<ImpactResult>& results);
+
 }  // namespace riesel
