@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace riesel {
@@ -15,6 +16,41 @@ namespace {
 /// Below this part of the full budget it is better to sort anew than to look at displacements again
 /// and again.
 constexpr double smallest_useful_budget = 0.2;
+
+template <class Visit>
+void for_each_contact_of(const Slice& slice, Visit visit) {
+  for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
+    for (std::size_t i = 0; i < live->size(); ++i) visit(live->contact(i));
+}
+
+void forget_contacts(Slice& slice) {
+  slice.pair_contacts.clear();
+  slice.wall_contacts.clear();
+  slice.kept = 0;
+}
+
+/// Index among the pairs of `slice`, in this order of the two.
+std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
+                                     std::uint32_t second) {
+  const CandidatePairs& pairs = slice.pairs;
+  const auto [low, high] = std::equal_range(pairs.first.begin(), pairs.first.end(), first);
+  for (auto p = low; p != high; ++p) {
+    const auto index = static_cast<std::size_t>(p - pairs.first.begin());
+    if (pairs.second[index] == second) return static_cast<std::uint32_t>(index);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> near_wall_in(const Slice& slice, std::uint32_t slot,
+                                          std::int32_t wall) {
+  const auto& near = slice.near_walls;
+  const auto first =
+      std::lower_bound(near.begin(), near.end(), slot,
+                       [](const NearWall& n, std::uint32_t x) { return n.slot < x; });
+  for (auto n = first; n != near.end() && n->slot == slot; ++n)
+    if (n->wall == wall) return static_cast<std::uint32_t>(n - near.begin());
+  return std::nullopt;
+}
 
 double largest(const std::vector<Slice>& slices, double Slice::*member) {
   double most = 0.0;
@@ -43,8 +79,13 @@ Candidates::Candidates(State& state, int threads, double skin_per_diameter)
       throw std::invalid_argument("the grains of a wall are too close together");
 
 #pragma omp parallel num_threads(threads)
-  renew(state, slices_[static_cast<std::size_t>(omp_get_thread_num())], state.step);
-  if (give_back(state, state.contacts) > 0)
+  {
+    Slice& mine = slices_[static_cast<std::size_t>(omp_get_thread_num())];
+    renew(state, mine, state.step);
+    forget_contacts(mine);
+    keep(state, mine, state.contacts);
+  }
+  if (kept() < state.contacts.size())
     throw std::invalid_argument("a contact between bodies that are far from each other");
 }
 
@@ -75,11 +116,14 @@ bool Candidates::look_again(State& state, Slice& mine, std::int64_t step) {
 }
 
 void Candidates::sort_anew(State& state, Slice& mine, std::int64_t step) {
-#pragma omp single
-  lasting_ = contacts();
+  mine.lasting.clear();
+  for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
   renew(state, mine, step);
+  forget_contacts(mine);
+  for (const Slice& slice : slices_) keep(state, mine, slice.lasting);
+#pragma omp barrier
 #pragma omp single
-  give_back(state, lasting_);
+  end_lost_contacts();
 }
 
 void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
@@ -94,6 +138,8 @@ void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
   list_pairs(state, mine);
   list_near_walls(state, mine);
   list_received(state.grains, mine);
+  for (std::size_t slot = mine.begin; slot < mine.end; ++slot)
+    slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
   measure_motion(state, mine, step);
   mine.budget = 0.5 * skin_;
 #pragma omp barrier
@@ -106,6 +152,7 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   for (auto* positions : {&coarse_, &coarse_when_sorted_}) {
     positions->resize(grains.size());
   }
+  slot_of_.resize(grains.size());
   for (std::size_t s = 0; s < slices_.size(); ++s) {
     slices_[s].begin = grains.size() * s / slices_.size();
     slices_[s].end = grains.size() * (s + 1) / slices_.size();
@@ -194,76 +241,53 @@ void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t st
 std::vector<Contact> Candidates::contacts() const {
   std::vector<Contact> all;
   for (const Slice& slice : slices_)
-    for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
-      for (std::size_t i = 0; i < live->size(); ++i) all.push_back(live->contact(i));
+    for_each_contact_of(slice, [&](const Contact& contact) { all.push_back(contact); });
   std::sort(all.begin(), all.end(),
             [](const Contact& a, const Contact& b) { return a.name < b.name; });
   return all;
 }
 
-/// Hands contacts to the slices. One whose bodies are no candidates any more has ended: the grain
-/// is so fast that it left in a single step. Returns how many have.
-std::size_t Candidates::give_back(const State& state, const std::vector<Contact>& contacts) {
-  std::vector<std::uint32_t> slot_of(contacts.empty() ? 0 : state.grains.size());
-  for (std::size_t slot = 0; slot < slot_of.size(); ++slot)
-    slot_of[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
+/// The candidate that `contact` is, if it is one of `slice`.
+std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice,
+                                                      const Contact& contact) const {
+  const std::uint32_t a = slot_of_[static_cast<std::size_t>(contact.name.grain)];
+  if (contact.name.wall != no_wall) return near_wall_in(slice, a, contact.name.wall);
+  const std::uint32_t b = slot_of_[static_cast<std::size_t>(contact.name.partner)];
+  const auto found = slice.has(a) ? pair_in(slice, a, b) : std::nullopt;
+  return !found && slice.has(b) ? pair_in(slice, b, a) : found;
+}
 
-  for (Slice& slice : slices_) {
-    slice.pair_contacts.clear();
-    slice.wall_contacts.clear();
-  }
-  std::size_t ended = 0;
+/// Goes on with those of the contacts that belong to `mine`.
+void Candidates::keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const {
   for (const Contact& contact : contacts) {
+    const auto candidate = candidate_in(mine, contact);
+    if (!candidate) continue;
     const bool of_wall = contact.name.wall != no_wall;
-    const std::uint32_t grain = slot_of[static_cast<std::size_t>(contact.name.grain)];
-    const auto found =
-        of_wall ? near_wall_of(grain, contact.name.wall)
-                : pair_of(grain, slot_of[static_cast<std::size_t>(contact.name.partner)]);
-    if (!found) {
-      slices_.front().tally.end(contact);
-      ++ended;
-      continue;
-    }
-    Slice& slice = slices_[found->slice];
-    const Meeting meeting = of_wall
-                                ? meeting_at_wall(slice, state, found->index, contact.name.partner)
-                                : meeting_of_pair(slice, state.grains, found->index);
-    note_lasting(slice, meeting);
-    (of_wall ? slice.wall_contacts : slice.pair_contacts).add(meeting, contact);
+    const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
+                                    : meeting_of_pair(mine, state.grains, *candidate);
+    note_lasting(mine, meeting);
+    (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
+    ++mine.kept;
   }
-  return ended;
 }
 
-std::size_t Candidates::slice_of(std::uint32_t slot) const {
-  const auto after = std::upper_bound(slices_.begin(), slices_.end(), slot,
-                                      [](std::uint32_t s, const Slice& x) { return s < x.end; });
-  return static_cast<std::size_t>(after - slices_.begin());
+std::size_t Candidates::kept() const {
+  return std::accumulate(slices_.begin(), slices_.end(), std::size_t{0},
+                         [](std::size_t sum, const Slice& slice) { return sum + slice.kept; });
 }
 
-std::optional<Candidates::Place> Candidates::pair_of(std::uint32_t a, std::uint32_t b) const {
-  for (const auto& [first, second] : {std::pair{a, b}, std::pair{b, a}}) {
-    const std::size_t s = slice_of(first);
-    const CandidatePairs& pairs = slices_[s].pairs;
-    const auto [low, high] = std::equal_range(pairs.first.begin(), pairs.first.end(), first);
-    for (auto p = static_cast<std::size_t>(low - pairs.first.begin());
-         p < static_cast<std::size_t>(high - pairs.first.begin()); ++p)
-      if (pairs.second[p] == second)
-        return Place{.slice = s, .index = static_cast<std::uint32_t>(p)};
-  }
-  return std::nullopt;
-}
-
-std::optional<Candidates::Place> Candidates::near_wall_of(std::uint32_t slot,
-                                                          std::int32_t wall) const {
-  const std::size_t s = slice_of(slot);
-  const auto& near = slices_[s].near_walls;
-  const auto first =
-      std::lower_bound(near.begin(), near.end(), slot,
-                       [](const NearWall& n, std::uint32_t x) { return n.slot < x; });
-  for (auto n = first; n != near.end() && n->slot == slot; ++n)
-    if (n->wall == wall)
-      return Place{.slice = s, .index = static_cast<std::uint32_t>(n - near.begin())};
-  return std::nullopt;
+/// A contact whose bodies are no candidates any more has ended: the grain is so fast that it left
+/// in a single step.
+void Candidates::end_lost_contacts() {
+  std::size_t lasting = 0;
+  for (const Slice& slice : slices_) lasting += slice.lasting.size();
+  if (kept() == lasting) return;
+  for (Slice& owner : slices_)
+    for (const Contact& contact : owner.lasting)
+      if (std::none_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
+            return candidate_in(slice, contact).has_value();
+          }))
+        owner.tally.end(contact);
 }
 
 }  // namespace riesel

@@ -70,16 +70,10 @@ private:
   void measure_motion(const State& state, Slice& mine, std::int64_t step) const;
   double squared_speed(const State& state, std::size_t slot) const;
 
-  /// Where a candidate is listed.
-  struct Place {
-    std::size_t slice;
-    std::uint32_t index;
-  };
-
-  std::size_t give_back(const State& state, const std::vector<Contact>& contacts);
-  std::size_t slice_of(std::uint32_t slot) const;
-  std::optional<Place> pair_of(std::uint32_t a, std::uint32_t b) const;
-  std::optional<Place> near_wall_of(std::uint32_t slot, std::int32_t wall) const;
+  std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
+  void keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const;
+  std::size_t kept() const;
+  void end_lost_contacts();
 
   double skin_;  // m
   double max_radius_;
@@ -88,7 +82,7 @@ private:
   CoarsePositions coarse_;
   CoarsePositions coarse_when_sorted_;
   std::vector<Slice> slices_;
-  std::vector<Contact> lasting_;  // contacts that outlive a sorting
+  std::vector<std::uint32_t> slot_of_;  // by id
 
   Fixed fall_;                  // gravity per step^2, quanta
   Fixed drift_y_ = 0;           // common velocity along y in the falling frame, quanta per step

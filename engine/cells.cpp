@@ -36,6 +36,9 @@ void Cells::lay_out(const State& state, double range) {
   rows_ = static_cast<std::size_t>(std::max(1.0, state.box.length / range));
   columns_per_quantum_ = static_cast<double>(columns_) / std::max(1.0, extent);
   cell_of_old_slot_.resize(grains.size());
+  fixed_scratch_.resize(grains.size());
+  real_scratch_.resize(grains.size());
+  id_scratch_.resize(grains.size());
 }
 
 /// Never negative, and right even for grains that are about to be found lost.
@@ -70,8 +73,6 @@ void Cells::count() {
 
 template <class T>
 void Cells::permute(AlignedVector<T>& values, AlignedVector<T>& scratch) {
-#pragma omp single
-  scratch.resize(values.size());
 #pragma omp for schedule(static)
   for (std::size_t i = 0; i < values.size(); ++i) scratch[i] = values[old_slot_[i]];
 #pragma omp single

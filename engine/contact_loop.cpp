@@ -92,11 +92,6 @@ void resolve_contacts(Slice& slice, const State& state, const ContactModel& mode
     contacts->step(bodies(state.grains), units, model);
     complete_step(slice, *contacts, [](std::size_t) {});
   }
-
-  slice.kicks.clear();
-  for_each_kick(slice, [&](std::int64_t slot, Fixed x, Fixed y) {
-    slice.kicks.push_back({static_cast<std::uint32_t>(slot), x, y});
-  });
 }
 
 }  // namespace riesel

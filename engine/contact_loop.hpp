@@ -71,7 +71,7 @@ void for_each_kick(const Slice& slice, GiveKick kick) {
 }
 
 /// One step of the contacts of `slice`: those that last, and those that begin among its hits. The
-/// grains are at the step of `state`; the kicks are in the slice then.
+/// grains are at the step of `state`; the kicks are in the contacts then.
 void resolve_contacts(Slice& slice, const State& state, const ContactModel& model);
 
 }  // namespace riesel

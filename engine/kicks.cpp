@@ -1,5 +1,9 @@
 #include "engine/kicks.hpp"
 
+#include "engine/contact_loop.hpp"
+
+#include <algorithm>
+
 namespace riesel {
 
 void take_up_kicks(Grains& grains, const Slice& mine) {
@@ -9,16 +13,28 @@ void take_up_kicks(Grains& grains, const Slice& mine) {
   }
 }
 
+void give_away_kicks(Slice& mine) {
+  mine.given_away.clear();
+  for_each_kick(mine, [&](std::int64_t place, Fixed x, Fixed y) {
+    const auto slot = static_cast<std::uint32_t>(place);
+    if (!mine.has(slot)) mine.given_away.push_back({slot, x, y});
+  });
+}
+
 void receive_kicks(Grains& grains, const std::vector<Slice>& givers, Slice& mine) {
   for (const Kick& old : mine.received) grains.kick_x[old.slot] = grains.kick_y[old.slot] = 0;
   mine.received.clear();
+  const auto receive = [&](const Kick& kick) {
+    if (!mine.has(kick.slot)) return;
+    grains.kick_x[kick.slot] = wrapped_sum(grains.kick_x[kick.slot], kick.x);
+    grains.kick_y[kick.slot] = wrapped_sum(grains.kick_y[kick.slot], kick.y);
+    mine.received.push_back(kick);
+  };
+  for_each_kick(mine, [&](std::int64_t place, Fixed x, Fixed y) {
+    receive({static_cast<std::uint32_t>(place), x, y});
+  });
   for (const Slice& giver : givers)
-    for (const Kick& kick : giver.kicks) {
-      if (kick.slot < mine.begin || kick.slot >= mine.end) continue;
-      grains.kick_x[kick.slot] = wrapped_sum(grains.kick_x[kick.slot], kick.x);
-      grains.kick_y[kick.slot] = wrapped_sum(grains.kick_y[kick.slot], kick.y);
-      mine.received.push_back(kick);
-    }
+    if (&giver != &mine) std::for_each(giver.given_away.begin(), giver.given_away.end(), receive);
 }
 
 }  // namespace riesel

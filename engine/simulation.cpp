@@ -80,13 +80,26 @@ int team_size(int wanted) {
   return granted;
 }
 
-/// What to try first. In units of what plain stepping takes for a grain without contacts on one
+/// In units of what plain stepping takes for a grain without contacts on one
 /// thread, a contact takes plain stepping 7.5 and flights 10, and flights take next to nothing for
 /// a grain: docs/performance.md.
 bool flights_look_faster(const State& state, int threads) {
   const auto contacts = static_cast<double>(state.contacts.size());
   const auto grains = static_cast<double>(state.grains.size());
   return 10.0 * contacts < (grains + 7.5 * contacts) / static_cast<double>(threads);
+}
+
+/// The ways that `stepping` allows, the one to begin with first.
+std::vector<Way> ways(Stepping stepping, const State& state, int threads) {
+  constexpr int one = 1;
+  const Way plain{.by_flights = false, .threads = threads};
+  const Way flights{.by_flights = true, .threads = one};
+  if (stepping == Stepping::plain) return {plain};
+  if (stepping == Stepping::windows) return {flights};
+  std::vector<Way> all{plain, flights};
+  if (flights_look_faster(state, threads)) std::swap(all.front(), all.back());
+  if (threads > one) all.push_back({.by_flights = false, .threads = one});
+  return all;
 }
 
 std::string partners(const ContactName& name) {
@@ -110,8 +123,7 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       model_(model),
       fall_(fall_per_step(state_)),
       threads_(team_size(threads)),
-      stepping_(stepping),
-      choice_(flights_look_faster(state_, threads_)),
+      choice_(ways(stepping, state_, threads_)),
       wall_watch_(state_, model_) {
   prepare();
 }
@@ -129,14 +141,15 @@ void Simulation::step(Slice& mine, std::int64_t step) {
   Profile& profile = mine.profile;
   profile.begin_step(step);
   drift(mine, step);
-#pragma omp barrier
+  barrier_->arrive_and_wait();
   profile.done(Profile::Phase::fly);
   if (!candidates_->spend_step(mine)) candidates_->look_again(state_, mine, step);
   find_overlapping(mine, state_, candidates_->coarse(), candidates_->units());
   profile.done(Profile::Phase::search);
   resolve_contacts(mine, state_, model_);
+  give_away_kicks(mine);
   profile.done(Profile::Phase::forces);
-#pragma omp barrier
+  barrier_->arrive_and_wait();
   receive_kicks(state_.grains, candidates_->slices(), mine);
   candidates_->note_speeds(state_, mine);
   profile.done(Profile::Phase::receive);
@@ -152,7 +165,7 @@ void Simulation::advance(std::int64_t steps) {
 /// Steps between two thoughts about the stepping: many enough to be timed.
 std::int64_t Simulation::piece() const {
   constexpr std::int64_t particle_steps = 20'000'000;
-  if (stepping_ != Stepping::automatic) return INT64_MAX / 2;
+  if (!choice_.open()) return INT64_MAX / 2;
   return std::max<std::int64_t>(16,
                                 particle_steps / static_cast<std::int64_t>(state_.grains.size()));
 }
@@ -176,24 +189,23 @@ void Simulation::advance_piece(std::int64_t last) {
 
 /// Whoever is to step the grains starts from the state alone, as after a checkpoint.
 void Simulation::prepare() {
-  const bool by_flights =
-      stepping_ == Stepping::automatic ? choice_.by_flights() : stepping_ == Stepping::windows;
-  if (candidates_ && by_flights == (flights_ != nullptr)) return;
+  if (prepared_ == choice_.way()) return;
+  prepared_ = choice_.way();
   flights_.reset();
-  if (by_flights) {
-    candidates_ = std::make_unique<Candidates>(state_, 1, Flights::skin_per_diameter);
+  const double skin = prepared_->by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
+  candidates_ = std::make_unique<Candidates>(state_, prepared_->threads, skin);
+  if (prepared_->by_flights)
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
-  } else {
-    candidates_ = std::make_unique<Candidates>(state_, threads_, Candidates::short_skin);
-  }
+  else
+    barrier_ = std::make_unique<TeamBarrier>(prepared_->threads);
   candidates_->slices().front().profile = Profile(profile_.on());
 }
 
 void Simulation::advance_plainly(std::int64_t last) {
   const std::int64_t first = state_.step + 1;  // before the team starts: a step changes state_.step
   bool complete = true;
-#pragma omp parallel num_threads(threads())
-  if (omp_get_num_threads() != threads()) {
+#pragma omp parallel num_threads(prepared_->threads)
+  if (omp_get_num_threads() != prepared_->threads) {
     complete = false;  // the same for all
   } else {
     Slice& mine = candidates_->slices()[static_cast<std::size_t>(omp_get_thread_num())];
@@ -228,7 +240,7 @@ void Simulation::drift(Slice& mine, std::int64_t step) {
 
 bool Simulation::in_trouble() const {
   return std::any_of(candidates_->slices().begin(), candidates_->slices().end(),
-                     [](const Slice& slice) { return slice.trouble || slice.lost; });
+                     [](const Slice& slice) { return slice.failed(); });
 }
 
 /// Completes the state with what the slices know of contacts.

@@ -5,10 +5,12 @@
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
 #include "engine/stepping_choice.hpp"
+#include "engine/team_barrier.hpp"
 #include "engine/wall_watch.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -29,7 +31,7 @@ enum class Stepping {
   plain,     ///< all grains in each step
   windows,   ///< grains that touch nothing cross many steps at once; by one thread, whatever is
              ///< given
-  automatic  ///< whatever is faster: windows on one thread or plain on all
+  automatic  ///< whatever is fastest: windows on one thread, or plain on one or on all
 };
 
 class Simulation {
@@ -70,10 +72,11 @@ private:
   ContactModel model_;
   Fixed fall_;  // per step
   const int threads_;
-  const Stepping stepping_;
-  SteppingChoice choice_;  // where the stepping is automatic
+  SteppingChoice choice_;
+  std::optional<Way> prepared_;  // what the candidates, the barrier and the flights are there for
   Profile profile_;
   std::unique_ptr<Candidates> candidates_;
+  std::unique_ptr<TeamBarrier> barrier_;  // of the threads of plain stepping
   const WallWatch wall_watch_;
   std::unique_ptr<Flights> flights_;  // while stepping by windows
 };

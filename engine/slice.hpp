@@ -64,7 +64,9 @@ struct Kick {
   Fixed x, y;
 };
 
-struct Slice {
+/// Starts on a cache line, and so does what other threads read of it in each step: a thread that
+/// writes to its own slice does not take the lines of the others away.
+struct alignas(cache_line) Slice {
   std::size_t begin = 0, end = 0;  ///< slots
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere
   std::vector<SlotPair> close;     ///< while the pairs are being listed
@@ -74,16 +76,21 @@ struct Slice {
   std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
   LiveContacts pair_contacts{LiveContacts::Partner::grain};
   LiveContacts wall_contacts{LiveContacts::Partner::wall};
-  std::vector<Kick> kicks;     ///< of this step, by contacts of the slice on grains of any slice
-  std::vector<Kick> received;  ///< of this step, by contacts of any slice on grains of the slice
+  std::vector<Kick> received;    ///< of this step, by contacts of any slice on grains of the slice
+  std::vector<Contact> lasting;  ///< contacts of the slice that are to outlive a sorting
+  std::size_t kept = 0;          ///< how many of all those the slice has after it
+  double budget = 0.0;  ///< m, displacement that leaves the candidates valid; equal in all slices
+  Profile profile;      ///< of the thread's work
+  Tally tally;          ///< of contacts that began or ended in the last advance
+
+  alignas(cache_line) std::vector<Kick> given_away;  ///< of this step, on grains of other slices
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
-  double budget = 0.0;    ///< m, displacement that leaves the candidates valid; equal in all slices
-
-  Profile profile;                     ///< of the thread's work
-  Tally tally;                         ///< of contacts that began or ended in the last advance
+  bool failed() const { return trouble || lost; }
   std::optional<ContactName> trouble;  ///< a contact whose force is no usable number
   std::optional<std::int32_t> lost;    ///< id of a grain that has left the representable space
+
+  bool has(std::uint32_t slot) const { return begin <= slot && slot < end; }
 };
 
 }  // namespace riesel

@@ -1,22 +1,36 @@
-// Plain stepping or flights: which is faster here and now?
+// Plain stepping or flights, on one thread or on all: what is fastest here and now?
 //
 // It depends on the state, the size of the system, the machine and what else runs on it. The bits
-// do not depend on the choice, so the clock may decide: now and then the other way is tried for
-// one piece of the run. Trials take a few per cent of the time at most, less and less as long as
-// they find nothing.
+// do not depend on the choice, so the clock may decide: now and then another way is tried for one
+// piece of the run. Trials take a few per cent of the time at most, less and less as long as they
+// find nothing.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace riesel {
 
+/// How steps are done.
+struct Way {
+  bool by_flights;
+  int threads;
+
+  bool operator==(const Way&) const = default;
+};
+
 class SteppingChoice {
 public:
-  explicit SteppingChoice(bool flights_first) : flights_preferred_(flights_first) {}
+  /// At least one; the first is what to begin with.
+  explicit SteppingChoice(std::vector<Way> ways) : ways_(std::move(ways)) {}
 
   /// How the next piece is to be done.
-  bool by_flights() const { return flights_preferred_ != trying_; }
+  Way way() const { return ways_[trying_ ? tried_ : preferred_]; }
+  /// Whether there is anything to choose.
+  bool open() const { return ways_.size() > 1; }
 
   /// A piece of so many steps was done that way, in `seconds`; `preparation` (s) came before it.
   void note(std::int64_t steps, double seconds, double preparation) {
@@ -31,27 +45,36 @@ private:
   static constexpr double shortest_patience = 0.25, longest_patience = 60.0;  // s
   /// Time between trials over the time of one.
   static constexpr double patience_per_cost = 40.0;
-  /// So much faster the other way must be.
+  /// So much faster another way must be.
   static constexpr double worthwhile = 0.95;
 
   void go_on(double pace, double seconds) {
     pace_ = pace;
     since_trial_ += seconds;
-    trying_ = since_trial_ >= patience_;
+    trying_ = open() && since_trial_ >= patience_;
+    if (trying_) tried_ = next_to_try();
+  }
+
+  /// All others in turn.
+  std::size_t next_to_try() const {
+    const std::size_t next = (tried_ + 1) % ways_.size();
+    return next != preferred_ ? next : (next + 1) % ways_.size();
   }
 
   void conclude(double pace, double cost) {
     trying_ = false;
     since_trial_ = 0.0;
     if (pace < worthwhile * pace_) {
-      flights_preferred_ = !flights_preferred_;
+      preferred_ = tried_;
       patience_ = std::max(shortest_patience, patience_per_cost * cost);
     } else {
       patience_ = std::max(std::min(2.0 * patience_, longest_patience), patience_per_cost * cost);
     }
   }
 
-  bool flights_preferred_, trying_ = false;
+  std::vector<Way> ways_;
+  std::size_t preferred_ = 0, tried_ = 0;  // indices of ways
+  bool trying_ = false;
   double pace_ = 0.0;                    // s per step, of the last piece done the preferred way
   double since_trial_ = 0.0;             // s
   double patience_ = shortest_patience;  // s, until the next trial

@@ -2,66 +2,96 @@
 #include "engine/stepping_choice.hpp"
 #include "tests/catch.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <utility>
+#include <vector>
 
 using riesel::SteppingChoice;
+using riesel::Way;
 
 namespace {
 
 constexpr double preparation = 0.01;  // s
 constexpr std::int64_t steps = 1000;
 
+constexpr Way flights{.by_flights = true, .threads = 1};
+constexpr Way plain{.by_flights = false, .threads = 1};
+constexpr Way plain_on_two{.by_flights = false, .threads = 2};
+const std::vector<Way> all{flights, plain_on_two, plain};
+
 struct Account {
   double best = 0.0, spent = 0.0;  // s
   int changes = 0;
 };
 
-/// Steps for so long; a piece takes seconds(by_flights, time).
+/// Steps for so long; a piece takes seconds(way, time).
 Account follow(SteppingChoice& choice, double duration,
-               const std::function<double(bool, double)>& seconds) {
+               const std::function<double(Way, double)>& seconds) {
   Account account;
-  bool last = choice.by_flights();
+  Way last = choice.way();
   while (account.spent < duration) {
-    const bool by_flights = choice.by_flights();
-    const double change = by_flights == last ? 0.0 : preparation;
-    const double piece = seconds(by_flights, account.spent);
-    account.best += std::min(seconds(true, account.spent), seconds(false, account.spent));
+    const Way way = choice.way();
+    const double change = way == last ? 0.0 : preparation;
+    const double piece = seconds(way, account.spent);
+    double best = piece;
+    for (const Way& other : all) best = std::min(best, seconds(other, account.spent));
+    account.best += best;
     account.spent += piece + change;
     choice.note(steps, piece, change);
-    account.changes += by_flights == last ? 0 : 1;
-    last = by_flights;
+    account.changes += way == last ? 0 : 1;
+    last = way;
   }
   return account;
 }
 
 }  // namespace
 
-TEST_CASE("the faster way is found, whatever was tried first") {
-  const bool first = GENERATE(true, false);
-  const bool faster = GENERATE(true, false);
-  SteppingChoice choice(first);
-  const Account account = follow(
-      choice, 100.0, [&](bool by_flights, double) { return by_flights == faster ? 0.02 : 0.08; });
+TEST_CASE("the fastest way is found, whatever was tried first") {
+  std::vector<Way> ways = all;
+  std::swap(ways.front(), ways[GENERATE(0U, 1U, 2U)]);
+  const Way fastest = all[GENERATE(0U, 1U, 2U)];
+  SteppingChoice choice(ways);
+  const Account account =
+      follow(choice, 100.0, [&](Way way, double) { return way == fastest ? 0.02 : 0.08; });
   CHECK(account.spent < 1.05 * account.best);
 }
 
+TEST_CASE("where there is one way, no other is tried") {
+  SteppingChoice choice({plain_on_two});
+  CHECK_FALSE(choice.open());
+  const Account account = follow(choice, 100.0, [](Way, double) { return 0.02; });
+  CHECK(account.changes == 0);
+  CHECK(choice.way() == plain_on_two);
+}
+
 TEST_CASE("trials of a way that is much slower cost little") {
-  SteppingChoice choice(true);
+  SteppingChoice choice(all);
   const Account account =
-      follow(choice, 1000.0, [](bool by_flights, double) { return by_flights ? 0.002 : 0.2; });
+      follow(choice, 1000.0, [](Way way, double) { return way.by_flights ? 0.002 : 0.2; });
   CHECK(account.spent < 1.05 * account.best);
 }
 
 TEST_CASE("a change of the state is noticed") {
-  SteppingChoice choice(true);
-  const Account account = follow(choice, 600.0, [](bool by_flights, double time) {
-    return by_flights == (time < 200.0) ? 0.02 : 0.06;
+  SteppingChoice choice(all);
+  const Account account = follow(choice, 600.0, [](Way way, double time) {
+    return way.by_flights == (time < 200.0) ? 0.02 : 0.06;
   });
   CHECK(account.spent < 1.25 * account.best);
 }
 
-TEST_CASE("two ways that are equally fast are not exchanged all the time") {
-  SteppingChoice choice(true);
-  const Account account = follow(choice, 100.0, [](bool, double) { return 0.02; });
+TEST_CASE("two threads are given up when another program takes their core") {
+  SteppingChoice choice({plain_on_two, plain});
+  const Account account = follow(choice, 600.0, [](Way way, double time) {
+    if (way == plain) return 0.04;
+    return time < 100.0 ? 0.02 : 0.5;
+  });
+  CHECK(choice.way() == plain);
+  CHECK(account.spent < 1.2 * account.best);
+}
+
+TEST_CASE("ways that are equally fast are not exchanged all the time") {
+  SteppingChoice choice(all);
+  const Account account = follow(choice, 100.0, [](Way, double) { return 0.02; });
   CHECK(account.changes < 30);
 }
