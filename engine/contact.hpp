@@ -32,10 +32,12 @@ struct Contact {
   double slip_path = 0.0;             ///< m, integral of |slip velocity|
   double elastic_energy = 0.0;        ///< J, stored now
   double normal_loss = 0.0;           ///< J, dissipated by the normal damping so far
-  double friction_loss = 0.0;         ///< J, dissipated by friction so far
+  double friction_loss = 0.0;         ///< J, dissipated by friction before this step
   double impulse_x = 0.0;             ///< kg m/s, given to `grain` across the tube so far
   double impulse_y = 0.0;             ///< kg m/s, the same along y
   double impulse_y_times_step = 0.0;  ///< that, each step's part times the number of the step
+  double friction_x = 0.0;            ///< N, friction on `grain` in this step, across the tube
+  double friction_y = 0.0;            ///< N, the same along y
 
   double duration() const { return end - begin; }  ///< s
 };

@@ -31,16 +31,16 @@ struct Encounter {
 
 /// What the contact does in this step.
 struct Touch {
-  double fx, fy;   ///< N, on the first body; the second gets the opposite
-  double overlap;  ///< m
-  double rate;     ///< m/s, d(overlap)/dt: positive while approaching
-  double slip;     ///< m/s, along s = n turned by 90 degrees, of the first relative to the second
-  double since;    ///< s, in touch since; dt if longer than the last step
-  double until;    ///< s, in touch for; dt if longer than the next step
+  double fx, fy;                  ///< N, on the first body; the second gets the opposite
+  double friction_x, friction_y;  ///< N, the part of it that is friction
+  double overlap;                 ///< m
+  double rate;                    ///< m/s, d(overlap)/dt: positive while approaching
+  double slip;   ///< m/s, along s = n turned by 90 degrees, of the first relative to the second
+  double since;  ///< s, in touch since; dt if longer than the last step
+  double until;  ///< s, in touch for; dt if longer than the next step
   double elastic_energy;  ///< J
   double normal_power;    ///< W, dissipated by the normal damping (negative where a clipped force
                           ///< gives back)
-  double friction_power;  ///< W, dissipated by friction
 };
 
 /// How much of the last and of the next time step two bodies spend in the overlap: s, at most dt.
@@ -95,11 +95,12 @@ template <class Normal, class Slip>
   const double f_s = slip_law.force(mu * std::abs(f_n), t.slip, half_step_slip, e.reduced_mass, dt);
 
   // n = (nx, ny), s = (-ny, nx)
-  t.fx = -f_n * nx - f_s * ny;
-  t.fy = -f_n * ny + f_s * nx;
+  t.friction_x = -f_s * ny;
+  t.friction_y = f_s * nx;
+  t.fx = t.friction_x - f_n * nx;
+  t.fy = t.friction_y - f_n * ny;
   t.elastic_energy = normal.stored_energy(t.overlap);
   t.normal_power = (f_n - elastic) * t.rate;
-  t.friction_power = -f_s * t.slip;
   return t;
 }
 

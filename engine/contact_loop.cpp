@@ -41,7 +41,8 @@ Meeting meeting_of_pair(const Slice& slice, const Grains& g, std::uint32_t pair)
           .y = 0,
           .reach = g.radius[i] + g.radius[j],
           .mass_first = g.mass[i],
-          .mass_second = g.mass[j]};
+          .mass_second = g.mass[j],
+          .turned = g.id[i] != a};
 }
 
 Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t near_wall,

@@ -29,6 +29,7 @@ struct Meeting {
   double reach;             ///< m, sum of the radii
   double mass_first;        ///< kg
   double mass_second;       ///< kg; unused for a wall grain
+  bool turned = false;      ///< the first body is not name.grain, but name.partner
 };
 
 /// What a contact adds to the displacements per step of its bodies, in quanta.

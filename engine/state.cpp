@@ -15,9 +15,9 @@ void add(Hash& hash, const Grains& g, std::size_t i) {
 
 void add(Hash& hash, const Contact& c) {
   for (const auto part : {c.name.wall, c.name.grain, c.name.partner}) hash.add(part);
-  for (const auto part :
-       {c.begin, c.end, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path, c.normal_loss,
-        c.friction_loss, c.impulse_x, c.impulse_y, c.impulse_y_times_step})
+  for (const auto part : {c.begin, c.end, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path,
+                          c.normal_loss, c.friction_loss, c.impulse_x, c.impulse_y,
+                          c.impulse_y_times_step, c.friction_x, c.friction_y})
     hash.add(part);
 }
 

@@ -31,7 +31,7 @@ void for_each_array(AnyGrains& grains, Visit visit) {
 /// Calls visit(name, unit, member) for each member of a contact; member(contact) is the member.
 template <std::same_as<Contact> Record, class Visit>
 void for_each_member(Visit visit) {
-  static_assert(sizeof(Contact) == 16 + 13 * sizeof(double));
+  static_assert(sizeof(Contact) == 16 + 15 * sizeof(double));
   visit(
       "wall", "1", [](auto& c) -> auto& { return c.name.wall; });
   visit(
@@ -64,6 +64,10 @@ void for_each_member(Visit visit) {
       "impulse_y", "kg m/s", [](auto& c) -> auto& { return c.impulse_y; });
   visit(
       "impulse_y_times_step", "kg m/s", [](auto& c) -> auto& { return c.impulse_y_times_step; });
+  visit(
+      "friction_x", "N", [](auto& c) -> auto& { return c.friction_x; });
+  visit(
+      "friction_y", "N", [](auto& c) -> auto& { return c.friction_y; });
 }
 
 /// Calls visit(name, unit, member) for each member of an open visit; member(visit) is the member.

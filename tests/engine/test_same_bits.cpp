@@ -18,7 +18,7 @@ namespace {
 auto all_of(const Contact& c) {
   return std::tie(c.name, c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
                   c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
-                  c.impulse_y, c.impulse_y_times_step);
+                  c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y);
 }
 
 auto all_of(const ContactTally& t) {

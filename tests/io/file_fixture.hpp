@@ -102,10 +102,11 @@ std::string message_of(Action action) {
 inline riesel::Contact contact(riesel::ContactName name, double first) {
   riesel::Contact contact{.name = name};
   double value = first;
-  for (auto* member : {&contact.begin, &contact.end, &contact.entry_rate, &contact.entry_slip,
-                       &contact.overlap, &contact.max_overlap, &contact.slip_path,
-                       &contact.elastic_energy, &contact.normal_loss, &contact.friction_loss,
-                       &contact.impulse_x, &contact.impulse_y, &contact.impulse_y_times_step}) {
+  for (auto* member :
+       {&contact.begin, &contact.end, &contact.entry_rate, &contact.entry_slip, &contact.overlap,
+        &contact.max_overlap, &contact.slip_path, &contact.elastic_energy, &contact.normal_loss,
+        &contact.friction_loss, &contact.impulse_x, &contact.impulse_y,
+        &contact.impulse_y_times_step, &contact.friction_x, &contact.friction_y}) {
     *member = value;
     value = value * -1.3 + 0.1;
   }
@@ -255,7 +256,7 @@ public:
     add_all(std::vector{c.name.wall, c.name.grain, c.name.partner});
     add_all(std::vector{c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
                         c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
-                        c.impulse_y, c.impulse_y_times_step});
+                        c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y});
   }
   const std::string& value() const { return bits_; }
 
