@@ -5,6 +5,7 @@
 #include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
+#include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -118,9 +119,12 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const double steps = steps_of(settings, flow);
   const int threads = threads_for(settings, grains.size());
   const double speed = measured_speed(settings, flow, threads, seconds_to_measure);
-  line("steps", "{:.0f}", steps);
-  line("expected time", "{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
-       readable_time(n * steps / speed), threads, threads == 1 ? "" : "s", speed / 1e6);
+  const auto precision = scenarios::run_length(settings).relative_error;
+  if (precision) line("ends", "when the mean is known to {:.3g} %", 100.0 * *precision);
+  line("steps", "{}{:.0f}", precision ? "at most " : "", steps);
+  line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
+       precision ? "at most " : "", readable_time(n * steps / speed), threads,
+       threads == 1 ? "" : "s", speed / 1e6);
   line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/stepping.hpp"
 #include "engine/simulation.hpp"
+#include "scenarios/run_length.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -27,7 +28,7 @@ double seconds_since(Clock::time_point start) {
 }  // namespace
 
 double steps_of(const io::Settings& settings, const scenarios::Flow& flow) {
-  return std::ceil(settings.number("run.duration") / flow.state.time_step);
+  return std::ceil(scenarios::run_length(settings).at_most / flow.state.time_step);
 }
 
 double measured_speed(const io::Settings& settings, const scenarios::Flow& flow, int threads,

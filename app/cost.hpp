@@ -9,7 +9,7 @@
 
 namespace riesel::app {
 
-/// Time steps that a flow takes in all.
+/// Time steps that a flow takes in all; the most, if it ends when it is precise.
 double steps_of(const io::Settings& settings, const scenarios::Flow& flow);
 
 /// Particle-steps per second, measured for about so many seconds at the start of the flow.

@@ -5,6 +5,7 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/summary.hpp"
+#include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -19,12 +20,13 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) continue;  // not a setting at all: for others to say
     const std::string key = setting.substr(0, equals);
-    const bool allowed = key == "run.duration" || key == "run.threads" || key == "run.stepping"
-                         || io::section_of(key) == "output";
+    const std::string section = io::section_of(key);
+    const bool allowed = key == "run.duration" || section == "run.until" || key == "run.threads"
+                         || key == "run.stepping" || section == "output";
     if (!allowed || key == "output.interval")
       throw io::SettingsError({.source = "--set " + setting}, key,
                               "cannot change when a run is resumed",
-                              "only run.duration, run.threads, run.stepping and "
+                              "only run.duration, run.until, run.threads, run.stepping and "
                               "output.checkpoint_interval can; for anything else "
                               "start a new run");
   }
@@ -57,12 +59,11 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   const auto settings = io::Settings::from_text(found.checkpoint.settings, found.path.string(),
                                                 scenarios::settings_tables(), options.overrides);
   check_stepping(settings);
-  if (settings.number("run.duration")
-      < found.checkpoint.state.time() - found.checkpoint.state.time_step)
-    settings.reject(
-        "run.duration",
-        fmt::format("the run has come to {:.6g} s already", found.checkpoint.state.time()),
-        "choose a longer duration");
+  const scenarios::RunLength length = scenarios::run_length(settings);
+  const State& state = found.checkpoint.state;
+  if (length.at_most < state.time() - state.time_step)
+    settings.reject(length.key, fmt::format("the run has come to {:.6g} s already", state.time()),
+                    "choose a longer time");
   const auto home = std::filesystem::is_directory(options.checkpoint)
                         ? options.checkpoint
                         : std::filesystem::absolute(options.checkpoint).parent_path();

@@ -9,15 +9,18 @@
 #include "app/series.hpp"
 #include "app/stepping.hpp"
 #include "engine/simulation.hpp"
+#include "engine/stopping_rule.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
+#include "scenarios/run_length.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -34,8 +37,9 @@ double seconds_since(Clock::time_point start) {
 /// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the
 /// same rhythm.
 struct Schedule {
-  Schedule(const io::Settings& settings, double time_step)
-      : last_step(std::llround(std::ceil(settings.number("run.duration") / time_step - 1e-9))),
+  Schedule(const io::Settings& settings, const scenarios::RunLength& length, double time_step)
+      : last_step(std::llround(std::ceil(length.at_most / time_step - 1e-9))),
+        relative_error(length.relative_error),
         steps_per_row(std::max<std::int64_t>(
             1, std::llround(settings.number("output.interval") / time_step))),
         seconds_between_checkpoints(settings.number("output.checkpoint_interval")) {}
@@ -45,6 +49,7 @@ struct Schedule {
   }
 
   std::int64_t last_step;
+  std::optional<double> relative_error;  // of the mean velocity, to stop at before the last step
   std::int64_t steps_per_row;
   double seconds_between_checkpoints;  // on the clock
 };
@@ -63,7 +68,7 @@ public:
       : settings_(std::move(settings)),
         past_(std::move(past)),
         directory_(std::move(directory)),
-        schedule_(settings_, state.time_step),
+        schedule_(settings_, scenarios::run_length(settings_), state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
         file_(open(arguments)),
@@ -76,8 +81,7 @@ public:
     start_ = last_checkpoint_ = Clock::now();
     try {
       if (file_.rows() == 0) begin();
-      while (simulation_.state().step < schedule_.last_step && interrupting_signal() == 0)
-        advance();
+      while (!is_over() && interrupting_signal() == 0) advance();
     } catch (const RunFailure& failure) {
       return fail(failure);
     }
@@ -103,6 +107,30 @@ private:
   void begin() {
     add_row();
     save();
+  }
+
+  bool is_over() const {
+    return simulation_.state().step >= schedule_.last_step || is_precise_enough();
+  }
+
+  /// Asked with each new row. A run that was resumed asks at once: it may have been at its end.
+  bool is_precise_enough() const {
+    const State& state = simulation_.state();
+    const bool at_row = state.step % schedule_.steps_per_row == 0;
+    const bool asked = schedule_.relative_error && at_row;
+    if (!asked || !is_time_to_look(static_cast<std::size_t>(file_.rows()))) return false;
+    return is_precise(file_.series("mean_vy"), *schedule_.relative_error,
+                      state.gravity * interval());
+  }
+
+  /// s, between two rows.
+  double interval() const {
+    return static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step;
+  }
+
+  std::string ended_by() const {
+    if (!schedule_.relative_error) return "duration";
+    return simulation_.state().step < schedule_.last_step ? "precision" : "at_most";
   }
 
   /// To the next row, or a part of the way in a large system, so that signals and the clock are
@@ -167,9 +195,9 @@ private:
   int tell_result() {
     last_ = observe(simulation_.state());
     io::FlowSummary s =
-        summarise(file_, simulation_.state(), simulation_.model(), last_,
-                  static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step);
+        summarise(file_, simulation_.state(), simulation_.model(), last_, interval());
     s.run = run_summary();
+    s.ended_by = ended_by();
     file_.write_validity(s.validity.verdict);
     file_.flush();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));

@@ -27,7 +27,8 @@ struct YamlNode;
 class Settings {
 public:
   /// Reads a file. `overrides` are "key=value" with the value in YAML's flow style; they replace or
-  /// add to what the file says, the last one of a key wins. Throws SettingsError.
+  /// add to what the file says, the last one of a key wins; "key=" takes the key out. Throws
+  /// SettingsError.
   static Settings from_file(const std::filesystem::path& file, const SettingsTables& tables,
                             const std::vector<std::string>& overrides = {});
 

@@ -62,8 +62,10 @@ const Entry* SettingsContents::find(const std::string& key) const {
 Place SettingsContents::place_of(const std::string& key) const {
   const auto* entry = find(key);
   if (entry != nullptr && entry->given_at) return *entry->given_at;
-  const auto section = sections.find(section_of(key));
-  return section != sections.end() ? section->second : Place{source, 1, 1};
+  for (auto name = section_of(key); !name.empty(); name = section_of(name)) {
+    if (const auto section = sections.find(name); section != sections.end()) return section->second;
+  }
+  return {source, 1, 1};
 }
 
 SettingsContents read_settings(const YamlNode& file, const std::string& text,

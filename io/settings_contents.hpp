@@ -31,8 +31,8 @@ struct SettingsContents {
   /// Nothing if the table does not hold the key or no condition for it holds.
   const Entry* find(const std::string& key) const;
 
-  /// Of the key; if it was not given, of its section; if the file lacks that too, the file's
-  /// beginning.
+  /// Of the key; if it was not given, of its innermost section that the file has; if there is none,
+  /// the file's beginning.
   Place place_of(const std::string& key) const;
 };
 

@@ -44,7 +44,7 @@ std::string line(const Entry& entry) {
 
 using Wanted = std::function<bool(const Setting&)>;
 
-/// All wanted lines of a section; those of the keys outside of sections for "".
+/// The wanted keys of a section; those outside of sections for "".
 std::vector<std::string> lines_of(const SettingsContents& contents, const std::string& section,
                                   const Wanted& wanted) {
   std::vector<std::string> lines;
@@ -53,6 +53,19 @@ std::vector<std::string> lines_of(const SettingsContents& contents, const std::s
     if (belongs && entry.value) lines.push_back(line(entry));
   }
   return lines;
+}
+
+/// All that is wanted of a section, its own sections last.
+std::string text_of(const SettingsContents& contents, const std::string& section,
+                    const Wanted& wanted, const std::string& indent) {
+  std::string text;
+  for (const auto& section_line : lines_of(contents, section, wanted))
+    text += indent + section_line;
+  for (const auto& name : names_of(contents.table, section)) {
+    const auto inner = text_of(contents, key_of(section, name), wanted, indent + "  ");
+    if (!inner.empty()) text += fmt::format("{}{}:\n{}", indent, name, inner);
+  }
+  return text;
 }
 
 }  // namespace
@@ -66,10 +79,8 @@ std::string effective_yaml(const SettingsContents& contents, const Wanted& wante
   std::string yaml = "# Every setting of the run, defaults included, in SI units.\n";
   for (const auto& top_line : lines_of(contents, "", wanted)) yaml += top_line;
   for (const auto& section : top_level_names(contents.table)) {
-    const auto lines = lines_of(contents, section, wanted);
-    if (!has_section(contents.table, section) || lines.empty()) continue;
-    yaml += fmt::format("\n{}:\n", section);
-    for (const auto& section_line : lines) yaml += "  " + section_line;
+    const auto text = text_of(contents, section, wanted, "  ");
+    if (!text.empty()) yaml += fmt::format("\n{}:\n{}", section, text);
   }
   return yaml;
 }

@@ -20,6 +20,13 @@ YamlEntry parse_override(const std::string& text) {
   return {text.substr(0, equals), place, parse_yaml_value(text.substr(equals + 1), place)};
 }
 
+/// A dotted key as a file has it: "run: {duration: ...}".
+std::string in_sections(const std::string& key) {
+  const auto dot = key.find('.');
+  if (dot == std::string::npos) return key + ": ...";
+  return fmt::format("{}: {{{}}}", key.substr(0, dot), in_sections(key.substr(dot + 1)));
+}
+
 /// The scenario decides about the table, so it is looked for before anything else is checked.
 std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& overrides,
                           const SettingsTables& tables) {
@@ -47,46 +54,49 @@ public:
     given_.scenario = std::move(scenario);
   }
 
-  void add_file(const YamlNode& file) {
-    for (const auto& entry : file.entries) add_top_level(entry);
-  }
+  void add_file(const YamlNode& file) { add_entries("", file.entries); }
 
   void add_override(const YamlEntry& entry) {
     if (has_section(table_, entry.key)) {
-      const auto example = entry.key + "." + names_of(table_, entry.key).front();
+      const auto example = key_of(entry.key, names_of(table_, entry.key).front());
       const bool on_command_line = entry.key_place.line == 0;
       throw SettingsError(entry.key_place, entry.key, "is a section and has no value of its own",
                           on_command_line
                               ? fmt::format("override its keys, as in --set {}=...", example)
                               : fmt::format("give its keys, such as {}", example));
     }
+    const bool takes_out = entry.value.shape == YamlNode::Shape::null;
+    if (takes_out && given_.by_key.erase(entry.key) > 0) return;
     add(entry.key, entry);
   }
 
   GivenSettings take() { return std::move(given_); }
 
 private:
-  void add_top_level(const YamlEntry& entry) {
-    if (has_section(table_, entry.key)) {
-      add_section(entry);
-    } else if (has_section(table_, section_of(entry.key))) {
-      throw SettingsError(entry.key_place, entry.key, "dotted keys are for --set only",
-                          fmt::format("write '{}: {{{}: ...}}'", section_of(entry.key),
-                                      name_in_section(entry.key)));
-    } else {
-      add(entry.key, entry);
+  void add_entries(const std::string& section, const std::vector<YamlEntry>& entries) {
+    for (const auto& entry : entries) {
+      const auto key = key_of(section, entry.key);
+      const bool is_dotted = entry.key.find('.') != std::string::npos;
+      if (has_section(table_, key)) {
+        add_section(key, entry);
+      } else if (is_dotted && has_section(table_, section_of(key))) {
+        throw SettingsError(entry.key_place, key, "dotted keys are for --set only",
+                            fmt::format("write '{}'", in_sections(key)));
+      } else {
+        add(key, entry);
+      }
     }
   }
 
-  void add_section(const YamlEntry& section) {
+  void add_section(const std::string& key, const YamlEntry& section) {
     if (section.value.shape != YamlNode::Shape::map) {
-      const auto example = names_of(table_, section.key).front();
-      throw SettingsError(section.value.place, section.key,
+      const auto example = key_of(key, names_of(table_, key).front());
+      throw SettingsError(section.value.place, key,
                           "expected a section with keys, got " + describe(section.value),
-                          fmt::format("write '{}: {{{}: ...}}'", section.key, example));
+                          fmt::format("write '{}'", in_sections(example)));
     }
-    given_.sections.emplace(section.key, section.key_place);
-    for (const auto& entry : section.value.entries) add(section.key + "." + entry.key, entry);
+    given_.sections.emplace(key, section.key_place);
+    add_entries(key, section.value.entries);
   }
 
   void add(const std::string& key, const YamlEntry& entry) {

@@ -21,7 +21,8 @@ struct GivenSettings {
 std::vector<YamlEntry> parse_overrides(const std::vector<std::string>& texts);
 
 /// `overrides` have dotted keys; they replace or add to what the file says, the last one of a key
-/// wins. Throws SettingsError: no or an unknown scenario, unknown keys, sections that are none.
+/// wins; one without a value takes the key out. Throws SettingsError: no or an unknown scenario,
+/// unknown keys, sections that are none.
 GivenSettings gather_settings(const YamlNode& file, const SettingsTables& tables,
                               const std::vector<YamlEntry>& overrides);
 

@@ -36,8 +36,10 @@ std::size_t typing_errors(const std::string& a, const std::string& b) {
 
 std::vector<std::string> sections_with(const std::string& name, const SettingsTable& table) {
   std::vector<std::string> sections;
-  for (const auto& section : top_level_names(table)) {
-    if (has_key(table, section + "." + name)) sections.push_back(section);
+  for (const auto& row : table) {
+    const auto section = section_of(row.key);
+    const bool is_new = std::ranges::find(sections, section) == sections.end();
+    if (!section.empty() && name_in_section(row.key) == name && is_new) sections.push_back(section);
   }
   return sections;
 }

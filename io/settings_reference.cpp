@@ -18,7 +18,8 @@ or `5 %` is converted to it; a unit of another dimension is an error. Where a li
 these are fine: `[0.1 m/s, 0.3 m/s]`, a single quantity, and `{from: 0.1 m/s, to: 40 m/s, points: 60, spacing: log}`
 (or `spacing: linear`), which includes both ends.
 
-On the command line, `--set contact.friction=0.3` replaces or adds a value.
+On the command line, `--set contact.friction=0.3` replaces or adds a value, and `--set run.duration=` takes out one that
+the file gives. A key with two dots is in a section of a section: `run: {until: {relative_error: 1 %, at_most: 20 s}}`.
 )";
 
 /// Quantities say their unit, numbers of other kinds their kind.

@@ -20,6 +20,17 @@ void append_once(std::vector<std::string>& names, const std::string& name) {
   if (std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
+/// What follows the prefix in the keys that have it, up to the next dot.
+std::vector<std::string> names_below(const SettingsTable& table, const std::string& prefix) {
+  std::vector<std::string> names;
+  for (const auto& row : table) {
+    if (!row.key.starts_with(prefix)) continue;
+    const auto rest = row.key.substr(prefix.size());
+    append_once(names, rest.substr(0, rest.find('.')));
+  }
+  return names;
+}
+
 bool exclude_each_other(const Setting& a, const Setting& b) {
   if (!a.only_when || !b.only_when || a.only_when->key != b.only_when->key) return false;
   return std::ranges::find_first_of(a.only_when->values, b.only_when->values)
@@ -43,12 +54,14 @@ void verify_condition(const Setting& row, const SettingsTable& earlier_rows) {
 }
 
 void verify_row(const Setting& row, const SettingsTable& earlier_rows) {
-  if (row.key.empty() || std::ranges::count(row.key, '.') > 1) contradiction(row, "bad key");
+  if (row.key.empty() || std::ranges::count(row.key, '.') > 2) contradiction(row, "bad key");
   if (!row.doc.ends_with('.')) contradiction(row, "the doc does not end with a full stop");
   if (row.required && !row.fallback.empty()) contradiction(row, "required, but has a default");
   if ((row.kind == Kind::choice) == row.choices.empty()) {
     contradiction(row, "choices belong to the kind choice, and only to it");
   }
+  if (has_section(earlier_rows, row.key) || has_key(earlier_rows, section_of(row.key)))
+    contradiction(row, "a section is no key");
   if (row.only_when) verify_condition(row, earlier_rows);
   for (const auto& earlier : earlier_rows) {
     if (earlier.key == row.key && !exclude_each_other(earlier, row))
@@ -80,11 +93,15 @@ void verify_table(const SettingsTable& table) {
 }
 
 std::string section_of(const std::string& key) {
-  const auto dot = key.find('.');
+  const auto dot = key.rfind('.');
   return dot == std::string::npos ? "" : key.substr(0, dot);
 }
 
-std::string name_in_section(const std::string& key) { return key.substr(key.find('.') + 1); }
+std::string name_in_section(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+std::string key_of(const std::string& section, const std::string& name) {
+  return section.empty() ? name : section + "." + name;
+}
 
 bool has_key(const SettingsTable& table, const std::string& key) {
   return std::ranges::find(table, key, &Setting::key) != table.end();
@@ -95,17 +112,11 @@ bool has_section(const SettingsTable& table, const std::string& section) {
 }
 
 std::vector<std::string> top_level_names(const SettingsTable& table) {
-  std::vector<std::string> names;
-  for (const auto& row : table) append_once(names, row.key.substr(0, row.key.find('.')));
-  return names;
+  return names_below(table, "");
 }
 
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section) {
-  std::vector<std::string> names;
-  for (const auto& row : table) {
-    if (section_of(row.key) == section) append_once(names, name_in_section(row.key));
-  }
-  return names;
+  return names_below(table, section + ".");
 }
 
 std::string to_string(const Range& range, const std::string& unit) {

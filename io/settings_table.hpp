@@ -51,7 +51,7 @@ struct When {
 /// One row of the table. Two rows may have the same key if their conditions exclude each other:
 /// that is how the unit of a contact law's stiffness depends on the law.
 struct Setting {
-  std::string key = {};  ///< "section.name" or "name"
+  std::string key = {};  ///< "name", "section.name" or "section.subsection.name"
   Kind kind = Kind::number;
   std::string unit = {};  ///< SI unit of the stored value, "1" for pure numbers; empty: a bare SI
                           ///< number, no unit is taken
@@ -76,10 +76,13 @@ SettingsTable common_settings();
 /// file).
 void verify_table(const SettingsTable& table);
 
-/// The part of a key before the dot; empty for a key at the top level.
+/// The part of a key before the last dot; empty for a key at the top level. So too the section that
+/// a section is in.
 std::string section_of(const std::string& key);
-/// The part of a key after the dot.
+/// The part of a key after the last dot.
 std::string name_in_section(const std::string& key);
+/// The key of a name in a section, which is empty for the top level.
+std::string key_of(const std::string& section, const std::string& name);
 
 bool has_key(const SettingsTable& table, const std::string& key);
 bool has_section(const SettingsTable& table, const std::string& section);
@@ -87,7 +90,7 @@ bool has_section(const SettingsTable& table, const std::string& section);
 /// What stands at the top level of a file, in table order: the sections, and the keys outside of
 /// any.
 std::vector<std::string> top_level_names(const SettingsTable& table);
-/// The names within a section, in table order, each once.
+/// The names within a section, those of its own sections too, in table order, each once.
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section);
 
 /// "above 0 m", "from 1 to 1024", ...; empty if anything goes.

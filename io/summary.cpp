@@ -85,6 +85,7 @@ std::string text_of(const Json& json) { return json.dump(2) + "\n"; }
 std::string to_json(const FlowSummary& s) {
   Json json = common_part(s.run);
   json["time"] = s.time;
+  json["ended_by"] = s.ended_by;
   json["state"] = s.state;
   json["mean_axial_velocity"] = measured(s.mean_axial_velocity);
   json["transient_end"] = s.transient_end;

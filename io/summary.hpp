@@ -34,7 +34,10 @@ struct FlowSummary {
   RunSummary run;
   double time = 0.0;           ///< s, simulated
   double transient_end = 0.0;  ///< s
-  std::string state;           ///< steady, accelerating, drifting or too_short
+  /// Why the run ended: `duration`, `precision` (its mean is known as well as was asked for) or
+  /// `at_most` (it is not, and the time was up).
+  std::string ended_by = "duration";
+  std::string state;  ///< steady, accelerating, drifting or too_short
   Measured mean_axial_velocity;
   double independent_samples = 0.0;
   double granular_temperature = 0.0;  ///< (m/s)^2

@@ -89,6 +89,7 @@ FlowSummary read_flow(const Json& json) {
   return {.run = read_run(json),
           .time = number(json, "time"),
           .transient_end = number(json, "transient_end"),
+          .ended_by = json.value("ended_by", "duration"),  // once all runs did
           .state = json.at("state"),
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
           .independent_samples = number(json, "independent_samples"),

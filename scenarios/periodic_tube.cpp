@@ -9,6 +9,7 @@
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/continued_start.hpp"
 #include "scenarios/packing.hpp"
+#include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -26,7 +27,7 @@ namespace {
 
 using std::numbers::pi;
 
-io::SettingsTable own_settings() {
+io::SettingsTable flow_settings() {
   return {
       {.key = "grains.diameter",
        .unit = "m",
@@ -108,11 +109,11 @@ io::SettingsTable own_settings() {
        .doc = "Root mean square of the random velocities at the start, per component; they are "
               "normally distributed and their momenta add up to zero.",
        .only_when = io::When{"start.kind", {"fresh"}}},
-      {.key = "run.duration",
-       .unit = "s",
-       .required = true,
-       .range = io::positive(),
-       .doc = "Simulated time."},
+  };
+}
+
+io::SettingsTable output_settings() {
+  return {
       {.key = "output.interval",
        .unit = "s",
        .fallback = "1 ms",
@@ -125,6 +126,13 @@ io::SettingsTable own_settings() {
        .doc = "Time on the clock between two checkpoints; the results do not depend on it.",
        .matters = false},
   };
+}
+
+io::SettingsTable own_settings() {
+  io::SettingsTable table = flow_settings();
+  for (const auto& rows : {run_length_settings(), output_settings()})
+    table.insert(table.end(), rows.begin(), rows.end());
+  return table;
 }
 
 State empty_tube(const io::Settings& settings) {
@@ -249,8 +257,9 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
   collision_time(settings, model, *heaviest);
   state.time_step = time_step(settings, shortest);
   constexpr double most_steps = 1e15;  // far below what a counter holds
-  if (settings.number("run.duration") / state.time_step > most_steps)
-    settings.reject("run.duration", "more time steps than can be counted",
+  const RunLength length = run_length(settings);
+  if (length.at_most / state.time_step > most_steps)
+    settings.reject(length.key, "more time steps than can be counted",
                     fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
 }
 

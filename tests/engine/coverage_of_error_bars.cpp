@@ -1,13 +1,16 @@
 // How often the error bars of the engine cover the truth, how often a stationary series is called
-// unsteady, and how often an unsteady one is caught: the tables of docs/statistics.md.
+// unsteady, how often an unsteady one is caught, and what becomes of the error bars if a run ends
+// when they are small: the tables of docs/statistics.md.
 //
 // Thousands of series per line take minutes, so this is no unit test but a program to be run by
 // hand. Its argument is the number of series per line; with 4000 of them, as in the manual, a rate
 // of 68 % is known to 0.7 %, and one of 1 % to 0.16 %.
 
 #include "engine/steady_state.hpp"
+#include "engine/stopping_rule.hpp"
 #include "engine/time_series.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -190,6 +193,76 @@ void print_power_table(int count) {
   });
 }
 
+/// A series that goes on and on: the next sample at each call.
+using Source = std::function<double()>;
+
+Source autoregressive_source(double phi) {
+  return [phi, x = gaussian()]() mutable {
+    const double sample = x;
+    x = phi * x + std::sqrt(1.0 - phi * phi) * gaussian();
+    return sample;
+  };
+}
+
+Source slow_beneath_fast_source() {
+  return [slow = autoregressive_source(0.99)] { return slow() + 3.0 * gaussian(); };
+}
+
+/// An AR(1) of phi = 0.9 that comes from far off, in 200 samples by a factor e.
+Source approaching_source() {
+  return [noise = autoregressive_source(0.9), offset = 20.0]() mutable {
+    offset *= std::exp(-1.0 / 200.0);
+    return noise() - offset;
+  };
+}
+
+/// Prints one line on runs that end by the stopping rule. `enough` is the length at which the error
+/// of the mean, in truth, is the one that is asked for.
+void print_stopped(const char* label, double variance, double time, double enough, int count,
+                   const std::function<Source()>& make) {
+  constexpr double mean = 100.0;
+  const double relative_error = std::sqrt(variance * time / enough) / mean;
+  const auto at_most = static_cast<std::size_t>(20.0 * enough);
+  Coverage coverage;
+  double length = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const Source next = make();
+    Series series;
+    while (series.size() < at_most) {
+      series.push_back(mean + next());
+      if (!riesel::is_time_to_look(series.size()) || !riesel::is_precise(series, relative_error))
+        continue;
+      const riesel::SteadyState state = riesel::assess_steady_state(series);
+      coverage.add(state.mean - mean, state.error);
+      length += static_cast<double>(series.size());
+      break;
+    }
+  }
+  std::printf("| %-8s | %6.0f | %6.0f | %5.1f | %4.2f | %4.1f | %4.1f |\n", label, enough,
+              enough / time, percent(coverage.bars, count), length / coverage.bars / enough,
+              coverage.once(), coverage.twice());
+}
+
+void print_stopped_table(int count) {
+  std::puts("| | enough | enough/tau | ended | length/enough | 1 err | 2 err |");
+  std::puts("|---|--:|--:|--:|--:|--:|--:|");
+  for (const double enough : {200.0, 1000.0, 5000.0}) {
+    print_stopped("0.00", 1.0, 1.0, enough, count, [] { return autoregressive_source(0.0); });
+  }
+  for (const double enough : {400.0, 1000.0, 2000.0, 8000.0}) {
+    print_stopped("0.90", 1.0, 19.0, enough, count, [] { return autoregressive_source(0.9); });
+  }
+  for (const double enough : {4000.0, 10000.0}) {
+    print_stopped("0.99", 1.0, 199.0, enough, count, [] { return autoregressive_source(0.99); });
+  }
+  for (const double enough : {1000.0, 4000.0, 10000.0}) {
+    print_stopped("slow", 10.0, 20.8, enough, count, slow_beneath_fast_source);
+  }
+  for (const double enough : {1000.0, 4000.0}) {
+    print_stopped("approach", 1.0, 19.0, enough, count, approaching_source);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -197,4 +270,6 @@ int main(int argc, char** argv) {
   print_stationary_table(count);
   std::puts("");
   print_power_table(count);
+  std::puts("");
+  print_stopped_table(count);
 }

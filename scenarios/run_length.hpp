@@ -1,0 +1,23 @@
+// How long a flow is followed: for a given time, or until its mean velocity is known well enough.
+#pragma once
+
+#include "io/settings.hpp"
+
+#include <optional>
+#include <string>
+
+namespace riesel::scenarios {
+
+struct RunLength {
+  double at_most;                        ///< s, simulated
+  std::optional<double> relative_error;  ///< of the mean axial velocity, to stop at; or none
+  std::string key;                       ///< the setting that `at_most` comes from
+};
+
+/// The rows of the table: `run.duration` and `run.until`.
+io::SettingsTable run_length_settings();
+
+/// Throws SettingsError unless there is a duration, or else both a precision and a limit.
+RunLength run_length(const io::Settings& settings);
+
+}  // namespace riesel::scenarios

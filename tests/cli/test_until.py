@@ -1,0 +1,210 @@
+"""Runs that ask for precision: they end when the mean is known well enough, at the same point whatever
+happens on the way, or when the time is up."""
+
+import csv
+import random
+import signal
+import time
+
+from riesel_command import SHIPPED, SMALL_TUBE, CommandTest, data_of
+
+# Soft contacts take long steps. At 20 % the run ends with the look at 1438 rows.
+UNTIL = "{until: {relative_error: 20 %, at_most: 3 s}}"
+TUBE = SMALL_TUBE.replace("2000 N/m", "200 N/m").replace("{duration: 5 ms}", UNTIL)
+ROWS = 1438
+
+# What takes a duration out and asks for the same precision.
+INSTEAD = ["--set", "run.duration=", "--set", "run.until.relative_error=20 %",
+           "--set", "run.until.at_most=3 s"]
+
+
+def looks():
+    """The numbers of rows at which a run is looked at."""
+    rows = 100
+    while True:
+        yield rows
+        rows += rows // 4
+
+
+def number_of_rows(out):
+    return data_of(out)["/series/time"][1][0]
+
+
+class UntilTest(CommandTest):
+
+    def setUp(self):
+        super().setUp()
+        self.write("until.yaml", TUBE)
+
+    def run_until(self, out, *options):
+        return self.run_to_end("until.yaml", out, *options)
+
+    def end_of(self, out):
+        summary = self.summary(out)
+        mean = summary["mean_axial_velocity"]
+        return summary["ended_by"], summary["state"], mean["error"] / mean["value"]
+
+
+class Until(UntilTest):
+
+    def test_the_run_ends_when_it_is_precise(self):
+        out = self.run_until("out")
+        ended_by, state, relative_error = self.end_of(out)
+        self.assertEqual((ended_by, state), ("precision", "steady"))
+        self.assertLess(relative_error, 0.2)
+        self.assertEqual(number_of_rows(out), ROWS)
+        self.assertIn(ROWS, [rows for rows, _ in zip(looks(), range(20))])
+
+    def test_it_is_the_run_of_that_duration(self):
+        out = self.run_until("out")
+        duration = self.summary(out)["time"]
+        same = self.run_to_end(self.write("tube.yaml", TUBE.replace(UNTIL, f"{{duration: {duration}}}")),
+                               "same")
+        self.assertEqual(self.state_hash(same), self.state_hash(out))
+        self.assertEqual(data_of(same), data_of(out))
+        self.assertEqual(self.summary(same)["ended_by"], "duration")
+
+    def test_a_precision_that_is_not_reached_ends_at_the_limit(self):
+        out = self.run_until("out", "--set", "run.until.relative_error=0.1 %", "--set",
+                             "run.until.at_most=0.4 s")
+        self.assertEqual(self.end_of(out)[0], "at_most")
+        self.assertAlmostEqual(self.summary(out)["time"], 0.4, delta=1e-5)
+
+    def test_a_runaway_goes_on_to_the_limit(self):
+        out = self.run_until("out", "--set", "start.axial_velocity=20 m/s", "--set",
+                             "run.until.relative_error=100 %", "--set", "run.until.at_most=0.5 s")
+        self.assertEqual(self.end_of(out)[:2], ("at_most", "accelerating"))
+
+    def test_the_screen_tells_how_it_ended(self):
+        result = self.riesel("run", "until.yaml", "--out", "out")
+        self.assertRegex(result.stdout, r"\n  ended +the mean is known as well as was asked for\n")
+        result = self.riesel("run", "until.yaml", "--out", "short", "--set", "run.until.at_most=9 ms")
+        self.assertRegex(result.stdout, r"\n  ended +the time was up before ")
+        result = self.riesel("run", self.write("tube.yaml", SMALL_TUBE), "--out", "plain")
+        self.assertNotIn("  ended", result.stdout)
+
+    def test_check_tells_that_it_may_end_earlier(self):
+        result = self.riesel("check", "until.yaml")
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"ends +when the mean is known to 20 %\n")
+        self.assertRegex(result.stdout, r"steps +at most \d+\n  expected time +at most ")
+
+
+class UntilInPieces(UntilTest):
+    """However the run is cut, it ends where the uncut one does."""
+
+    def test_killed_again_and_again(self):
+        whole = self.run_until("whole")
+        moments = random.Random(2)
+        self.riesel("run", "until.yaml", "--out", "out", "--set", "run.until.at_most=10 ms")
+        slower = ["--set", "run.until.at_most=3 s", "--set", "output.checkpoint_interval=0.001 s"]
+        kills = 0
+        for _ in range(20):
+            process = self.start("resume", "out", "--threads", 1, *slower)
+            time.sleep(moments.uniform(0.05, 0.15))
+            process.send_signal(signal.SIGKILL)
+            process.communicate()
+            kills += process.returncode == -signal.SIGKILL
+            if process.returncode == 0:
+                break
+        self.assertGreater(kills, 0)
+        self.resume_to_end(self.home / "out", "--set", "output.checkpoint_interval=60 s", *slower[:2])
+        self.assert_same_result(whole, self.home / "out")
+
+    def test_with_another_number_of_threads_at_the_end(self):
+        whole = self.run_until("whole")
+        out = self.run_until("out", "--set", "run.until.at_most=1.43 s")
+        self.resume_to_end(out, "--threads", 2, "--set", "run.until.at_most=3 s")
+        self.assert_same_result(whole, out)
+
+    def test_a_run_that_is_over_stays_as_it_is(self):
+        out = self.run_until("out")
+        before = data_of(out), self.state_hash(out)
+        self.resume_to_end(out)
+        self.assertEqual((data_of(out), self.state_hash(out)), before)
+        self.assertEqual(self.end_of(out)[0], "precision")
+
+    def test_to_a_later_limit(self):
+        whole = self.run_until("whole")
+        out = self.run_until("out", "--set", "run.until.at_most=0.9 s")
+        self.assertEqual(self.end_of(out)[0], "at_most")
+        self.resume_to_end(out, "--set", "run.until.at_most=3 s")
+        self.assert_same_result(whole, out)
+        self.assertEqual((whole / "effective.yaml").read_bytes(), (out / "effective.yaml").read_bytes())
+
+    def test_to_a_higher_precision(self):
+        precise = ["--set", "run.until.relative_error=2 %"]
+        whole = self.run_until("whole", *precise)
+        out = self.run_until("out")
+        self.resume_to_end(out, *precise)
+        self.assert_same_result(whole, out)
+        self.assertGreater(number_of_rows(out), ROWS)
+
+    def test_from_a_duration_to_a_precision_and_back(self):
+        whole = self.run_until("whole")
+        short = TUBE.replace(UNTIL, "{duration: 5 ms}")
+        out = self.run_to_end(self.write("short.yaml", short), "out")
+        self.resume_to_end(out, *INSTEAD)
+        self.assert_same_result(whole, out)
+        self.resume_to_end(out, "--set", "run.until.relative_error=", "--set", "run.until.at_most=",
+                           "--set", "run.duration=1.5 s")
+        self.assertEqual(self.end_of(out)[0], "duration")
+
+    def test_a_limit_that_is_over_already_is_refused(self):
+        out = self.run_until("out")
+        self.assert_refused(self.riesel("resume", out, "--set", "run.until.at_most=1 s"),
+                            "run.until.at_most: the run has come to 1.4", "choose a longer time")
+
+
+class UntilInSweeps(UntilTest):
+
+    def test_a_sweep_over_the_precision(self):
+        self.write("tube.yaml", TUBE.replace(UNTIL, "{duration: 5 ms}"))
+        self.write("sweep.yaml", "base: tube.yaml\n"
+                   "set: {run.duration: , run.until.at_most: 1.5 s}\n"
+                   "axes: {run.until.relative_error: [20 %, 0.1 %]}\n")
+        self.assertEqual(self.riesel("sweep", "sweep.yaml", "--out", "out").returncode, 0)
+        with open(self.home / "out" / "sweep.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["ended_by"] for row in rows], ["precision", "at_most"])
+        whole = self.run_until("whole", "--set", "run.until.at_most=1.5 s")
+        self.assertEqual(rows[0]["state_hash"], self.state_hash(whole))
+
+    def test_a_chain_continues_from_where_each_run_ended(self):
+        self.write("sweep.yaml", "base: until.yaml\nset: {run.until.at_most: 20 ms}\n"
+                   "axes: {run.until.relative_error: [20 %, 10 %]}\n"
+                   "continue_along: run.until.relative_error\n")
+        self.assertEqual(self.riesel("sweep", "sweep.yaml", "--out", "out").returncode, 0)
+
+
+class UntilMistakes(CommandTest):
+
+    MISTAKES = {
+        "{duration: 1 s, until: {relative_error: 1 %, at_most: 2 s}}":
+            ["6:7: run.duration: excludes run.until", "remove one"],
+        "{duration: 1 s, until: {at_most: 2 s}}": ["6:7: run.duration: excludes run.until"],
+        "{until: {relative_error: 1 %}}": ["6:7: run.until.at_most: is missing", "'20 s'"],
+        "{until: {at_most: 2 s}}": ["6:7: run.until.relative_error: is missing", "'1 %'"],
+        "{until: {}}": ["run.duration: is missing", "run.until"],
+        "{until: 2 s}": ["6:14: run.until:", "section", "run: {until: {relative_error: ...}}"],
+        "{until: {relative_eror: 1 %}}": ["6:15: run.until.relative_eror: unknown key",
+                                          "run.until.relative_error"],
+        "{until: {relative_error: 0}}": ["6:31: run.until.relative_error: must be above 0"],
+        "{until: {relative_error: 1 s}}": ["run.until.relative_error:", "a pure number"],
+        "{until: {relative_error: 1 %, at_most: 1e30 s}}": ["run.until.at_most: more time steps"],
+        "{relative_error: 1 %}": ["'relative_error' belongs into the section run.until"],
+        "{until.at_most: 1 s}": ["dotted keys", "run: {until: {at_most: ...}}"],
+    }
+
+    def test_each_is_told_with_its_place_and_remedy(self):
+        for run, mentions in self.MISTAKES.items():
+            with self.subTest(run):
+                self.write("tube.yaml", SMALL_TUBE.replace("{duration: 5 ms}", run))
+                for command in ("run", "check"):
+                    self.assert_refused(self.riesel(command, "tube.yaml"), "tube.yaml:", *mentions)
+        self.assertEqual([path.name for path in self.home.iterdir()], ["tube.yaml"])
+
+    def test_a_shipped_file_takes_a_precision_instead_of_its_duration(self):
+        self.assert_done(self.riesel("check", SHIPPED / "periodic_tube.yaml", *INSTEAD))
+        self.assert_refused(self.riesel("check", SHIPPED / "periodic_tube.yaml", *INSTEAD[2:]),
+                            "run.duration: excludes run.until", "--set run.duration=")
