@@ -71,6 +71,9 @@ endfunction()
 function(riesel_house_rules target)
   target_compile_options(${target} PRIVATE
     ${riesel_arithmetic_private} $<$<BOOL:${RIESEL_NATIVE}>:-march=native>)
+  # Only the preset lint makes units of several sources.
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD_CODE_BEFORE_INCLUDE "// NOLINTNEXTLINE(bugprone-suspicious-include)")
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:riesel_warnings>)
 endfunction()
 

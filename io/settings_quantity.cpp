@@ -154,7 +154,7 @@ double read_quantity(const Setting& row, const YamlNode& node) {
 
   std::optional<double> value;
   try {
-    value = si_value(*quantity, row.unit);
+    value = value_in_si(*quantity, row.unit);
   } catch (const UnitError& error) {
     refuse_value(row, node, error.what());
   }

@@ -224,7 +224,7 @@ std::optional<double> decimal_value(std::string_view numeral, int shift) {
   return if_normal(value);
 }
 
-std::optional<double> si_value(const QuantityText& quantity, const std::string& si_unit) {
+std::optional<double> value_in_si(const QuantityText& quantity, const std::string& si_unit) {
   if (quantity.unit.empty()) return decimal_value(quantity.numeral);
   const double factor = dissect_checked(std::string(quantity.unit), si_unit).scale;
   if (const auto shift = power_of_ten(factor)) return decimal_value(quantity.numeral, *shift);

@@ -50,6 +50,6 @@ std::optional<double> decimal_value(std::string_view numeral, int shift = 0);
 /// The value of `quantity` in `si_unit`. Without a unit the numeral counts as SI. Nothing if no
 /// normal double can hold it; throws UnitError if the unit is unknown, has an offset, or is of
 /// another dimension than `si_unit`.
-std::optional<double> si_value(const QuantityText& quantity, const std::string& si_unit);
+std::optional<double> value_in_si(const QuantityText& quantity, const std::string& si_unit);
 
 }  // namespace riesel::io

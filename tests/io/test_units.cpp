@@ -12,12 +12,12 @@ using namespace riesel::io;
 namespace {
 
 double si(const std::string& text, const std::string& si_unit) {
-  return si_value(split_quantity(text).value(), si_unit).value();
+  return value_in_si(split_quantity(text).value(), si_unit).value();
 }
 
 std::string remedy(const std::string& text, const std::string& si_unit) {
   try {
-    (void)si_value(split_quantity(text).value(), si_unit);
+    (void)value_in_si(split_quantity(text).value(), si_unit);
   } catch (const UnitError& error) {
     return error.what();
   }
@@ -114,7 +114,7 @@ TEST_CASE("numerals that no normal double can hold have no value") {
   CHECK_FALSE(decimal_value("1e308", 3));
   CHECK(decimal_value("1.7976931348623157e308") == 1.7976931348623157e308);
   CHECK(decimal_value("2.2250738585072014e-308") == 2.2250738585072014e-308);
-  CHECK_FALSE(si_value({"1e-307", "inch"}, "km").has_value());
+  CHECK_FALSE(value_in_si({"1e-307", "inch"}, "km").has_value());
 }
 
 TEST_CASE("units may be converted by several threads at once") {
