@@ -1,10 +1,11 @@
 // The grains in contact while all others fly: stepped side by side by vector instructions.
 //
-// A grain stands here at a fixed place as long as it is deflected. The store (Grains) meanwhile
-// holds its course: the straight path, in the falling frame, for which its appointments were made.
+// A grain stands here at a fixed place as long as it is deflected. The store meanwhile holds its
+// course, for which its appointments were made (Courses).
 #pragma once
 
 #include "engine/aligned.hpp"
+#include "engine/courses.hpp"
 #include "engine/encounter.hpp"
 #include "engine/fixed_point.hpp"
 
@@ -14,11 +15,6 @@
 #include <vector>
 
 namespace riesel {
-
-/// Position, displacement per step and kick of one grain, in quanta; as in Grains.
-struct Motion {
-  Fixed x, y, ux, uy, kick_x, kick_y;
-};
 
 class DeflectedGrains {
 public:

@@ -16,11 +16,12 @@
 // windows.
 #pragma once
 
-#include "engine/calendar.hpp"
+#include "engine/appointments.hpp"
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
+#include "engine/courses.hpp"
 #include "engine/deflected_grains.hpp"
-#include "engine/free_flight.hpp"
+#include "engine/skin_guard.hpp"
 #include "engine/state.hpp"
 
 #include <cstdint>
@@ -47,15 +48,11 @@ public:
 
 private:
   void begin(std::int64_t step, std::int64_t earliest);
-  void link();
   void renew(std::int64_t step);
-  std::int64_t first_to_leave_skin() const;
-  double room_in_skin() const;
-  std::int64_t leaves_skin(std::uint32_t slot, std::int64_t now) const;
 
   void keep_appointments(std::int64_t step);
-  void look_at_pair(std::uint32_t pair);
-  void look_at_wall(std::uint32_t near_wall);
+  void look_at_pair(std::uint32_t pair, std::int64_t step);
+  void look_at_near_wall(std::uint32_t near_wall, std::int64_t step);
   void step_contacts();
   void correct_courses(std::int64_t step);
 
@@ -63,24 +60,10 @@ private:
   DeflectedGrains::Place deflect(std::uint32_t slot, std::int64_t step);
   void let_go(std::int64_t place);
   void set_course(DeflectedGrains::Place place, std::int64_t step);
-  void reconsider(std::uint32_t candidate);
-  template <class Visit>
-  void for_each_candidate_of(std::uint32_t slot, Visit visit) const;
-  void make_appointments(std::int64_t now, std::int64_t earliest);
-  void enter(std::uint32_t candidate, std::int64_t free_steps, std::int64_t now,
-             std::int64_t earliest);
-  double free_steps_at_wall(const NearWall& near, std::int64_t now) const;
 
-  Courses courses() const;
-  Fixed course_x(std::uint32_t slot, std::int64_t step) const;
-  Fixed course_y(std::uint32_t slot, std::int64_t step) const;
-  std::int32_t since_sorted(std::int64_t step) const {
-    return static_cast<std::int32_t>(step - sorted_at_);
-  }
-  Fixed x_now(std::uint32_t slot) const;
-  Fixed y_now(std::uint32_t slot) const;
+  Fixed x(std::uint32_t slot, std::int64_t step) const;
+  Fixed y(std::uint32_t slot, std::int64_t step) const;
   Motion motion(std::uint32_t slot, std::int64_t step) const;
-  void put_down(std::uint32_t slot, const Motion& motion, std::int64_t step);
 
   State& state_;
   const ContactModel& model_;
@@ -90,22 +73,13 @@ private:
   const double tolerance_;                 // m
   const Fixed tolerance_x_, tolerance_y_;  // quanta, along each axis
 
+  Courses courses_;
   DeflectedGrains deflected_;
-  std::vector<std::int32_t> place_;             // in deflected_, or `flying`, by slot
-  AlignedVector<double> stray_;                 // m, how far off its course a grain may be, by slot
-  AlignedVector<std::int64_t> since_;           // step of the course in the store, by slot
-  std::int64_t sorted_at_ = 0;                  // step of that
-  std::int64_t hold_until_ = 0;                 // step until which the candidates hold for sure
   std::vector<DeflectedGrains::Place> let_go_;  // of this step: a contact has ended
-
-  // Candidates are numbered: the pairs first, then the grains near walls.
-  Calendar calendar_;
-  std::vector<std::int32_t> due_;    // of the appointment, since_sorted(), or `never`
-  std::vector<std::uint8_t> exact_;  // appointments without tolerance
-  // The candidates of a slot: pairs from first_pair_ on, and links_ from first_link_ on.
-  std::vector<std::uint32_t> first_pair_, first_link_, links_;
-  std::vector<std::uint32_t> pairs_, walls_;  // that need a new appointment
-  Forecast forecast_;
+  SkinGuard skin_guard_;
+  std::int64_t hold_until_ = 0;  // step until which the candidates hold for sure
+  Appointments appointments_;
+  bool under_way_ = false;  // they are made
 };
 
 }  // namespace riesel

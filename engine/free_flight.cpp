@@ -30,22 +30,30 @@ constexpr double few_steps = 4.0;
   return apart > 0.0 ? later : 0.0;
 }
 
+/// Arrays by slot.
+struct Paths {
+  const Fixed *x, *y, *ux, *uy;
+  const std::int32_t *since, *place;
+  const double* radius;
+};
+
 struct Kinematics {
   double metre_x, metre_y;
   Fixed fall;
-  std::int64_t now;
+  std::int64_t now, since_sorted;
   double tolerance;
 };
 
 RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::int64_t* second,
-                                        Courses c, Kinematics k, std::int64_t* free_steps,
+                                        Paths c, Kinematics k, std::int64_t* free_steps,
                                         std::int64_t* exact) {
 #pragma omp simd
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::int64_t i = first[lane], j = second[lane];
-    const std::int64_t steps_i = k.now - c.since[i], steps_j = k.now - c.since[j];
-    const Fixed fallen_i = wrapped_product(sum_of_steps(c.since[i], k.now), k.fall);
-    const Fixed fallen_j = wrapped_product(sum_of_steps(c.since[j], k.now), k.fall);
+    const std::int64_t steps_i = k.since_sorted - c.since[i];
+    const std::int64_t steps_j = k.since_sorted - c.since[j];
+    const Fixed fallen_i = wrapped_product(sum_of_steps(k.now - steps_i, k.now), k.fall);
+    const Fixed fallen_j = wrapped_product(sum_of_steps(k.now - steps_j, k.now), k.fall);
     const Fixed x_i = wrapped_sum(c.x[i], wrapped_product(steps_i, c.ux[i]));
     const Fixed x_j = wrapped_sum(c.x[j], wrapped_product(steps_j, c.ux[j]));
     const Fixed y_i = wrapped_sum(wrapped_sum(c.y[i], wrapped_product(steps_i, c.uy[i])), fallen_i);
@@ -56,7 +64,9 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::in
     const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * k.metre_x;
     const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * k.metre_y;
     const double reach = (c.radius[i] + c.radius[j]) * generous;
-    const double stray = c.stray[i] + c.stray[j];
+    const double stray_i = c.place[i] == Courses::flying ? 0.0 : k.tolerance;
+    const double stray_j = c.place[j] == Courses::flying ? 0.0 : k.tolerance;
+    const double stray = stray_i + stray_j;
     const double patient = first_touch(x, y, ux, uy, reach + 2.0 * k.tolerance);
     const double closer = first_touch(x, y, ux, uy, reach + stray);
     free_steps[lane] = Forecast::whole_steps((patient >= few_steps ? patient : closer) * cautious);
@@ -68,17 +78,26 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::in
 }  // namespace
 
 void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& which,
-             const Courses& courses, const Box& box, Fixed fall, std::int64_t now, double tolerance,
+             const State& state, const Courses& courses, std::int64_t now, double tolerance,
              Forecast& result) {
   const std::size_t room = (which.size() + lanes - 1) / lanes * lanes;
   if (result.free_steps.size() < room) {
     result.free_steps.resize(2 * room);
     result.exact.resize(2 * room);
   }
-  const Kinematics kinematics{.metre_x = box.quantum_x(),
-                              .metre_y = box.quantum_y(),
-                              .fall = fall,
+  const Grains& g = state.grains;
+  const Paths paths{.x = g.x.data(),
+                    .y = g.y.data(),
+                    .ux = g.ux.data(),
+                    .uy = g.uy.data(),
+                    .since = courses.since(),
+                    .place = courses.places(),
+                    .radius = g.radius.data()};
+  const Kinematics kinematics{.metre_x = state.box.quantum_x(),
+                              .metre_y = state.box.quantum_y(),
+                              .fall = courses.fall(),
                               .now = now,
+                              .since_sorted = now - courses.sorted_at(),
                               .tolerance = tolerance};
   alignas(cache_line) std::array<std::int64_t, lanes> first{}, second{};
   for (std::size_t block = 0; block < which.size(); block += lanes) {
@@ -86,7 +105,7 @@ void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& whic
       first[lane] = pairs.first[which[block + lane]];
       second[lane] = pairs.second[which[block + lane]];
     }
-    foresee_lanes(first.data(), second.data(), courses, kinematics, &result.free_steps[block],
+    foresee_lanes(first.data(), second.data(), paths, kinematics, &result.free_steps[block],
                   &result.exact[block]);
   }
 }

@@ -3,9 +3,10 @@
 #pragma once
 
 #include "engine/aligned.hpp"
-#include "engine/box.hpp"
+#include "engine/courses.hpp"
 #include "engine/fixed_point.hpp"
 #include "engine/slice.hpp"
+#include "engine/state.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,15 +17,6 @@ namespace riesel {
 /// Bounds are rounded to the safe side by this factor, which is far above the error of the
 /// arithmetic.
 inline constexpr double generous = 1.0 + 1e-9;
-
-/// The straight paths, in the falling frame, that grains are expected to follow; arrays by slot.
-struct Courses {
-  const Fixed *x, *y;         ///< quanta, at the step `since`
-  const Fixed *ux, *uy;       ///< quanta per step
-  const std::int64_t* since;  ///< step
-  const double* radius;       ///< m
-  const double* stray;        ///< m, how far the grain may be from its course: 0 in free flight
-};
 
 /// The time of pairs until they may touch.
 struct Forecast {
@@ -42,11 +34,11 @@ struct Forecast {
   }
 };
 
-/// Computes result.free_steps[k] and result.exact[k] for pairs[which[k]], from step `now` on. Where
-/// there is time enough, both grains are granted to stray by `tolerance` (m), deflected or not, so
-/// that the answer outlives the beginning of contacts.
+/// Computes result.free_steps[k] and result.exact[k] for pairs[which[k]], from step `now` on. A
+/// deflected grain may be off its course by `tolerance` (m). Where there is time enough, all grains
+/// are granted as much, deflected or not, so that the answer outlives the beginning of contacts.
 void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& which,
-             const Courses& courses, const Box& box, Fixed fall, std::int64_t now, double tolerance,
+             const State& state, const Courses& courses, std::int64_t now, double tolerance,
              Forecast& result);
 
 }  // namespace riesel

@@ -32,8 +32,8 @@ struct CoarseUnits {
   float generous_square(double reach) const {
     // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7
     // relative.
-    const double generous = reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y));
-    return static_cast<float>(generous * generous * (1.0 + 1e-6));
+    const double padded = reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y));
+    return static_cast<float>(padded * padded * (1.0 + 1e-6));
   }
 };
 

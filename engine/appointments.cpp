@@ -1,0 +1,155 @@
+#include "engine/appointments.hpp"
+
+#include "engine/wall_lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace riesel {
+
+namespace {
+
+/// Enough for vectors to be full, not so many that they leave the cache.
+constexpr std::uint32_t appointments_at_a_time = 1024;
+
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void Appointments::start_over() {
+  const std::size_t candidates = slice_.pairs.size() + slice_.near_walls.size();
+  calendar_.clear();
+  due_.assign(candidates, never);
+  exact_.assign(candidates, 0);
+  pairs_.clear();
+  near_walls_.clear();
+  link();
+}
+
+/// Finds the candidates of each grain. The pairs are ordered by their first grain: only where a
+/// grain is the second, or near a wall, a list is needed.
+void Appointments::link() {
+  const auto for_each_link = [&](auto visit) {
+    for (std::uint32_t p = 0; p < pair_count(); ++p) visit(slice_.pairs.second[p], p);
+    std::uint32_t candidate = pair_count();
+    for (const NearWall& near : slice_.near_walls) visit(near.slot, candidate++);
+  };
+  first_pair_.assign(state_.grains.size() + 1, 0);
+  first_link_.assign(state_.grains.size() + 1, 0);
+  for (const std::uint32_t slot : slice_.pairs.first) ++first_pair_[slot + 1];
+  for_each_link([&](std::uint32_t slot, std::uint32_t) { ++first_link_[slot + 1]; });
+  for (std::size_t i = 1; i < first_link_.size(); ++i) {
+    first_pair_[i] += first_pair_[i - 1];
+    first_link_[i] += first_link_[i - 1];
+  }
+  links_.resize(first_link_.back());
+  // Each link goes to the end of what is left of its grain's part.
+  for_each_link([&](std::uint32_t slot, std::uint32_t candidate) {
+    links_[--first_link_[slot + 1]] = candidate;
+  });
+  first_link_.erase(first_link_.begin());
+  first_link_.push_back(static_cast<std::uint32_t>(links_.size()));
+}
+
+template <class Visit>
+void Appointments::for_each_candidate_of(std::uint32_t slot, Visit visit) const {
+  for (std::uint32_t p = first_pair_[slot]; p < first_pair_[slot + 1]; ++p) visit(p);
+  for (std::uint32_t l = first_link_[slot]; l < first_link_[slot + 1]; ++l) visit(links_[l]);
+}
+
+void Appointments::reconsider_candidate(std::uint32_t candidate) {
+  if (candidate < pair_count())
+    pairs_.push_back(candidate);
+  else
+    near_walls_.push_back(candidate - pair_count());
+}
+
+void Appointments::reconsider(std::uint32_t slot) {
+  for_each_candidate_of(slot, [&](std::uint32_t candidate) { reconsider_candidate(candidate); });
+}
+
+void Appointments::reconsider_exact(std::uint32_t slot) {
+  for_each_candidate_of(slot, [&](std::uint32_t candidate) {
+    if (exact_[candidate] != 0) reconsider_candidate(candidate);
+  });
+}
+
+void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
+  pairs_.clear();
+  near_walls_.clear();
+  for (std::uint32_t candidate = 0; candidate < due_.size(); ++candidate) {
+    reconsider_candidate(candidate);
+    if (candidate % appointments_at_a_time == 0) make(now, earliest, hold_until);
+  }
+  make(now, earliest, hold_until);
+}
+
+void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
+  // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
+  const std::int64_t latest = std::max(hold_until, earliest);
+  foresee(slice_.pairs, pairs_, state_, courses_, now, tolerance_, forecast_);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const std::uint32_t pair = pairs_[k];
+    if (slice_.pairs.reach2[pair] < 0.0F) continue;  // in contact
+    exact_[pair] = static_cast<std::uint8_t>(forecast_.exact[k]);
+    enter(pair, now, std::max(earliest, now + forecast_.free_steps[k]), latest);
+  }
+  for (const std::uint32_t near_wall : near_walls_) {
+    const double steps = free_steps_at_wall(slice_.near_walls[near_wall], now);
+    exact_[pair_count() + near_wall] = 1;
+    enter(pair_count() + near_wall, now, std::max(earliest, now + Forecast::whole_steps(steps)),
+          latest);
+  }
+  pairs_.clear();
+  near_walls_.clear();
+}
+
+/// A step farther away than the calendar knows is moved closer: then the candidate is looked at
+/// once in between.
+void Appointments::enter(std::uint32_t candidate, std::int64_t now, std::int64_t due,
+                         std::int64_t latest) {
+  if (due > latest) {
+    due_[candidate] = never;
+    return;
+  }
+  const std::int64_t next = std::min(due, now + Calendar::horizon - 1);
+  if (due_[candidate] == since_sorted(next)) return;
+  due_[candidate] = since_sorted(next);
+  calendar_.enter(candidate, next);
+}
+
+/// Steps that a grain can do on its course, and within its tolerance, before it can touch a wall
+/// grain: not fewer than it needs to cover the gap to the nearest, nor than its straight way across
+/// the tube needs into the wall's reach.
+double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
+  if (near.partners != 0) return 0.0;
+  const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
+  const Grains& g = state_.grains;
+  const Box& box = state_.box;
+  const double stray = courses_.place(near.slot) == Courses::flying ? 0.0 : tolerance_;
+  const double reach = (g.radius[near.slot] + wall.radius) * generous + stray;
+  const double ux = box.metres_x(g.ux[near.slot]);
+  const double x = box.metres_x(courses_.x(near.slot, now)) - wall.line;
+
+  const double beyond_reach = std::abs(x) - reach;
+  if (beyond_reach > 0.0 && x * ux >= 0.0) return forever;
+  const double across = beyond_reach > 0.0 ? beyond_reach / std::abs(ux) : 0.0;
+
+  const Fixed y = courses_.y(near.slot, now);
+  double nearest2 = forever;
+  for_each_wall_grain_within(wall, box, y, 0.0, [&](std::int64_t, Fixed there) {
+    const double dy = box.metres_y(wrapped_difference(there, y));
+    nearest2 = std::min(nearest2, x * x + dy * dy);
+  });
+  const double gap = std::sqrt(nearest2) - reach;
+  if (gap <= 0.0) return across / generous;
+  const double fall = box.metres_y(courses_.fall());
+  const double uy =
+      box.metres_y(wrapped_sum(g.uy[near.slot], wrapped_product(courses_.fall(), now)));
+  const double speed = std::hypot(ux, uy) + 0.5 * std::abs(fall);
+  const double direct = 2.0 * gap / (speed + std::sqrt(speed * speed + 2.0 * std::abs(fall) * gap));
+  return std::max(across, direct) / generous;
+}
+
+}  // namespace riesel

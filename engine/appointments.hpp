@@ -1,0 +1,90 @@
+// When to look at which candidate: the appointments of one slice.
+//
+// An appointment is the step before which a candidate, a pair or a grain near a wall, cannot touch
+// as long as the grains keep to their courses. Most are made with a tolerance: they hold as long as
+// both grains stay that close to their courses, in contact or not. Those of pairs that are too
+// close for that are exact, and to be made anew when one of the two is deflected.
+#pragma once
+
+#include "engine/calendar.hpp"
+#include "engine/courses.hpp"
+#include "engine/free_flight.hpp"
+#include "engine/slice.hpp"
+#include "engine/state.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace riesel {
+
+class Appointments {
+public:
+  /// Deflected grains may be off their courses by `tolerance` (m). Keeps references.
+  Appointments(const State& state, const Slice& slice, const Courses& courses, double tolerance)
+      : state_(state), slice_(slice), courses_(courses), tolerance_(tolerance) {}
+
+  /// The candidates of the slice have just been listed: none has an appointment.
+  void start_over();
+
+  /// Will get a new appointment: all candidates of a grain; those with an exact appointment; a
+  /// pair, or a grain near a wall, by their index in the slice.
+  void reconsider(std::uint32_t slot);
+  void reconsider_exact(std::uint32_t slot);
+  void reconsider_pair(std::uint32_t pair) { pairs_.push_back(pair); }
+  void reconsider_near_wall(std::uint32_t near_wall) { near_walls_.push_back(near_wall); }
+
+  /// Makes the appointments of all that are to be reconsidered, with the courses of step `now`: not
+  /// before `earliest`, and none for after `hold_until` unless it is `earliest`.
+  void make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
+  /// The same for all candidates.
+  void make_all(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
+
+  /// Calls look_at_pair(index) and look_at_near_wall(index) for those that are due, which have no
+  /// appointment then.
+  template <class LookAtPair, class LookAtNearWall>
+  void keep(std::int64_t step, LookAtPair look_at_pair, LookAtNearWall look_at_near_wall) {
+    const auto& today = calendar_.due_in(step);
+    const std::int32_t now = since_sorted(step);
+    for (const std::uint32_t candidate : today) {
+      if (due_[candidate] != now) continue;  // it has another appointment since
+      due_[candidate] = never;
+      if (candidate < pair_count())
+        look_at_pair(candidate);
+      else
+        look_at_near_wall(candidate - pair_count());
+    }
+  }
+
+private:
+  static constexpr std::int32_t never = -1;
+
+  void link();
+  template <class Visit>
+  void for_each_candidate_of(std::uint32_t slot, Visit visit) const;
+  void reconsider_candidate(std::uint32_t candidate);
+  void enter(std::uint32_t candidate, std::int64_t now, std::int64_t due, std::int64_t latest);
+  double free_steps_at_wall(const NearWall& near, std::int64_t now) const;
+
+  /// Candidates are numbered: the pairs first, then the grains near walls.
+  std::uint32_t pair_count() const { return static_cast<std::uint32_t>(slice_.pairs.size()); }
+  std::int32_t since_sorted(std::int64_t step) const {
+    return static_cast<std::int32_t>(step - courses_.sorted_at());
+  }
+
+  const State& state_;
+  const Slice& slice_;
+  const Courses& courses_;
+  const double tolerance_;
+
+  Calendar calendar_;
+  std::vector<std::int32_t> due_;    // of the appointment, since_sorted(), or `never`
+  std::vector<std::uint8_t> exact_;  // appointments without tolerance
+  // The candidates of a slot of the slice: pairs from first_pair_ on, and links_ from first_link_
+  // on.
+  std::vector<std::uint32_t> first_pair_, first_link_, links_;
+  std::vector<std::uint32_t> pairs_, near_walls_;  // to be reconsidered
+  Forecast forecast_;
+};
+
+}  // namespace riesel

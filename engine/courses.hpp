@@ -1,0 +1,89 @@
+// The courses of grains: the straight paths, in the falling frame, on which they are expected.
+//
+// While flights go on the store (Grains) holds the course of each grain: where it was when the
+// course was set, and its displacement per step since. A flying grain keeps to its course exactly.
+// A deflected one, which takes part in a contact, does not; where it is stands elsewhere
+// (DeflectedGrains), at a place that is noted here.
+#pragma once
+
+#include "engine/aligned.hpp"
+#include "engine/fixed_point.hpp"
+#include "engine/state.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace riesel {
+
+/// Position, displacement per step and kick of one grain, in quanta; as in Grains.
+struct Motion {
+  Fixed x, y, ux, uy, kick_x, kick_y;
+};
+
+class Courses {
+public:
+  /// The place of a grain that keeps to its course.
+  static constexpr std::int32_t flying = -1;
+
+  explicit Courses(State& state) : grains_(state.grains), fall_(fall_per_step(state)) {}
+
+  /// The grains have just been sorted, all are at `step`, and all fly. A course must be set anew,
+  /// or all be started over, within 2^31 steps.
+  void start_over(std::int64_t step) {
+    sorted_at_ = step;
+    since_.assign(grains_.size(), 0);
+    place_.assign(grains_.size(), flying);
+  }
+  std::int64_t sorted_at() const { return sorted_at_; }  ///< step
+  Fixed fall() const { return fall_; }                   ///< gravity per step^2, quanta
+
+  /// Where the grain is in `step` if it keeps to its course.
+  Fixed x(std::uint32_t slot, std::int64_t step) const {
+    return wrapped_sum(grains_.x[slot], wrapped_product(steps(slot, step), grains_.ux[slot]));
+  }
+  Fixed y(std::uint32_t slot, std::int64_t step) const {
+    const std::int64_t n = steps(slot, step);
+    return wrapped_sum(grains_.y[slot],
+                       wrapped_sum(wrapped_product(n, grains_.uy[slot]),
+                                   wrapped_product(sum_of_steps(step - n, step), fall_)));
+  }
+  Motion motion(std::uint32_t slot, std::int64_t step) const {
+    return {.x = x(slot, step),
+            .y = y(slot, step),
+            .ux = grains_.ux[slot],
+            .uy = grains_.uy[slot],
+            .kick_x = grains_.kick_x[slot],
+            .kick_y = grains_.kick_y[slot]};
+  }
+
+  /// From `step` on the grain is expected to go on like this.
+  void set(std::uint32_t slot, const Motion& m, std::int64_t step) {
+    grains_.x[slot] = m.x;
+    grains_.y[slot] = m.y;
+    grains_.ux[slot] = m.ux;
+    grains_.uy[slot] = m.uy;
+    grains_.kick_x[slot] = m.kick_x;
+    grains_.kick_y[slot] = m.kick_y;
+    since_[slot] = static_cast<std::int32_t>(step - sorted_at_);
+  }
+
+  /// Where the deflected grain stands, or `flying`.
+  std::int32_t place(std::uint32_t slot) const { return place_[slot]; }
+  void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
+
+  /// For loops over many grains; by slot.
+  const std::int32_t* since() const { return since_.data(); }  ///< steps after sorted_at()
+  const std::int32_t* places() const { return place_.data(); }
+
+private:
+  std::int64_t steps(std::uint32_t slot, std::int64_t step) const {
+    return step - sorted_at_ - since_[slot];
+  }
+
+  Grains& grains_;
+  const Fixed fall_;
+  std::int64_t sorted_at_ = 0;
+  AlignedVector<std::int32_t> since_, place_;
+};
+
+}  // namespace riesel

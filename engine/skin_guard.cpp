@@ -1,0 +1,61 @@
+#include "engine/skin_guard.hpp"
+
+#include "engine/free_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel {
+
+namespace {
+
+/// m; the positions of when the candidates were listed are known but coarsely.
+double room_in_skin(const Box& box, double skin, double tolerance) {
+  const double resolution = box.metres_x(from_upper(1)) + box.metres_y(from_upper(1));
+  return (0.5 * skin - tolerance - resolution) / generous;
+}
+
+}  // namespace
+
+SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Courses& courses,
+                     double tolerance)
+    : state_(state),
+      candidates_(candidates),
+      courses_(courses),
+      room_(room_in_skin(state.box, candidates.skin(), tolerance)) {}
+
+std::int64_t SkinGuard::hold_until(SlotRange slots) const {
+  const Grains& g = state_.grains;
+  double fastest2 = 0.0;
+  for (std::size_t slot = slots.begin; slot < slots.end; ++slot) {
+    const double ux = state_.box.metres_x(g.ux[slot]);
+    const double uy = state_.box.metres_y(wrapped_difference(g.uy[slot], candidates_.drift_y()));
+    fastest2 = std::max(fastest2, ux * ux + uy * uy);
+  }
+  return courses_.sorted_at() + Forecast::whole_steps(room_ / std::sqrt(fastest2)) - 1;
+}
+
+std::int64_t SkinGuard::hold_until(std::uint32_t slot, std::int64_t now) const {
+  const Grains& g = state_.grains;
+  const Box& box = state_.box;
+  const std::int64_t sorted_at = courses_.sorted_at();
+  const Fixed common = wrapped_sum(wrapped_product(now - sorted_at, candidates_.drift_y()),
+                                   wrapped_product(sum_of_steps(sorted_at, now), courses_.fall()));
+  const CoarsePositions& then = candidates_.when_sorted();
+  const double x =
+      box.metres_x(wrapped_difference(courses_.x(slot, now), from_upper(then.x[slot])));
+  const double y = box.metres_y(wrapped_difference(
+      wrapped_difference(courses_.y(slot, now), from_upper(then.y[slot])), common));
+  const double ux = box.metres_x(g.ux[slot]);
+  const double uy = box.metres_y(wrapped_difference(g.uy[slot], candidates_.drift_y()));
+
+  // The first s with |(x, y) + s (ux, uy)| = room
+  const double left = room_ * room_ - x * x - y * y;
+  if (left <= 0.0) return now;
+  const double speed2 = ux * ux + uy * uy;
+  const double outward = x * ux + y * uy;
+  const double steps_left = left / (outward + std::sqrt(outward * outward + speed2 * left));
+  return now + Forecast::whole_steps(steps_left) - 1;
+}
+
+}  // namespace riesel
