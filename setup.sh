@@ -11,8 +11,9 @@ build_packages=(
   python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
-# Another code, to compare speeds with (docs/suite.md); nothing else needs it.
-peer_packages=(lammps openmpi-bin)
+# Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
+# needs them.
+peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
 
 riesel=build/release/app/riesel
 run_input=scenarios/periodic_tube.yaml
@@ -30,7 +31,7 @@ Usage: ./setup.sh COMMAND
   lint       check formatting, C++ and shell scripts (clang-format, clang-tidy, shellcheck)
   format     let clang-format rewrite the C++ sources
   packages   install the Debian packages that are missing
-  peers      install LAMMPS too, for bench/peers/run.py
+  peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
   help       this text
 END
 }

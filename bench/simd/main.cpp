@@ -1,0 +1,119 @@
+// Would a library of vector types make the two hottest loops of plain stepping faster?
+//
+//   build/bench/bench/speed state tube_slow 10k      makes a state and says where it is
+//   build/bench/bench/simd STATE.h5                  a table; docs/performance.md keeps one
+//
+// The engine's own loops (`omp simd`, cloned for each instruction set) and those of kernels.hpp do
+// the same work on the pairs and contacts of that state, in turns. Exit status: 1 if a way comes to
+// other bits than the engine, 2 for a wrong command line.
+#include "bench/simd/problems.hpp"
+#include "bench/timing.hpp"
+#include "io/checkpoint.hpp"
+#include "io/settings.hpp"
+#include "scenarios/scenario.hpp"
+#include "ways.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace riesel::bench::simd {
+
+#define RIESEL_DECLARE_WAY(way) extern const Way way;
+RIESEL_WAYS(RIESEL_DECLARE_WAY)
+
+namespace {
+
+/// Those that this processor can run.
+std::vector<Way> ways() {
+  std::vector<Way> all;
+#define RIESEL_ADD_WAY(way) all.push_back(way);
+  RIESEL_WAYS(RIESEL_ADD_WAY)
+  std::erase_if(all, [](const Way& way) {
+    return std::string_view(way.name).ends_with("v4") ? !__builtin_cpu_supports("avx512dq")
+                                                      : !__builtin_cpu_supports("avx2");
+  });
+  return all;
+}
+
+struct Contender {
+  std::string name;
+  std::function<void()> pass;
+};
+
+/// What a pass takes per item, in ns, and as a ratio to the first contender turn by turn.
+void print_table(const std::string& title, double items, const std::vector<Contender>& contenders) {
+  constexpr int repetitions = 25;
+  constexpr double at_a_time = 0.01;  // s
+  double one_pass = 0.0;
+  for (const Contender& one : contenders) one_pass = std::max(one_pass, seconds_of(one.pass));
+  const int passes = std::max(1, static_cast<int>(at_a_time / one_pass));
+
+  std::vector<Measurement> measurements;
+  for (const Contender& one : contenders)
+    measurements.emplace_back([&one, passes] {
+      return seconds_of([&] {
+        for (int i = 0; i < passes; ++i) one.pass();
+      });
+    });
+  const std::vector<Timing> timings = in_turns(measurements, repetitions);
+
+  fmt::print("\n{}: {:.0f}\n{:34} {:>9} {:>9} {:>9}\n", title, items, "", "ns", "best", "ratio");
+  for (std::size_t i = 0; i < timings.size(); ++i) {
+    Timing ratios = timings[i];
+    for (std::size_t turn = 0; turn < ratios.seconds.size(); ++turn)
+      ratios.seconds[turn] /= timings[0].seconds[turn];
+    const double ns = 1e9 / items / passes;
+    fmt::print("{:34} {:9.3f} {:9.3f} {:9.2f}\n", contenders[i].name, ns * timings[i].median(),
+               ns * timings[i].least(), ratios.median());
+  }
+}
+
+int compare(const std::string& path) {
+  constexpr auto engine_name = "engine: omp simd, clones";
+  io::Checkpoint checkpoint = io::read_checkpoint(path);
+  const ContactModel model = scenarios::contact_model(
+      io::Settings::from_text(checkpoint.settings, "checkpoint", scenarios::settings_tables()));
+  const std::vector<Way> all = ways();
+  Original engine(std::move(checkpoint.state), model);
+
+  PairSearch search(engine);
+  std::vector<Contender> searches{{engine_name, [&] { engine.find_pairs(); }}};
+  for (const Way& way : all) searches.push_back({way.name, [&] { search.pass(way); }});
+  print_table("Candidate pairs", search.items(), searches);
+
+  std::vector<ContactColumns> columns(all.size(), ContactColumns(engine));
+  std::vector<Contender> steps{{engine_name, [&] { engine.step_contacts(); }}};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].step_contacts != nullptr)
+      steps.push_back({all[i].name, [&, i] { columns[i].pass(all[i]); }});
+  print_table("Contacts of grains", columns.front().items(), steps);
+
+  bool same = true;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!search.agrees(all[i], engine)
+        || (all[i].step_contacts != nullptr && !columns[i].agrees(engine))) {
+      fmt::print(stderr, "simd: other bits than the engine: {}\n", all[i].name);
+      same = false;
+    }
+  return same ? 0 : 1;
+}
+
+}  // namespace
+
+}  // namespace riesel::bench::simd
+
+int main(int argc, char** argv) {
+  try {
+    if (argc == 2) return riesel::bench::simd::compare(argv[1]);
+    fmt::print(stderr, "usage: simd STATE.h5\n");
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "simd: {}\n", error.what());
+    return 1;
+  }
+}
