@@ -9,6 +9,9 @@
 
 namespace riesel::bench {
 
+/// What a command prints. Throws std::runtime_error if it fails.
+std::string output_of(const std::vector<std::string>& command);
+
 /// Calls this program again with `arguments` and returns the JSON that it prints. Throws
 /// std::runtime_error if it fails.
 nlohmann::json ask_child(const std::vector<std::string>& arguments);

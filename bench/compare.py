@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Ratios within one result of the benchmark suite, and between two.
 
-    bench/compare.py A.json                 windows/plain, plain/scalar, two threads/one
+    bench/compare.py A.json                 windows/plain, plain/scalar, two threads/one, two jobs/one
     bench/compare.py A.json B.json          the same, and B against A row by row
     bench/compare.py ... --plots FOLDER     pictures besides, speed.svg and ratios.svg (or --format png)
 
@@ -24,7 +24,8 @@ RATIOS = [("plain / scalar", "plain 1", "scalar"),
           ("windows / plain", "windows 1", "plain 1"),
           ("plain, 2 threads / 1", "plain 2", "plain 1"),
           ("automatic / plain", "automatic", "plain 1"),
-          ("2 threads / 1", "threads 2", "threads 1")]
+          ("2 threads / 1", "threads 2", "threads 1"),
+          ("2 jobs / 1", "jobs 2", "jobs 1")]
 
 
 class BadInput(Exception):

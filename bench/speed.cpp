@@ -7,6 +7,7 @@
 // Exit status: 1 if hashes that must be equal are not, or the run fails; 2 for a wrong command
 // line.
 #include "bench/commands.hpp"
+#include "bench/ensemble.hpp"
 #include "bench/other_rows.hpp"
 #include "io/durable_file.hpp"
 
@@ -87,6 +88,8 @@ void measure_all(const Options& options, const StartStates& states, Results& res
         measure_flow(one, size, states, effort, results);
   if (options.wants_case("checkpoint")) measure_checkpoint(options.bulk(), states, effort, results);
   if (options.wants_case("start_up")) measure_start_up(options.bulk(), effort, results);
+  if (options.wants_case("ensemble"))
+    measure_ensemble(RIESEL_COMMAND, states.folder() / "sweep", effort, results);
 }
 
 int run_suite(const Options& options) {
@@ -114,11 +117,11 @@ void list_cases() {
     for (const Size& size : one.sizes) fmt::print(" {}", size.name);
     fmt::print("\n");
   }
-  fmt::print("checkpoint\nstart_up\n");
+  fmt::print("checkpoint\nstart_up\nensemble\n");
 }
 
 std::vector<std::string> known_cases() {
-  std::vector<std::string> names = {"checkpoint", "start_up"};
+  std::vector<std::string> names = {"checkpoint", "start_up", "ensemble"};
   for (const ImpactCase& one : impact_cases()) names.push_back(one.name);
   for (const FlowCase& one : flow_cases()) names.push_back(one.name);
   return names;

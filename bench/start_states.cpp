@@ -5,6 +5,7 @@
 #include "engine/observables.hpp"
 #include "engine/random.hpp"
 #include "io/checkpoint.hpp"
+#include "io/file_error.hpp"
 #include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -63,6 +64,19 @@ void keep(const std::filesystem::path& path, const io::Settings& settings, State
                               .source = settings.source_text()});
 }
 
+/// Whether a kept state can be read. Another build may have left it, or an interruption: then it
+/// goes, to be made anew.
+bool is_usable(const std::filesystem::path& path) {
+  try {
+    io::read_checkpoint(path);
+    return true;
+  } catch (const io::FileError& error) {
+    fmt::print(stderr, "  {}: {}; made anew\n", path.filename().string(), error.problem());
+    std::filesystem::remove(path);
+    return false;
+  }
+}
+
 /// Steps `state` for `time` (s), and tells twice how it goes: a steady flow says the same.
 State relaxed(const std::string& name, State state, const ContactModel& model, double time) {
   Simulation simulation(std::move(state), model, 1);
@@ -116,7 +130,7 @@ std::filesystem::path StartStates::checkpoint(const FlowCase& one, const Size& s
       size.copies == 1 ? settings_of(one, overrides) : longer(one, overrides, size.copies);
   const std::string name = fmt::format("{}-{}", one.name, size.name);
   auto path = folder_ / fmt::format("{}-{:016x}.h5", name, fingerprint(one, settings));
-  if (std::filesystem::exists(path)) return path;
+  if (std::filesystem::exists(path) && is_usable(path)) return path;
 
   if (one.relaxation == 0.0) {
     keep(path, settings, fresh(settings).state);

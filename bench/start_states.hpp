@@ -21,7 +21,8 @@ public:
   explicit StartStates(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// The checkpoint of a case in a size; its name tells from what it was made. `overrides` change
-  /// settings of the case, "key=value". Throws SettingsError, FileError.
+  /// settings of the case, "key=value". A kept one that cannot be read is made anew. Throws
+  /// SettingsError, FileError.
   std::filesystem::path checkpoint(const FlowCase& one, const Size& size,
                                    const std::vector<std::string>& overrides = {}) const;
 

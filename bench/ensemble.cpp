@@ -1,0 +1,88 @@
+#include "bench/ensemble.hpp"
+
+#include "bench/child.hpp"
+#include "engine/hash.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <fstream>
+#include <set>
+
+namespace riesel::bench {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto tube = "tube_start";
+constexpr int seeds = 6;
+constexpr double duration = 0.2;  // s of each run, at full effort
+
+/// What came out of all runs of a sweep.
+struct Outcome {
+  std::size_t grains = 0;
+  double particle_steps = 0.0;
+  std::uint64_t hash = 0;  // of the final states
+};
+
+Outcome outcome_of(const fs::path& sweep) {
+  std::set<fs::path> points;  // in the same order for each sweep: the names come from the settings
+  for (const auto& point : fs::directory_iterator(sweep / "points")) points.insert(point.path());
+  Outcome outcome;
+  Hash hash;
+  for (const fs::path& point : points) {
+    std::ifstream file(point / "summary.json");
+    const auto summary = nlohmann::json::parse(file);
+    const auto grains = summary["grains"].get<std::size_t>();
+    outcome.grains += grains;
+    outcome.particle_steps += static_cast<double>(grains) * summary["steps"].get<double>();
+    for (const char c : summary["state_hash"].get<std::string>()) hash.add(c);
+  }
+  outcome.hash = hash.value();
+  return outcome;
+}
+
+}  // namespace
+
+void measure_ensemble(const fs::path& riesel, const fs::path& folder, const Effort& effort,
+                      Results& results) {
+  fs::create_directories(folder);
+  const fs::path plan = folder / "ensemble.yaml", sweep = folder / "ensemble";
+  std::ofstream(plan) << fmt::format(
+      "{{base: {}, set: {{run.duration: {:.3g} s, run.threads: 1}}, seeds: {}}}\n",
+      flow_case(tube).settings, duration * effort.work, seeds);
+
+  const std::array jobs = {1, 2};
+  std::array<Outcome, 2> outcomes{};
+  std::vector<Measurement> measurements;
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    measurements.emplace_back([&, i] {
+      const double seconds = seconds_of([&] {
+        output_of({riesel.string(), "sweep", plan.string(), "--out", sweep.string(), "--jobs",
+                   std::to_string(jobs[i])});
+      });
+      outcomes[i] = outcome_of(sweep);
+      fs::remove_all(sweep);
+      return seconds;
+    });
+  const std::vector<Timing> timings = in_turns(measurements, effort.repetitions);
+  fs::remove(plan);
+
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    results.rows.push_back({.case_name = "ensemble",
+                            .size = "1.4k",
+                            .variant = fmt::format("jobs {}", jobs[i]),
+                            .grains = outcomes[i].grains,
+                            .threads = jobs[i],
+                            .unit = "particle-steps",
+                            .work = outcomes[i].particle_steps,
+                            .timing = timings[i],
+                            .state_hash = outcomes[i].hash});
+    print(results.rows.back());
+  }
+  if (outcomes[0].hash != outcomes[1].hash)
+    results.disagreements.emplace_back("ensemble: the results depend on what runs beside them");
+}
+
+}  // namespace riesel::bench
