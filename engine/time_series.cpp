@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t cosines = 8;
 
 // Student's t for eight degrees of freedom: two-sided 68.27 % and 99 %.
-constexpr double student_68 = 1.06681;
+constexpr double student_68 = 1.06653;
 constexpr double student_99 = 3.35539;
 
 // The error of a mean grows by this over the number of independent samples. It pays for the fall of

@@ -26,6 +26,7 @@ FlowSummary special_summary() {
   s.time = 0.1;
   s.transient_end = 0.02;
   s.state = "drifting";
+  s.ended_by = "at_most";
   s.mean_axial_velocity = {.value = 10.0 / 7.0, .error = std::nan("")};
   s.independent_samples = 11.5;
   s.granular_temperature = 1e-300;
