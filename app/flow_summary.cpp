@@ -3,11 +3,18 @@
 #include "app/cumulative.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/steady_state.hpp"
+#include "engine/time_series.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace riesel::app {
 
@@ -34,6 +41,34 @@ double critical_velocity(const State& state, const ContactModel& model, double s
 double mean_from(const std::vector<double>& series, std::size_t first) {
   const auto begin = series.begin() + static_cast<std::ptrdiff_t>(first);
   return std::accumulate(begin, series.end(), 0.0) / static_cast<double>(series.end() - begin);
+}
+
+/// Of one series after the transient.
+io::Measured mean_of(const io::RunFile& file, const std::string& name, std::size_t first) {
+  const std::vector<double> series = file.series(name);
+  if (first >= series.size()) return {.value = unknown, .error = unknown};
+  const MeanEstimate mean = estimate_mean(std::span(series).subspan(first));
+  return {.value = mean.mean, .error = series.size() - first > 1 ? mean.error : unknown};
+}
+
+/// The core of the tube, and the layers at the walls.
+std::pair<io::FlowSummary::Zone, io::FlowSummary::Zone>
+zones(const TimeBlocks& blocks, const Strips& strips, std::int64_t first) {
+  const auto profiles =
+      tube_profiles(blocks, strips, {core_of(strips), wall_layers_of(strips)}, first);
+  const auto zone = [&](std::size_t i) {
+    const auto measured = [&](std::string_view name) {
+      const auto found = std::ranges::find(profiles, name, &TubeProfile::name);
+      return found->zones[i];
+    };
+    return io::FlowSummary::Zone{.area_fraction = measured("area_fraction"),
+                                 .mean_axial_velocity = measured("mean_axial_velocity"),
+                                 .temperature_x = measured("temperature_x"),
+                                 .temperature_y = measured("temperature_y"),
+                                 .stress_xx = measured("stress_xx"),
+                                 .stress_yy = measured("stress_yy")};
+  };
+  return {zone(0), zone(1)};
 }
 
 io::Measured scaled(const io::Measured& m, double factor) {
@@ -108,8 +143,9 @@ Evidence evidence(const CumulativeSeries& series, const State& state, double v_c
 
 }  // namespace
 
-io::FlowSummary summarise(const io::RunFile& file, const State& state, const ContactModel& model,
-                          const Observables& last, double interval) {
+io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
+                          const Observables& last) {
+  const auto& [file, strips, profiles, interval] = records;
   const std::vector<double> velocity = file.series("mean_vy");
   const SteadyState steady = assess_steady_state(velocity, state.gravity * interval);
 
@@ -126,6 +162,15 @@ io::FlowSummary summarise(const io::RunFile& file, const State& state, const Con
     s.validity.v_crit =
         critical_velocity(state, model, mean_from(file.series("sigma_vx"), steady.transient_end));
   }
+  s.fluctuations = {.sigma_vx = mean_of(file, "sigma_vx", steady.transient_end),
+                    .sigma_vy = mean_of(file, "sigma_vy", steady.transient_end),
+                    .granular_temperature =
+                        mean_of(file, "granular_temperature", steady.transient_end)};
+  for (std::size_t n = 1; n <= density_waves; ++n)
+    s.structure_factor[n - 1] =
+        mean_of(file, "structure_factor_" + std::to_string(n), steady.transient_end);
+  std::tie(s.core, s.wall_layers) =
+      zones(profiles, strips, static_cast<std::int64_t>(steady.transient_end));
   s.balance = balance(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.validity.verdict = judge(evidence(series, state, s.validity.v_crit));

@@ -2,15 +2,23 @@
 #pragma once
 
 #include "engine/observables.hpp"
+#include "engine/tube_profiles.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace riesel::app {
 
-/// All but `run`. `last` are the observables of `state`, `interval` (s) is the time between two
-/// rows of the series.
-io::FlowSummary summarise(const io::RunFile& file, const State& state, const ContactModel& model,
-                          const Observables& last, double interval);
+/// What a flow leaves to be summarised.
+struct FlowRecords {
+  const io::RunFile& file;
+  const Strips& strips;
+  const TimeBlocks& profiles;  ///< a sample of the strips with each row of the series
+  double interval;             ///< s, between two rows
+};
+
+/// All but `run`. `last` are the observables of `state`.
+io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
+                          const Observables& last);
 
 }  // namespace riesel::app

@@ -10,6 +10,7 @@
 #include "app/stepping.hpp"
 #include "engine/simulation.hpp"
 #include "engine/stopping_rule.hpp"
+#include "engine/tube_profiles.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
@@ -59,6 +60,7 @@ struct Past {
   std::string source;  // the user's settings file, verbatim
   std::int64_t rows = 0;
   double wall_seconds = 0.0;
+  TimeBlocks profiles = {};
 };
 
 class FlowRun {
@@ -72,6 +74,8 @@ public:
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
         file_(open(arguments)),
+        strips_(Strips::of(simulation_.state())),
+        profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
         first_step_(simulation_.state().step) {
     if (profile) simulation_.start_profile();
   }
@@ -153,6 +157,8 @@ private:
   void add_row() {
     const auto start = Clock::now();
     last_ = observe(simulation_.state());
+    profiles_.add(
+        sum_over_strips(strips_, simulation_.state(), simulation_.model(), last_.mean_vy));
     times_.measuring += seconds_since(start);
     file_.append(series_row(last_, simulation_.state().tally));
     if (last_.outside > 0.0)
@@ -172,7 +178,8 @@ private:
                           .settings = settings_.effective_yaml(),
                           .source = past_.source,
                           .rows = file_.rows(),
-                          .wall_seconds = wall_seconds()});
+                          .wall_seconds = wall_seconds(),
+                          .profiles = profiles_});
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
   }
@@ -194,11 +201,15 @@ private:
 
   int tell_result() {
     last_ = observe(simulation_.state());
-    io::FlowSummary s =
-        summarise(file_, simulation_.state(), simulation_.model(), last_, interval());
+    io::FlowSummary s = summarise({file_, strips_, profiles_, interval()}, simulation_.state(),
+                                  simulation_.model(), last_);
     s.run = run_summary();
     s.ended_by = ended_by();
     file_.write_validity(s.validity.verdict);
+    const std::int64_t first = std::llround(s.transient_end / interval());  // sample after that
+    file_.write_profiles(strips_, tube_profiles(profiles_, strips_, each_strip(strips_), first),
+                         s.transient_end);
+    file_.write_histograms(simulation_.state().tally);
     file_.flush();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));
     print_summary(s, directory_.path());
@@ -230,6 +241,8 @@ private:
   const int threads_;
   Simulation simulation_;
   io::RunFile file_;
+  const Strips strips_;
+  TimeBlocks profiles_;
   Observables last_;
   Progress progress_;
   const std::int64_t first_step_;
@@ -251,7 +264,8 @@ int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDire
                 const Arguments& arguments, bool profile) {
   const Past past{.source = checkpoint.source,
                   .rows = checkpoint.rows,
-                  .wall_seconds = checkpoint.wall_seconds};
+                  .wall_seconds = checkpoint.wall_seconds,
+                  .profiles = std::move(checkpoint.profiles)};
   return FlowRun(settings, scenarios::contact_model(settings), std::move(checkpoint.state),
                  std::move(directory), arguments, past, profile)
       .run();

@@ -82,6 +82,14 @@ const std::vector<Entry>& entries() {
        [](auto& o, auto&) { return o.wall_impulse_y; }},
       {{"max_overlap", "m", "Largest overlap of all contacts so far."},
        [](auto& o, auto&) { return o.max_overlap; }},
+      {{"structure_factor_1", "1", "|rho_k|^2/N of the density wave as long as the tube."},
+       [](auto& o, auto&) { return o.structure_factor[0]; }},
+      {{"structure_factor_2", "1", "The same with two periods along the tube."},
+       [](auto& o, auto&) { return o.structure_factor[1]; }},
+      {{"structure_factor_3", "1", "The same with three periods."},
+       [](auto& o, auto&) { return o.structure_factor[2]; }},
+      {{"structure_factor_4", "1", "The same with four periods."},
+       [](auto& o, auto&) { return o.structure_factor[3]; }},
   };
   return table;
 }

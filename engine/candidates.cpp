@@ -123,7 +123,7 @@ void Candidates::sort_anew(State& state, Slice& mine, std::int64_t step) {
   for (const Slice& slice : slices_) keep(state, mine, slice.lasting);
 #pragma omp barrier
 #pragma omp single
-  end_lost_contacts();
+  end_lost_contacts(state);
 }
 
 void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
@@ -276,9 +276,19 @@ std::size_t Candidates::kept() const {
                          [](std::size_t sum, const Slice& slice) { return sum + slice.kept; });
 }
 
+/// m, sum of the radii.
+double Candidates::reach(const State& state, const ContactName& name) const {
+  const auto radius = [&](std::int32_t id) {
+    return state.grains.radius[slot_of_[static_cast<std::size_t>(id)]];
+  };
+  return radius(name.grain)
+         + (name.wall == no_wall ? radius(name.partner)
+                                 : state.walls[static_cast<std::size_t>(name.wall)].radius);
+}
+
 /// A contact whose bodies are no candidates any more has ended: the grain is so fast that it left
 /// in a single step.
-void Candidates::end_lost_contacts() {
+void Candidates::end_lost_contacts(const State& state) {
   std::size_t lasting = 0;
   for (const Slice& slice : slices_) lasting += slice.lasting.size();
   if (kept() == lasting) return;
@@ -287,7 +297,7 @@ void Candidates::end_lost_contacts() {
       if (std::none_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
             return candidate_in(slice, contact).has_value();
           }))
-        owner.tally.end(contact);
+        owner.tally.end(contact, reach(state, contact.name));
 }
 
 }  // namespace riesel

@@ -73,7 +73,8 @@ private:
   std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
   void keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const;
   std::size_t kept() const;
-  void end_lost_contacts();
+  double reach(const State& state, const ContactName& name) const;
+  void end_lost_contacts(const State& state);
 
   double skin_;  // m
   double max_radius_;

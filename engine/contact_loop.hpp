@@ -46,7 +46,7 @@ template <class Ended>
 void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
   if (contacts.trouble()) slice.trouble = contacts.trouble();
   for (const std::size_t i : contacts.ended()) {
-    slice.tally.end(contacts.contact(i));
+    slice.tally.end(contacts.contact(i), contacts.meeting(i).reach);
     note_over(slice, contacts.meeting(i));
     ended(i);
     contacts.remove(i);

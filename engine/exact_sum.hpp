@@ -6,6 +6,7 @@
 // grains (energies of 1e-15 ... 1e3 J) both ends are far away.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace riesel {
@@ -15,7 +16,7 @@ __extension__ using Int128 = __int128;
 class ExactSum {
 public:
   /// Adds a finite term, |term| < 1e11.
-  void add(double term) { quanta_ += static_cast<Int128>(term * quanta_per_unit); }
+  void add(double term) { quanta_ += quanta(term); }
   void add(const ExactSum& other) { quanta_ += other.quanta_; }
   /// Adds another sum `times` over.
   void add(const ExactSum& other, std::int64_t times) { quanta_ += other.quanta_ * times; }
@@ -34,8 +35,23 @@ public:
   bool operator==(const ExactSum&) const = default;
 
 private:
-  static constexpr double quanta_per_unit = 0x1p90;
+  static constexpr int bits_of_fraction = 90;
   static constexpr double unit_per_quantum = 0x1p-90;
+
+  /// Rounded towards zero: what a conversion of term * 2^90 gives, without a call.
+  static Int128 quanta(double term) {
+    constexpr int mantissa_bits = 52, bias = 1023;
+    const auto bits = std::bit_cast<std::uint64_t>(term);
+    const int exponent = static_cast<int>(bits >> mantissa_bits & 0x7ff) - bias;
+    const std::uint64_t leading = std::uint64_t{1} << mantissa_bits;
+    const auto mantissa = static_cast<Int128>((bits & (leading - 1)) | leading);
+    const int shift = exponent - mantissa_bits + bits_of_fraction;
+    const Int128 size = shift >= 0                   ? mantissa << (shift & 127)
+                        : shift > -mantissa_bits - 1 ? mantissa >> -shift
+                                                     : 0;
+    return term < 0.0 ? -size : size;
+  }
+
   Int128 quanta_ = 0;
 };
 

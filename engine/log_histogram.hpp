@@ -13,7 +13,9 @@
 
 namespace riesel {
 
-/// From 2^-30 to 2^-2 of the unit; what lies beyond is counted in the first or the last bin.
+/// 28 octaves from 2^lowest of the unit upwards; what lies beyond is counted in the first or the
+/// last bin.
+template <int lowest>
 class LogHistogram {
 public:
   static constexpr std::size_t bins = 112;
@@ -52,18 +54,21 @@ public:
 
 private:
   // A positive double, taken as an integer, grows with its value; all but the upper two bits of the
-  // mantissa are cut off.
+  // mantissa are cut off. The exponent of 1 stands as 1023.
   static constexpr int bits_below_a_quarter = 50;
-  static constexpr std::uint64_t first_quarter =
-      std::bit_cast<std::uint64_t>(0x1p-30) >> bits_below_a_quarter;
+  static constexpr std::uint64_t first_quarter = std::uint64_t{4} * (1023 + lowest);
 
   static std::size_t bin_of(double value) {
-    if (!(value > 0x1p-30)) return 0;
+    if (!(value > lower_edge(0))) return 0;
     const std::uint64_t quarter = std::bit_cast<std::uint64_t>(value) >> bits_below_a_quarter;
     return static_cast<std::size_t>(std::min<std::uint64_t>(quarter - first_quarter, bins - 1));
   }
 
   Counts counts_{};
 };
+
+using DurationHistogram = LogHistogram<-30>;  ///< s, from a nanosecond to a quarter of a second
+using OverlapHistogram = LogHistogram<-28>;   ///< parts of the sum of the radii, up to all of it
+using SpeedHistogram = LogHistogram<-20>;     ///< m/s, from 1e-6 to 256
 
 }  // namespace riesel

@@ -15,8 +15,9 @@ struct GrainSums {
 
 GrainSums sum_over_grains(const State& state) {
   GrainSums sums;
+  const GrainView grains(state);
   for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
-    const Grain g = grain_at(state, slot);
+    const Grain g = grains[slot];
     sums.vx.add(g.vx);
     sums.vy.add(g.vy);
     sums.vx2.add(g.vx * g.vx);
@@ -95,6 +96,7 @@ Observables observe(const State& state) {
   o.wall_impulse_y = at_walls.impulse_y.value();
   o.max_overlap = std::max(among_grains.max_overlap, at_walls.max_overlap);
   o.outside = static_cast<double>(sums.outside);
+  o.structure_factor = axial_structure_factor(state.grains);
   return o;
 }
 

@@ -1,8 +1,10 @@
 // What can be read off a state at one moment. SI units; the same bits for any order of the grains.
 #pragma once
 
+#include "engine/density_waves.hpp"
 #include "engine/state.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace riesel {
@@ -29,6 +31,7 @@ struct Observables {
   double wall_impulse_y = 0.0;        ///< kg m/s, given to the grains by the walls, cumulative
   double max_overlap = 0.0;           ///< m, over all contacts so far
   double outside = 0.0;               ///< grains beyond a wall line: gone through the wall, now
+  std::array<double, density_waves> structure_factor{};  ///< along y, of the longest waves
 };
 
 /// What the balances of a run start from: to be kept in State::origin at step 0.

@@ -34,6 +34,7 @@ void add(Hash& hash, const ContactTally& t) {
                           t.impulse_y_times_step})
     add(hash, sum);
   for (const auto count : t.durations.counts()) hash.add(count);
+  for (const auto count : t.overlaps.counts()) hash.add(count);
 }
 
 void add(Hash& hash, const WallVisit& v) {
@@ -56,6 +57,8 @@ void add(Hash& hash, const VisitTally& t) {
   for (const auto count : t.of_contacts) hash.add(count);
   hash.add(t.contacts);
   for (const auto& sum : {t.dv_y, t.dv_x, t.entry_rate, t.entry_slip}) add(hash, sum);
+  for (const auto* histogram : {&t.entry_rates, &t.entry_slips})
+    for (const auto count : histogram->counts()) hash.add(count);
 }
 
 }  // namespace
@@ -85,23 +88,15 @@ void add_grain(State& state, const Grain& grain) {
   g.id[i] = static_cast<std::int32_t>(i);
 }
 
-Grain grain_at(const State& state, std::size_t slot) {
-  const Grains& g = state.grains;
-  const Fixed fall = fall_per_step(state);
-  const Fixed free_velocity = wrapped_sum(g.uy[slot], wrapped_product(fall, state.step));
-  const double to_vx = state.box.quantum_x() / state.time_step;
-  const double to_vy = state.box.quantum_y() / state.time_step;
-  return {
-      .x = state.box.metres_x(g.x[slot]),
-      .y = state.box.place_y(g.y[slot]),
-      .vx = (static_cast<double>(g.ux[slot]) + 0.5 * static_cast<double>(g.kick_x[slot])) * to_vx,
-      .vy = (static_cast<double>(free_velocity)
-             + 0.5 * static_cast<double>(wrapped_sum(g.kick_y[slot], fall)))
-            * to_vy,
-      .radius = g.radius[slot],
-      .mass = g.mass[slot],
-  };
-}
+GrainView::GrainView(const State& state)
+    : grains_(&state.grains),
+      box_(state.box),
+      fall_(fall_per_step(state)),
+      fallen_(wrapped_product(fall_, state.step)),
+      to_vx_(state.box.quantum_x() / state.time_step),
+      to_vy_(state.box.quantum_y() / state.time_step) {}
+
+Grain grain_at(const State& state, std::size_t slot) { return GrainView(state)[slot]; }
 
 double mean_diameter(const Grains& grains) {
   ExactSum radii;

@@ -72,7 +72,35 @@ struct Grain {
 /// Adds a grain that touches nothing; its id is the number of grains before it. At step 0 only.
 void add_grain(State& state, const Grain& grain);
 
-/// The grain in `slot`, y in [0, length).
+/// The grains of a state in SI units, for whoever looks at many.
+class GrainView {
+public:
+  explicit GrainView(const State& state);
+  /// The grain in `slot`, y in [0, length).
+  Grain operator[](std::size_t slot) const {
+    const Grains& g = *grains_;
+    const Fixed free_velocity = wrapped_sum(g.uy[slot], fallen_);
+    return {
+        .x = box_.metres_x(g.x[slot]),
+        .y = box_.place_y(g.y[slot]),
+        .vx =
+            (static_cast<double>(g.ux[slot]) + 0.5 * static_cast<double>(g.kick_x[slot])) * to_vx_,
+        .vy = (static_cast<double>(free_velocity)
+               + 0.5 * static_cast<double>(wrapped_sum(g.kick_y[slot], fall_)))
+              * to_vy_,
+        .radius = g.radius[slot],
+        .mass = g.mass[slot],
+    };
+  }
+
+private:
+  const Grains* grains_;
+  Box box_;
+  Fixed fall_, fallen_;   // per step, and so far: quanta per step
+  double to_vx_, to_vy_;  // m/s per quantum per step
+};
+
+/// One grain of GrainView.
 Grain grain_at(const State& state, std::size_t slot);
 
 /// m; the same bits for any order of the slots.

@@ -25,13 +25,15 @@ void ContactTally::merge(const ContactTally& other) {
   impulse_y.add(other.impulse_y);
   impulse_y_times_step.add(other.impulse_y_times_step);
   durations.merge(other.durations);
+  overlaps.merge(other.overlaps);
 }
 
-void Tally::end(const Contact& contact) {
+void Tally::end(const Contact& contact, double reach) {
   ContactTally& kind = of(contact.name);
   ++kind.ended;
   kind.add(contact);
   kind.durations.add(contact.duration());
+  kind.overlaps.add(contact.max_overlap / reach);
   if (contact.name.wall != no_wall) ended_at_walls.push_back(contact);
 }
 

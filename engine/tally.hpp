@@ -29,7 +29,8 @@ struct ContactTally {
   /// (gravity_work).
   ExactSum impulse_y;
   ExactSum impulse_y_times_step;
-  LogHistogram durations;  ///< s, of ended contacts
+  DurationHistogram durations;  ///< of ended contacts
+  OverlapHistogram overlaps;    ///< of ended contacts, the largest
 
   /// Adds to the sums and to the maximum.
   void add(const Contact& contact);
@@ -46,8 +47,8 @@ struct Tally {
   std::vector<Contact> ended_at_walls;
 
   ContactTally& of(const ContactName& name) { return name.wall == no_wall ? grains : walls; }
-  /// Counts a contact that has ended.
-  void end(const Contact& contact);
+  /// Counts a contact that has ended; `reach` (m) is the sum of the radii.
+  void end(const Contact& contact, double reach);
   void merge(const Tally& other);
 };
 

@@ -65,6 +65,8 @@ void VisitTally::add(const WallVisit& visit, double mass, double away) {
   dv_x.add(away * visit.impulse_x.value() / mass);
   entry_rate.add(visit.entry_rate);
   entry_slip.add(visit.entry_slip);
+  entry_rates.add(visit.entry_rate);
+  entry_slips.add(visit.entry_slip);
 }
 
 void VisitTally::merge(const VisitTally& other) {
@@ -75,6 +77,8 @@ void VisitTally::merge(const VisitTally& other) {
   dv_x.add(other.dv_x);
   entry_rate.add(other.entry_rate);
   entry_slip.add(other.entry_slip);
+  entry_rates.merge(other.entry_rates);
+  entry_slips.merge(other.entry_slips);
 }
 
 }  // namespace riesel

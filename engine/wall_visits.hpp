@@ -14,6 +14,7 @@
 
 #include "engine/contact.hpp"
 #include "engine/exact_sum.hpp"
+#include "engine/log_histogram.hpp"
 
 #include <array>
 #include <cstddef>
@@ -60,6 +61,7 @@ struct VisitTally {
   ExactSum dv_x;              ///< m/s, velocity gained away from the wall
   ExactSum entry_rate;        ///< m/s, normal velocity at the beginning of the first contact
   ExactSum entry_slip;        ///< m/s, its |slip|
+  SpeedHistogram entry_rates, entry_slips;
 
   std::int64_t visits() const;
   /// Adds a visit by a grain of mass `mass` (kg). `away` is the sign of the direction from the wall

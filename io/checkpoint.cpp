@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -26,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 // --- one part of the checkpoint after the other, written and read ---
 
@@ -125,6 +126,25 @@ State read_state(const Hdf5Group& root, std::size_t most_bytes) {
   return state;
 }
 
+void write(Hdf5Group group, const TimeBlocks& blocks) {
+  group.set_attribute("columns", static_cast<std::int64_t>(blocks.columns()));
+  group.set_attribute("samples", blocks.samples());
+  group.set_attribute("samples_per_block", blocks.samples_per_block());
+  write_column<double>(group, "sums", "SI", blocks.sums());
+}
+
+TimeBlocks read_blocks(const Hdf5Group& group, std::size_t most_bytes) {
+  std::vector<double> sums;
+  read_column(group, "sums", most_bytes, sums);
+  try {
+    return {static_cast<std::size_t>(group.attribute<std::int64_t>("columns")),
+            group.attribute<std::int64_t>("samples"),
+            group.attribute<std::int64_t>("samples_per_block"), std::move(sums)};
+  } catch (const std::invalid_argument& flaw) {
+    throw Hdf5Error(std::string("of the profiles, ") + flaw.what());
+  }
+}
+
 void write(Hdf5Group root, const Checkpoint& checkpoint) {
   root.set_attribute("format", "riesel checkpoint");
   root.set_attribute("format_version", format_version);
@@ -133,6 +153,7 @@ void write(Hdf5Group root, const Checkpoint& checkpoint) {
   root.set_attribute("wall_seconds", checkpoint.wall_seconds);
   root.write_text("settings", checkpoint.settings);
   root.write_text("source", checkpoint.source);
+  write(root.create_group("profiles"), checkpoint.profiles);
   write(std::move(root), checkpoint.state);
 }
 
@@ -141,7 +162,8 @@ Checkpoint read_contents(const Hdf5Group& root, std::size_t most_bytes) {
           .settings = root.read_text("settings", most_bytes),
           .source = root.read_text("source", most_bytes),
           .rows = root.attribute<std::int64_t>("rows"),
-          .wall_seconds = root.attribute<double>("wall_seconds")};
+          .wall_seconds = root.attribute<double>("wall_seconds"),
+          .profiles = read_blocks(root.group("profiles"), most_bytes)};
 }
 
 // --- what can be wrong with it ---
@@ -151,6 +173,9 @@ std::string flaw_of(const Checkpoint& checkpoint) {
   if (!(std::isfinite(checkpoint.wall_seconds) && checkpoint.wall_seconds >= 0.0)) {
     return "the time taken is negative";
   }
+  if (!std::ranges::all_of(checkpoint.profiles.sums(),
+                           [](double sum) { return std::isfinite(sum); }))
+    return "a sum of the profiles is not finite";
   return riesel::io::flaw_of(checkpoint.state);
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "engine/state.hpp"
+#include "engine/time_blocks.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +24,7 @@ struct Checkpoint {
   std::string source;         ///< the user's settings file, verbatim
   std::int64_t rows = 0;      ///< rows that the series of the run file had at that moment
   double wall_seconds = 0.0;  ///< s, what the run has taken so far
+  TimeBlocks profiles = {};   ///< what the profiles across the tube are made of, so far
 };
 
 /// The name of the checkpoint in the directory of a run.

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace riesel::io {
@@ -76,6 +77,29 @@ void write_grains(Hdf5Group& group, const State& state) {
   write_column<double>(group, "radius", "m", radius);
   write_column<double>(group, "mass", "kg", mass);
   write_column<std::int32_t>(group, "id", "1", id);
+}
+
+void write_profile(Hdf5Group& group, const TubeProfile& profile) {
+  const std::string name(profile.name), unit(profile.unit);
+  std::vector<double> values, errors;
+  for (const Estimate& strip : profile.zones) {
+    values.push_back(strip.value);
+    errors.push_back(strip.error);
+  }
+  write_column<double>(group, name, unit, values).set_attribute("doc", profile.meaning);
+  write_column<double>(group, name + "_error", unit, errors)
+      .set_attribute("doc", "68 % error of " + name + ".");
+}
+
+template <int lowest>
+void write_histogram(Hdf5Group& parent, const Column& column,
+                     const LogHistogram<lowest>& histogram) {
+  auto group = parent.create_group(column.name);
+  group.set_attribute("doc", column.doc);
+  std::vector<double> edges(histogram.bins);
+  for (std::size_t bin = 0; bin < edges.size(); ++bin) edges[bin] = histogram.lower_edge(bin);
+  write_column<double>(group, "lower_edge", column.unit, edges);
+  write_column<std::int64_t>(group, "count", "1", histogram.counts());
 }
 
 void write_walls(Hdf5Group group, const State& state) {
@@ -212,6 +236,39 @@ void RunFile::write_final_state(const State& state) {
   write_walls(group.create_group("walls"), state);
   auto contacts = group.create_group("contacts");
   write_records(contacts, state.contacts);
+}
+
+void RunFile::write_profiles(const Strips& strips, const std::vector<TubeProfile>& profiles,
+                             double since) {
+  auto group = replace_group(contents_->root(), "profiles");
+  group.set_attribute("since", since);
+  group.set_attribute("strip_width", strips.width);
+  write_column<double>(group, "x", "m", strips.middles())
+      .set_attribute("doc", "Middle of the strip; the wall lines are at 0 and at the width.");
+  for (const TubeProfile& profile : profiles) write_profile(group, profile);
+}
+
+void RunFile::write_histograms(const Tally& tally) {
+  auto group = replace_group(contents_->root(), "histograms");
+  for (const auto& [kind, name, who] :
+       {std::tuple{&tally.grains, std::string("grain"), "between grains"},
+        std::tuple{&tally.walls, std::string("wall"), "of grains with walls"}}) {
+    write_histogram(
+        group, {name + "_contact_duration", "s", fmt::format("How long contacts {} last.", who)},
+        kind->durations);
+    write_histogram(
+        group,
+        {name + "_contact_overlap", "1",
+         fmt::format("Largest overlap of contacts {}, over the sum of the radii.", who)},
+        kind->overlaps);
+  }
+  write_histogram(
+      group,
+      {"wall_visit_entry_rate", "m/s", "Normal velocity at the beginning of visits to walls."},
+      tally.visits.entry_rates);
+  write_histogram(
+      group, {"wall_visit_entry_slip", "m/s", "Slip speed at the beginning of visits to walls."},
+      tally.visits.entry_slips);
 }
 
 void RunFile::write_validity(const ValidityVerdict& validity) {

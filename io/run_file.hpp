@@ -10,6 +10,7 @@
 #pragma once
 
 #include "engine/state.hpp"
+#include "engine/tube_profiles.hpp"
 #include "engine/validity.hpp"
 #include "io/provenance.hpp"
 
@@ -65,6 +66,14 @@ public:
   /// Replaces the final state in /final: grains and contacts in SI units, grains in the order of
   /// their ids, walls.
   void write_final_state(const State& state);
+
+  /// Replaces the profiles across the tube in /profiles: `x` for the middles of the strips, and for
+  /// each profile, of each_strip(), NAME and NAME_error. Of samples taken since `since` (s).
+  void write_profiles(const Strips& strips, const std::vector<TubeProfile>& profiles, double since);
+
+  /// Replaces the histograms of contacts and visits that ended since the start in /histograms:
+  /// each a group with the lower edges of its bins and the counts.
+  void write_histograms(const Tally& tally);
 
   /// Replaces the verdict of validity in /validity: an attribute for it, and one for the value of
   /// each finding.

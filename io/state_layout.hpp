@@ -114,7 +114,7 @@ concept MaybeConst = std::same_as<std::remove_const_t<Any>, T>;
 template <MaybeConst<ContactTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
   auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, impulse_y,
-         impulse_y_times_step, durations] = tally;
+         impulse_y_times_step, durations, overlaps] = tally;
   visit("begun", begun);
   visit("ended", ended);
   visit("max_overlap", max_overlap);
@@ -125,6 +125,7 @@ void for_each_value(AnyTally& tally, Visit visit) {
   visit("impulse_y", impulse_y);
   visit("impulse_y_times_step", impulse_y_times_step);
   visit("durations", durations.counts());
+  visit("overlaps", overlaps.counts());
 }
 
 template <MaybeConst<BrakeTally> AnyTally, class Visit>
@@ -144,13 +145,16 @@ void for_each_value(AnyTally& tally, Visit visit) {
 
 template <MaybeConst<VisitTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
-  auto& [of_contacts, contacts, dv_y, dv_x, entry_rate, entry_slip] = tally;
+  auto& [of_contacts, contacts, dv_y, dv_x, entry_rate, entry_slip, entry_rates, entry_slips] =
+      tally;
   visit("of_contacts", of_contacts);
   visit("contacts", contacts);
   visit("dv_y", dv_y);
   visit("dv_x", dv_x);
   visit("entry_rate", entry_rate);
   visit("entry_slip", entry_slip);
+  visit("entry_rates", entry_rates.counts());
+  visit("entry_slips", entry_slips.counts());
 }
 
 /// Calls visit(name, tally) for each kind of tally. `ended_at_walls` is empty between two advances.

@@ -39,6 +39,29 @@ Json wall_visits(const FlowSummary::WallVisits& v) {
           {"of_contacts_since_start", v.of_contacts}};
 }
 
+Json fluctuations(const FlowSummary::Fluctuations& f) {
+  return {{"sigma_vx", measured(f.sigma_vx)},
+          {"sigma_vy", measured(f.sigma_vy)},
+          {"granular_temperature", measured(f.granular_temperature)}};
+}
+
+/// By the number of periods along the tube.
+Json structure_factor(const std::array<Measured, density_waves>& factor) {
+  Json json;
+  for (std::size_t n = 1; n <= factor.size(); ++n)
+    json[std::to_string(n)] = measured(factor[n - 1]);
+  return json;
+}
+
+Json zone(const FlowSummary::Zone& z) {
+  return {{"area_fraction", measured(z.area_fraction)},
+          {"mean_axial_velocity", measured(z.mean_axial_velocity)},
+          {"temperature_x", measured(z.temperature_x)},
+          {"temperature_y", measured(z.temperature_y)},
+          {"stress_xx", measured(z.stress_xx)},
+          {"stress_yy", measured(z.stress_yy)}};
+}
+
 Json balance(const FlowSummary::Balance& b) {
   return {{"n_dot", b.n_dot.value},
           {"dv_y", b.dv_y.value},
@@ -91,6 +114,9 @@ std::string to_json(const FlowSummary& s) {
   json["transient_end"] = s.transient_end;
   json["independent_samples"] = s.independent_samples;
   json["granular_temperature"] = s.granular_temperature;
+  json["fluctuations"] = fluctuations(s.fluctuations);
+  json["structure_factor"] = structure_factor(s.structure_factor);
+  json["profiles"] = {{"core", zone(s.core)}, {"wall_layers", zone(s.wall_layers)}};
   json["balance"] = balance(s.balance);
   json["energy"] = {
       {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},

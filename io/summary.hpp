@@ -3,6 +3,8 @@
 // The names of its members are a contract, described in docs/files.md.
 #pragma once
 
+#include "engine/density_waves.hpp"
+#include "engine/estimate.hpp"
 #include "engine/validity.hpp"
 #include "engine/wall_visits.hpp"
 
@@ -24,10 +26,8 @@ struct RunSummary {
   int threads = 1;
 };
 
-/// A number and its standard error; not a number (null in the file) where it is not known.
-struct Measured {
-  double value = 0.0, error = 0.0;
-};
+/// Not a number stands as null in the file.
+using Measured = Estimate;
 
 /// Means are over the samples after the transient.
 struct FlowSummary {
@@ -41,6 +41,22 @@ struct FlowSummary {
   Measured mean_axial_velocity;
   double independent_samples = 0.0;
   double granular_temperature = 0.0;  ///< (m/s)^2
+
+  /// Of the grains' velocities, over the whole tube at one moment.
+  struct Fluctuations {
+    Measured sigma_vx, sigma_vy;    ///< m/s
+    Measured granular_temperature;  ///< (m/s)^2
+  } fluctuations;
+
+  std::array<Measured, density_waves> structure_factor{};  ///< along the tube, n = 1, 2, ...
+
+  /// Of a part of the tube's width: engine/tube_profiles.hpp.
+  struct Zone {
+    Measured area_fraction;
+    Measured mean_axial_velocity;           ///< m/s
+    Measured temperature_x, temperature_y;  ///< (m/s)^2
+    Measured stress_xx, stress_yy;          ///< N/m
+  } core, wall_layers;
 
   /// Eq. (9): in a steady state n_dot dv_y = gravity.
   struct Balance {

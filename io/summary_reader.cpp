@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace riesel::io {
 namespace {
@@ -65,6 +66,28 @@ FlowSummary::WallVisits read_wall_visits(const Json& json) {
           .of_contacts = json.at("of_contacts_since_start")};
 }
 
+FlowSummary::Fluctuations read_fluctuations(const Json& json) {
+  return {.sigma_vx = measured(json.at("sigma_vx")),
+          .sigma_vy = measured(json.at("sigma_vy")),
+          .granular_temperature = measured(json.at("granular_temperature"))};
+}
+
+std::array<Measured, density_waves> read_structure_factor(const Json& json) {
+  std::array<Measured, density_waves> factor{};
+  for (std::size_t n = 1; n <= factor.size(); ++n)
+    factor[n - 1] = measured(json.at(std::to_string(n)));
+  return factor;
+}
+
+FlowSummary::Zone read_zone(const Json& json) {
+  return {.area_fraction = measured(json.at("area_fraction")),
+          .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
+          .temperature_x = measured(json.at("temperature_x")),
+          .temperature_y = measured(json.at("temperature_y")),
+          .stress_xx = measured(json.at("stress_xx")),
+          .stress_yy = measured(json.at("stress_yy"))};
+}
+
 /// The findings stand in the order of Evidence.
 ValidityVerdict read_verdict(const Json& json) {
   const auto& findings = json.at("findings");
@@ -94,6 +117,10 @@ FlowSummary read_flow(const Json& json) {
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
           .independent_samples = number(json, "independent_samples"),
           .granular_temperature = number(json, "granular_temperature"),
+          .fluctuations = read_fluctuations(json.at("fluctuations")),
+          .structure_factor = read_structure_factor(json.at("structure_factor")),
+          .core = read_zone(json.at("profiles").at("core")),
+          .wall_layers = read_zone(json.at("profiles").at("wall_layers")),
           .balance = read_balance(json.at("balance")),
           .energy = read_energy(json.at("energy")),
           .wall_visits = read_wall_visits(json.at("wall_visits")),

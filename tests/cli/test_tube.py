@@ -7,7 +7,7 @@ from riesel_command import FAILED, SMALL_TUBE, CommandTest, data_of
 
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
-                 "wall_visits", "validity"}
+                 "wall_visits", "validity", "fluctuations", "structure_factor", "profiles"}
 NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
                 "mean_axial_velocity": {"value", "error"},
                 "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},
@@ -96,6 +96,70 @@ class Tube(CommandTest):
         self.assertEqual(told["settings"], (self.out / "effective.yaml").read_bytes())
         self.assertIn(b"run", told["command"])
         self.assertEqual(told["riesel_version"].decode(), self.summary(self.out)["version"])
+
+    def test_the_profiles_add_up_to_the_tube(self):
+        with h5py.File(self.out / "run.h5", "r") as file:
+            profiles, series, final = file["profiles"], file["series"], file["final"]
+            strips = len(profiles["x"])
+            self.assertEqual(strips, 10)
+            np.testing.assert_allclose(profiles["x"], (np.arange(10) + 0.5) * 1e-3)
+            for name, profile in profiles.items():
+                self.assertEqual(profile.shape, (strips,), name)
+                self.assertTrue(profile.attrs["unit"], name)
+                self.assertTrue(profile.attrs["doc"], name)
+                self.assertTrue(name == "x" or name.endswith("_error")
+                                or f"{name}_error" in profiles, name)
+            covered = np.pi * (final["radius"][()] ** 2).sum()
+            self.assertAlmostEqual(profiles["area_fraction"][()].mean() * 1e-4 / covered, 1.0)
+            mass = profiles["density"][()].mean() * 1e-4
+            self.assertAlmostEqual(mass / final["mass"][()].sum(), 1.0)
+            after = series["time"][()] >= profiles.attrs["since"] - 1e-12
+            first = int(np.argmax(after))
+            np.testing.assert_allclose(series["time"][first], profiles.attrs["since"])
+
+    def test_the_parts_of_the_stress_add_up(self):
+        with h5py.File(self.out / "run.h5", "r") as file:
+            stress = {name: data[()] for name, data in file["profiles"].items()}
+        for a, b in ("xx", "xy", "yy"):
+            np.testing.assert_allclose(
+                stress[f"stress_{a}{b}"],
+                stress[f"kinetic_stress_{a}{b}"] + stress[f"contact_stress_{a}{b}"], atol=1e-12)
+        self.assertTrue((stress["kinetic_stress_xx"] >= 0.0).all())
+        self.assertGreater(stress["contact_stress_xx"].max(), 0.0)
+
+    def test_the_summary_tells_of_the_core_and_of_the_walls(self):
+        summary = self.summary(self.out)
+        with h5py.File(self.out / "run.h5", "r") as file:
+            area = file["profiles/area_fraction"][()]
+        profiles = summary["profiles"]
+        self.assertAlmostEqual(profiles["core"]["area_fraction"]["value"], area[2:8].mean())
+        self.assertAlmostEqual(profiles["wall_layers"]["area_fraction"]["value"],
+                               area[[0, 9]].mean())
+
+    def test_fluctuations_and_density_waves_are_means_of_their_series(self):
+        summary = self.summary(self.out)
+        with h5py.File(self.out / "run.h5", "r") as file:
+            series = {name: column[()] for name, column in file["series"].items()}
+        after = series["time"] >= summary["transient_end"] - 1e-12
+        for name, mean in summary["fluctuations"].items():
+            self.assertAlmostEqual(mean["value"], series[name][after].mean())
+        for n in "1234":
+            self.assertAlmostEqual(summary["structure_factor"][n]["value"],
+                                   series[f"structure_factor_{n}"][after].mean())
+
+    def test_the_histograms_count_what_has_ended(self):
+        with h5py.File(self.out / "run.h5", "r") as file:
+            histograms, series = file["histograms"], file["series"]
+            counts = {name: group["count"][()].sum() for name, group in histograms.items()}
+            # The run goes on for a step or so after the last row.
+            after_the_rows = counts["wall_contact_duration"] - series["wall_contacts_ended"][-1]
+            self.assertIn(after_the_rows, (0, 1, 2))
+            self.assertEqual(counts["wall_contact_overlap"], counts["wall_contact_duration"])
+            self.assertEqual(counts["grain_contact_overlap"], counts["grain_contact_duration"])
+            self.assertGreater(counts["grain_contact_duration"], 0)
+            visits = self.summary(self.out)["wall_visits"]["of_contacts_since_start"]
+            self.assertEqual(counts["wall_visit_entry_rate"], sum(visits))
+            self.assertEqual(counts["wall_visit_entry_slip"], sum(visits))
 
     def test_the_mean_velocity_is_that_of_the_series(self):
         summary = self.summary(self.out)

@@ -113,10 +113,10 @@ TEST_CASE("braking is what takes axial momentum") {
 
 TEST_CASE("a tally hands on contacts with walls, and counts all durations") {
   Tally tally;
-  tally.end(lasting_for(1e-4));
+  tally.end(lasting_for(1e-4), 1e-3);
   Contact of_grains = lasting_for(1e-5);
   of_grains.name = {no_wall, 1, 2};
-  tally.end(of_grains);
+  tally.end(of_grains, 1e-3);
   REQUIRE(tally.ended_at_walls.size() == 1);
   CHECK(tally.ended_at_walls[0].name == ContactName{0, 3, 5});
   CHECK(tally.walls.durations.total() == 1);

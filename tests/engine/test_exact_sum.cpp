@@ -74,6 +74,19 @@ TEST_CASE("a sum added many times over is that many sums") {
   CHECK(product == ExactSum{});
 }
 
+TEST_CASE("a term is rounded towards zero to a multiple of 2^-90") {
+  std::vector<double> values = terms(1000);
+  for (const double value : {0.0, -0.0, 0x1p-90, 0x1.fffffffffffffp-90, 0x1p-91, 0x1p-143, 0x1p-144,
+                             5e-324, 1.0, 0x1.fffffffffffffp36, 9.9e10})
+    for (const double signed_value : {value, -value}) values.push_back(signed_value);
+  for (const double value : values) {
+    const auto expected = static_cast<riesel::Int128>(value * 0x1p90);
+    const ExactSum sum = sum_of({value});
+    CHECK(sum.high() == static_cast<std::int64_t>(expected >> 64));
+    CHECK(sum.low() == static_cast<std::uint64_t>(expected));
+  }
+}
+
 TEST_CASE("the two halves hold all of a sum") {
   for (const double value : {0.0, 1e-27, -1e-27, 1.0, -1.0, 3e10, -3e10, 0.1}) {
     const ExactSum sum = sum_of({value, value});

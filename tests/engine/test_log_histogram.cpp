@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-using riesel::LogHistogram;
+using LogHistogram = riesel::LogHistogram<-30>;
 
 TEST_CASE("a value falls into the bin that begins at or below it") {
   for (double value = 1.0001e-9; value < 0.2; value *= 1.013) {

@@ -37,7 +37,7 @@ constexpr double ms = 1e-3;
 
 class Watched {
 public:
-  void ended(const Contact& contact) { state_.tally.end(contact); }
+  void ended(const Contact& contact) { state_.tally.end(contact, radius + wall_radius); }
   void lasts(const Contact& contact) { state_.contacts = {contact}; }
   const VisitTally& look_at(double time) {
     state_.step = std::llround(time / state_.time_step);
@@ -157,7 +157,7 @@ TEST_CASE("neither the order of the ends nor the rhythm of the looks matters") {
     const double t = state.time();
     state.contacts.clear();
     for (const Contact& c : contacts) {
-      if (c.end > last && c.end <= t) state.tally.end(c);
+      if (c.end > last && c.end <= t) state.tally.end(c, radius + wall_radius);
       if (c.begin <= t && c.end > t) state.contacts.push_back(c);
     }
     std::sort(state.contacts.begin(), state.contacts.end(),

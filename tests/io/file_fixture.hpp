@@ -132,6 +132,7 @@ inline riesel::ContactTally tally(double scale) {
     value *= -1.7e-4;
   }
   tally.durations.add(3e-5 * std::abs(scale));
+  tally.overlaps.add(1e-5 * std::abs(scale));
   return tally;
 }
 
@@ -152,6 +153,8 @@ inline riesel::Tally whole_tally() {
   v.of_contacts = {9, 8, 7, 6, 5, 4, 3, 2};
   v.contacts = 140;
   for (auto* sum : {&v.dv_y, &v.dv_x, &v.entry_rate, &v.entry_slip}) fill(*sum);
+  v.entry_rates.add(0.1);
+  v.entry_slips.add(1.0);
   return whole;
 }
 
@@ -231,6 +234,7 @@ public:
       add(*sum);
     }
     add_all(t.durations.counts());
+    add_all(t.overlaps.counts());
   }
   void add(const riesel::BrakeTally& t) {
     add(t.contacts);
@@ -244,6 +248,8 @@ public:
     add_all(t.of_contacts);
     add(t.contacts);
     for (const auto* sum : {&t.dv_y, &t.dv_x, &t.entry_rate, &t.entry_slip}) add(*sum);
+    add_all(t.entry_rates.counts());
+    add_all(t.entry_slips.counts());
   }
   void add(const riesel::WallVisit& v) {
     add_all(std::vector{v.wall, v.grain});

@@ -256,6 +256,58 @@ TEST_CASE("A run file holds the last verdict of validity") {
   CHECK(group.attribute<double>("steps_per_contact") == 50.0);
 }
 
+TEST_CASE("A run file holds the last profiles across the tube") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  auto file = RunFile::create(path, provenance, columns);
+  const Strips strips{.width = 1e-3, .length = 0.1, .count = 2};
+  TubeProfile profile{.name = "density",
+                      .unit = "kg/m^2",
+                      .meaning = "Mass per area.",
+                      .zones = {{.value = 1.0, .error = 0.1}, {.value = 2.0, .error = 0.2}}};
+  file.write_profiles(strips, {profile}, 0.0);
+  profile.zones[1].error = std::nan("");
+  file.write_profiles(strips, {profile}, 0.25);
+  file.flush();
+  const auto group = Hdf5File::open(path).root().group("profiles");
+  CHECK(group.attribute<double>("since") == 0.25);
+  CHECK(read<double>(group, "x") == std::vector{0.5e-3, 1.5e-3});
+  CHECK(read<double>(group, "density") == std::vector{1.0, 2.0});
+  CHECK(group.data("density").text_attribute("unit") == "kg/m^2");
+  CHECK(group.data("density").text_attribute("doc") == "Mass per area.");
+  const auto errors = read<double>(group, "density_error");
+  CHECK(errors[0] == 0.1);
+  CHECK(std::isnan(errors[1]));
+}
+
+TEST_CASE("A run file holds histograms of contacts and visits") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  auto file = RunFile::create(path, provenance, columns);
+  Tally tally;
+  for (int i = 0; i < 3; ++i) tally.grains.durations.add(1e-4);
+  tally.walls.overlaps.add(0.01);
+  tally.visits.entry_slips.add(10.0);
+  file.write_histograms(tally);
+  file.flush();
+  const auto all = Hdf5File::open(path).root().group("histograms");
+  const auto check = [&](const char* name, const char* unit, double value, std::int64_t times) {
+    const auto group = all.group(name);
+    CHECK(group.data("lower_edge").text_attribute("unit") == unit);
+    const auto edges = read<double>(group, "lower_edge");
+    const auto counts = read<std::int64_t>(group, "count");
+    REQUIRE(edges.size() == counts.size());
+    for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin)
+      CHECK(counts[bin] == (edges[bin] <= value && value < edges[bin + 1] ? times : 0));
+  };
+  check("grain_contact_duration", "s", 1e-4, 3);
+  check("wall_contact_overlap", "1", 0.01, 1);
+  check("wall_visit_entry_slip", "m/s", 10.0, 1);
+  check("wall_contact_duration", "s", 1e-4, 0);
+  check("grain_contact_overlap", "1", 0.01, 0);
+  check("wall_visit_entry_rate", "m/s", 10.0, 0);
+}
+
 TEST_CASE("A run file holds a curve") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;

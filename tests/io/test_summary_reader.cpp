@@ -30,6 +30,17 @@ FlowSummary special_summary() {
   s.mean_axial_velocity = {.value = 10.0 / 7.0, .error = std::nan("")};
   s.independent_samples = 11.5;
   s.granular_temperature = 1e-300;
+  s.fluctuations = {.sigma_vx = {0.1, 0.01},
+                    .sigma_vy = {0.2, 0.02},
+                    .granular_temperature = {0.3, std::nan("")}};
+  s.structure_factor = {Measured{1.5, 0.5}, {1.6, 0.6}, {1.7, 0.7}, {std::nan(""), std::nan("")}};
+  s.core = {.area_fraction = {0.5, 0.01},
+            .mean_axial_velocity = {0.6, 0.02},
+            .temperature_x = {0.7, 0.03},
+            .temperature_y = {0.8, std::nan("")},
+            .stress_xx = {0.9, 0.04},
+            .stress_yy = {-0.1, 0.05}};
+  s.wall_layers.area_fraction = {0.2, 0.06};
   s.balance = {.n_dot = {1.1, 0.1}, .dv_y = {1.2, 0.2}, .n_dot_dv_y = {1.3, 0.3}, .gravity = -0.0};
   s.energy = {.initial = 1.0 / 9.0,
               .kinetic = 2.1,

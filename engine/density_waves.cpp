@@ -1,0 +1,52 @@
+#include "engine/density_waves.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace riesel {
+
+namespace {
+
+constexpr int cell_bits = 10;
+constexpr std::size_t cells = std::size_t{1} << cell_bits;
+
+/// cos(2 pi i / cells), as the waves in all cells are made of it.
+const std::vector<double>& cosines() {
+  static const std::vector<double> table = [] {
+    std::vector<double> values(cells);
+    for (std::size_t i = 0; i < cells; ++i)
+      values[i] =
+          std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(cells));
+    return values;
+  }();
+  return table;
+}
+
+std::vector<std::int64_t> grains_in_cells(const Grains& grains) {
+  std::vector<std::int64_t> counts(cells);
+  for (const Fixed y : grains.y) ++counts[static_cast<std::uint64_t>(y) >> (64 - cell_bits)];
+  return counts;
+}
+
+}  // namespace
+
+std::array<double, density_waves> axial_structure_factor(const Grains& grains) {
+  const std::vector<double>& cosine = cosines();
+  const std::vector<std::int64_t> counts = grains_in_cells(grains);
+  const auto grains_in_all = static_cast<double>(grains.size());
+  std::array<double, density_waves> factor{};
+  for (std::size_t n = 1; n <= density_waves; ++n) {
+    double real_part = 0.0, imaginary_part = 0.0;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const auto count = static_cast<double>(counts[cell]);
+      real_part += count * cosine[n * cell % cells];
+      imaginary_part += count * cosine[(n * cell + cells * 3 / 4) % cells];
+    }
+    factor[n - 1] = (real_part * real_part + imaginary_part * imaginary_part) / grains_in_all;
+  }
+  return factor;
+}
+
+}  // namespace riesel

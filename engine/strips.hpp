@@ -1,0 +1,74 @@
+// The tube cut into strips along its axis: what stands in each of them at one moment.
+//
+// A grain belongs to the strip of its centre, with its mass, its momentum and its kinetic stress;
+// its area to the strips that it covers. A contact acts along the line between the two centres, and
+// each strip gets the part of the line that lies in it (Irving and Kirkwood, J. Chem. Phys. 18, 817
+// (1950)). So the momentum that goes from strip to strip is accounted for exactly, by flying grains
+// and by contacts: the stresses close the balance of momentum, up to the walls, with nothing to
+// choose.
+//
+// All that is kept of a moment is linear in sums over grains and contacts, so that means over time
+// are means of these numbers, and what is nonlinear (temperatures) is worked out from the means.
+#pragma once
+
+#include "engine/contact_law.hpp"
+#include "engine/state.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace riesel {
+
+/// What is summed over a strip. w = v_y - frame is the axial velocity in a frame that moves along
+/// with the grains. F is the force on a body of a contact, l the line from the other body to it.
+enum class StripSum {
+  area,        ///< m^2, covered by grains
+  grains,      ///< with their centre here
+  vy,          ///< m/s, sum of v_y
+  vx2,         ///< (m/s)^2, sum of v_x^2
+  w,           ///< m/s
+  w2,          ///< (m/s)^2
+  mass,        ///< kg
+  mass_vx2,    ///< J, sum of m v_x^2
+  mass_vx_w,   ///< J
+  mass_w,      ///< kg m/s
+  mass_w2,     ///< J
+  contact_xx,  ///< J, sum of l_x F_x
+  contact_xy,  ///< J, sum of l_x F_y: momentum along y that goes across the tube
+  contact_yx,  ///< J, sum of l_y F_x
+  contact_yy,  ///< J, sum of l_y F_y
+};
+inline constexpr std::size_t strip_sums = 15;
+
+/// Strips of equal width between the wall lines.
+struct Strips {
+  double width;   ///< m, of one strip
+  double length;  ///< m
+  std::size_t count;
+
+  /// About a mean diameter wide.
+  static Strips of(const State& state);
+
+  double area() const { return width * length; }  ///< m^2
+  std::vector<double> middles() const;            ///< m, x of the middle of each
+  /// What lies beyond the wall lines belongs to the first and the last strip.
+  std::size_t at(double x) const;
+
+  /// Where a sum stands in the result of sum_over_strips().
+  static std::size_t column(std::size_t strip, StripSum sum) {
+    return strip * strip_sums + static_cast<std::size_t>(sum);
+  }
+  std::size_t columns() const { return count * strip_sums; }
+};
+
+/// m^2, the part of a disc of this radius (m) that lies at smaller x than a line at distance
+/// `line` (m) from its centre, positive towards larger x.
+double area_left_of(double line, double radius);
+
+/// The sums over all strips at the step of `state`; `frame` in m/s. The same bits for any order of
+/// the slots.
+std::vector<double> sum_over_strips(const Strips& strips, const State& state,
+                                    const ContactModel& model, double frame);
+
+}  // namespace riesel

@@ -1,0 +1,183 @@
+#include "engine/tube_profiles.hpp"
+
+#include "engine/time_series.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace riesel {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr Estimate not_known{unknown, unknown};
+
+/// One of the sums that a quantity is a function of, and how it changes with its mean.
+struct Part {
+  StripSum sum;
+  double derivative;
+};
+
+/// The blocks of one zone.
+class ZoneBlocks {
+public:
+  ZoneBlocks(const TimeBlocks& blocks, const Zone& zone, std::int64_t first)
+      : blocks_(blocks), zone_(zone), first_(first), size_(means(StripSum::grains).size()) {}
+
+  std::size_t size() const { return size_; }
+
+  double mean(StripSum sum) const {
+    const std::vector<double> of_blocks = means(sum);
+    return std::accumulate(of_blocks.begin(), of_blocks.end(), 0.0) / static_cast<double>(size_);
+  }
+
+  /// A function of the means; its error is that of its linear part.
+  Estimate estimate(double value, std::initializer_list<Part> parts) const {
+    std::vector<double> linear(size_, 0.0);
+    for (const Part& part : parts) {
+      const std::vector<double> of_blocks = means(part.sum);
+      for (std::size_t i = 0; i < size_; ++i) linear[i] += part.derivative * of_blocks[i];
+    }
+    return {value, size_ > 1 ? estimate_mean(linear).error : unknown};
+  }
+
+private:
+  std::vector<double> means(StripSum sum) const {
+    std::vector<double> total;
+    for (const std::size_t strip : zone_) {
+      const std::vector<double> of_strip = blocks_.means(Strips::column(strip, sum), first_);
+      total.resize(of_strip.size());
+      std::transform(total.begin(), total.end(), of_strip.begin(), total.begin(), std::plus<>());
+    }
+    return total;
+  }
+
+  const TimeBlocks& blocks_;
+  const Zone& zone_;
+  std::int64_t first_;
+  std::size_t size_;
+};
+
+/// a per area of the zone (m^2), and a + b.
+Estimate density(const ZoneBlocks& b, double area, StripSum a) {
+  return b.estimate(b.mean(a) / area, {{a, 1.0 / area}});
+}
+Estimate density(const ZoneBlocks& blocks, double area, StripSum a, StripSum b) {
+  return blocks.estimate((blocks.mean(a) + blocks.mean(b)) / area,
+                         {{a, 1.0 / area}, {b, 1.0 / area}});
+}
+
+/// Mean over the grains.
+Estimate per_grain(const ZoneBlocks& b, StripSum sum) {
+  const double grains = b.mean(StripSum::grains);
+  if (grains == 0.0) return not_known;
+  const double ratio = b.mean(sum) / grains;
+  return b.estimate(ratio, {{sum, 1.0 / grains}, {StripSum::grains, -ratio / grains}});
+}
+
+/// Variance over the grains of w: <w^2> - <w>^2.
+Estimate variance_of_w(const ZoneBlocks& b) {
+  const double grains = b.mean(StripSum::grains);
+  if (grains == 0.0) return not_known;
+  const double mean = b.mean(StripSum::w) / grains;
+  const double variance = b.mean(StripSum::w2) / grains - mean * mean;
+  return b.estimate(variance, {{StripSum::w2, 1.0 / grains},
+                               {StripSum::w, -2.0 * mean / grains},
+                               {StripSum::grains, (mean * mean - variance) / grains}});
+}
+
+/// Sum of m w^2 without that of the mean motion, (sum of m w)^2 / (sum of m), and `more` of it.
+Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
+  const double mass = b.mean(StripSum::mass);
+  const double mean = mass > 0.0 ? b.mean(StripSum::mass_w) / mass : 0.0;
+  const double contact = with_contacts ? 1.0 : 0.0;
+  const double sum =
+      b.mean(StripSum::mass_w2) - mass * mean * mean + contact * b.mean(StripSum::contact_yy);
+  return b.estimate(sum / area, {{StripSum::mass_w2, 1.0 / area},
+                                 {StripSum::mass_w, -2.0 * mean / area},
+                                 {StripSum::mass, mean * mean / area},
+                                 {StripSum::contact_yy, contact / area}});
+}
+
+struct Quantity {
+  std::string_view name, unit, meaning;
+  Estimate (*of)(const ZoneBlocks&, double area);
+};
+
+using B = ZoneBlocks;
+using S = StripSum;
+
+constexpr std::array<Quantity, 16> quantities = {{
+    {"area_fraction", "1", "Part of the area that grains cover.",
+     [](const B& b, double a) { return density(b, a, S::area); }},
+    {"density", "kg/m^2", "Mass per area, of the grains with their centre in the strip.",
+     [](const B& b, double a) { return density(b, a, S::mass); }},
+    {"mean_axial_velocity", "m/s", "Mean axial velocity of the grains, positive downstream.",
+     [](const B& b, double) { return per_grain(b, S::vy); }},
+    {"temperature_x", "m^2/s^2", "Mean of v_x^2 of the grains.",
+     [](const B& b, double) { return per_grain(b, S::vx2); }},
+    {"temperature_y", "m^2/s^2", "Variance of v_y of the grains about the mean of the strip.",
+     [](const B& b, double) { return variance_of_w(b); }},
+    {"stress_xx", "N/m", "Normal stress across the tube, positive in compression.",
+     [](const B& b, double a) { return density(b, a, S::mass_vx2, S::contact_xx); }},
+    {"stress_xy", "N/m", "Shear stress: momentum along y that goes to larger x.",
+     [](const B& b, double a) { return density(b, a, S::mass_vx_w, S::contact_xy); }},
+    {"stress_yx", "N/m", "Shear stress: momentum along x that goes to larger y.",
+     [](const B& b, double a) { return density(b, a, S::mass_vx_w, S::contact_yx); }},
+    {"stress_yy", "N/m", "Normal stress along the tube, positive in compression.",
+     [](const B& b, double a) { return stress_yy(b, a, true); }},
+    {"kinetic_stress_xx", "N/m", "The part of stress_xx that grains carry in flight.",
+     [](const B& b, double a) { return density(b, a, S::mass_vx2); }},
+    {"kinetic_stress_xy", "N/m", "The part of stress_xy, and of stress_yx, of grains in flight.",
+     [](const B& b, double a) { return density(b, a, S::mass_vx_w); }},
+    {"kinetic_stress_yy", "N/m", "The part of stress_yy that grains carry in flight.",
+     [](const B& b, double a) { return stress_yy(b, a, false); }},
+    {"contact_stress_xx", "N/m", "The part of stress_xx that contacts carry.",
+     [](const B& b, double a) { return density(b, a, S::contact_xx); }},
+    {"contact_stress_xy", "N/m", "The part of stress_xy that contacts carry.",
+     [](const B& b, double a) { return density(b, a, S::contact_xy); }},
+    {"contact_stress_yx", "N/m", "The part of stress_yx that contacts carry.",
+     [](const B& b, double a) { return density(b, a, S::contact_yx); }},
+    {"contact_stress_yy", "N/m", "The part of stress_yy that contacts carry.",
+     [](const B& b, double a) { return density(b, a, S::contact_yy); }},
+}};
+
+}  // namespace
+
+std::vector<Zone> each_strip(const Strips& strips) {
+  std::vector<Zone> zones(strips.count);
+  for (std::size_t strip = 0; strip < strips.count; ++strip) zones[strip] = {strip};
+  return zones;
+}
+
+Zone core_of(const Strips& strips) {
+  Zone zone(strips.count - 2 * (strips.count / 4));
+  std::iota(zone.begin(), zone.end(), strips.count / 4);
+  return zone;
+}
+
+Zone wall_layers_of(const Strips& strips) {
+  return strips.count > 1 ? Zone{0, strips.count - 1} : Zone{0};
+}
+
+std::vector<TubeProfile> tube_profiles(const TimeBlocks& blocks, const Strips& strips,
+                                       const std::vector<Zone>& zones, std::int64_t first) {
+  std::vector<TubeProfile> profiles;
+  for (const Quantity& q : quantities) {
+    TubeProfile profile{.name = q.name, .unit = q.unit, .meaning = q.meaning, .zones = {}};
+    for (const Zone& zone : zones) {
+      const ZoneBlocks of_zone(blocks, zone, first);
+      const double area = strips.area() * static_cast<double>(zone.size());
+      profile.zones.push_back(of_zone.size() > 0 ? q.of(of_zone, area) : not_known);
+    }
+    profiles.push_back(std::move(profile));
+  }
+  return profiles;
+}
+
+}  // namespace riesel
