@@ -43,6 +43,15 @@ struct Touch {
                           ///< gives back)
 };
 
+/// J, what friction (N, on the first body) took from two bodies in the step before the present one.
+/// A step's friction works on the mean of the velocities before and after its kicks, which are
+/// those of all contacts of the two bodies: it is known only now.
+[[gnu::always_inline]] inline double loss_by_friction(double fx, double fy, const Encounter& e,
+                                                      double dt) {
+  const double mean_vx = 2.0 * e.half_vx - e.vx, mean_vy = 2.0 * e.half_vy - e.vy;
+  return (fx * mean_vx + fy * mean_vy) * dt;
+}
+
 /// How much of the last and of the next time step two bodies spend in the overlap: s, at most dt.
 struct Passage {
   double since, until;

@@ -55,11 +55,7 @@ template <LiveContacts::Partner partner, class Columns>
 }
 
 /// Carries the life of contact i on by one step, if it is one.
-///
-/// A step's friction works on the mean of the velocities before and after its kicks, which are
-/// those of all contacts of the two bodies. So its loss is known only in the next step, be the
-/// contact over or not: then the sum of losses and energies is right even where friction holds a
-/// grain by turning from step to step.
+/// The loss by friction in the step before is added even if it is over.
 template <LiveContacts::Partner partner, class Columns>
 [[gnu::always_inline]] inline void carry_on(const Columns& c, std::size_t i, bool touching,
                                             const Encounter& e, const Touch& t,
@@ -71,10 +67,8 @@ template <LiveContacts::Partner partner, class Columns>
   const auto add = [&](std::size_t member, double value) {
     c.life[member][i] += touching ? value : 0.0;
   };
-  const double mean_vx = 2.0 * e.half_vx - e.vx, mean_vy = 2.0 * e.half_vy - e.vy;
-  c.life[RIESEL_LIFE(friction_loss)][i] +=
-      (c.life[RIESEL_LIFE(friction_x)][i] * mean_vx + c.life[RIESEL_LIFE(friction_y)][i] * mean_vy)
-      * u.dt;
+  c.life[RIESEL_LIFE(friction_loss)][i] += loss_by_friction(
+      c.life[RIESEL_LIFE(friction_x)][i], c.life[RIESEL_LIFE(friction_y)][i], e, u.dt);
   set(RIESEL_LIFE(friction_x), t.friction_x);
   set(RIESEL_LIFE(friction_y), t.friction_y);
   const double deepest = c.life[RIESEL_LIFE(max_overlap)][i];

@@ -47,7 +47,9 @@ Contact carried_over(const Contact& contact, double now, const NormalLaw& law) {
           .entry_slip = contact.entry_slip,
           .overlap = contact.overlap,
           .max_overlap = contact.overlap,
-          .elastic_energy = std::visit(stored, law)};
+          .elastic_energy = std::visit(stored, law),
+          .friction_x = contact.friction_x,
+          .friction_y = contact.friction_y};
 }
 
 }  // namespace
