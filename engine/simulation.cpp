@@ -181,7 +181,7 @@ void Simulation::prepare() {
   if (candidates_ && by_flights == (flights_ != nullptr)) return;
   flights_.reset();
   if (by_flights) {
-    candidates_ = std::make_unique<Candidates>(state_, 1, Flights::skin_per_diameter);
+    candidates_ = std::make_unique<Candidates>(state_, threads_, Flights::skin_per_diameter);
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
   } else {
     candidates_ = std::make_unique<Candidates>(state_, threads_, Candidates::short_skin);
@@ -203,14 +203,19 @@ void Simulation::advance_plainly(std::int64_t last) {
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {
-  // A team of one: the caller may be in a team of its own, whose barriers are none of our business.
-#pragma omp parallel num_threads(1)
-  {
-    flights_->take_off();
-    for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
-      flights_->step(next);
-    flights_->land(state_.step);
+  const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
+  bool complete = true;
+#pragma omp parallel num_threads(threads())
+  if (omp_get_num_threads() != threads()) {
+    complete = false;  // the same for all
+  } else {
+    const auto member = static_cast<std::size_t>(omp_get_thread_num());
+    std::int64_t done = now;
+    bool go_on = flights_->take_off(member, now);
+    while (go_on && done < last) go_on = flights_->step(member, ++done);
+    flights_->land(member, done);
   }
+  if (!complete) throw RunFailure("the system grants fewer threads than at the start of the run");
 }
 
 /// Velocities take up the last kicks, positions move on to step `step`.
