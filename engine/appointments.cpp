@@ -31,22 +31,23 @@ void Appointments::start_over() {
 /// grain is the second, or near a wall, a list is needed.
 void Appointments::link() {
   const auto for_each_link = [&](auto visit) {
-    for (std::uint32_t p = 0; p < pair_count(); ++p) visit(slice_.pairs.second[p], p);
+    for (std::uint32_t p = 0; p < pair_count(); ++p)
+      visit(border_.number(slice_.pairs.second[p]), p);
     std::uint32_t candidate = pair_count();
-    for (const NearWall& near : slice_.near_walls) visit(near.slot, candidate++);
+    for (const NearWall& near : slice_.near_walls) visit(border_.number(near.slot), candidate++);
   };
-  first_pair_.assign(state_.grains.size() + 1, 0);
-  first_link_.assign(state_.grains.size() + 1, 0);
-  for (const std::uint32_t slot : slice_.pairs.first) ++first_pair_[slot + 1];
-  for_each_link([&](std::uint32_t slot, std::uint32_t) { ++first_link_[slot + 1]; });
+  first_pair_.assign(border_.numbered() + 1, 0);
+  first_link_.assign(border_.numbered() + 1, 0);
+  for (const std::uint32_t slot : slice_.pairs.first) ++first_pair_[border_.number(slot) + 1];
+  for_each_link([&](std::size_t grain, std::uint32_t) { ++first_link_[grain + 1]; });
   for (std::size_t i = 1; i < first_link_.size(); ++i) {
     first_pair_[i] += first_pair_[i - 1];
     first_link_[i] += first_link_[i - 1];
   }
   links_.resize(first_link_.back());
   // Each link goes to the end of what is left of its grain's part.
-  for_each_link([&](std::uint32_t slot, std::uint32_t candidate) {
-    links_[--first_link_[slot + 1]] = candidate;
+  for_each_link([&](std::size_t grain, std::uint32_t candidate) {
+    links_[--first_link_[grain + 1]] = candidate;
   });
   first_link_.erase(first_link_.begin());
   first_link_.push_back(static_cast<std::uint32_t>(links_.size()));
@@ -54,8 +55,9 @@ void Appointments::link() {
 
 template <class Visit>
 void Appointments::for_each_candidate_of(std::uint32_t slot, Visit visit) const {
-  for (std::uint32_t p = first_pair_[slot]; p < first_pair_[slot + 1]; ++p) visit(p);
-  for (std::uint32_t l = first_link_[slot]; l < first_link_[slot + 1]; ++l) visit(links_[l]);
+  const std::size_t grain = border_.number(slot);
+  for (std::uint32_t p = first_pair_[grain]; p < first_pair_[grain + 1]; ++p) visit(p);
+  for (std::uint32_t l = first_link_[grain]; l < first_link_[grain + 1]; ++l) visit(links_[l]);
 }
 
 void Appointments::reconsider_candidate(std::uint32_t candidate) {
@@ -88,7 +90,7 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
   const std::int64_t latest = std::max(hold_until, earliest);
-  foresee(slice_.pairs, pairs_, state_, courses_, now, tolerance_, forecast_);
+  foresee(slice_, pairs_, state_, courses_, now, tolerance_, forecast_);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const std::uint32_t pair = pairs_[k];
     if (slice_.pairs.reach2[pair] < 0.0F) continue;  // in contact

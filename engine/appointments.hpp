@@ -6,6 +6,7 @@
 // close for that are exact, and to be made anew when one of the two is deflected.
 #pragma once
 
+#include "engine/border.hpp"
 #include "engine/calendar.hpp"
 #include "engine/courses.hpp"
 #include "engine/free_flight.hpp"
@@ -21,8 +22,9 @@ namespace riesel {
 class Appointments {
 public:
   /// Deflected grains may be off their courses by `tolerance` (m). Keeps references.
-  Appointments(const State& state, const Slice& slice, const Courses& courses, double tolerance)
-      : state_(state), slice_(slice), courses_(courses), tolerance_(tolerance) {}
+  Appointments(const State& state, const Slice& slice, const Courses& courses, const Border& border,
+               double tolerance)
+      : state_(state), slice_(slice), courses_(courses), border_(border), tolerance_(tolerance) {}
 
   /// The candidates of the slice have just been listed: none has an appointment.
   void start_over();
@@ -75,6 +77,7 @@ private:
   const State& state_;
   const Slice& slice_;
   const Courses& courses_;
+  const Border& border_;
   const double tolerance_;
 
   Calendar calendar_;

@@ -17,6 +17,8 @@ namespace riesel {
 
 struct SlotRange {
   std::size_t begin, end;
+
+  std::size_t size() const { return end - begin; }
 };
 
 class Cells {

@@ -7,9 +7,11 @@
 #pragma once
 
 #include "engine/aligned.hpp"
+#include "engine/cells.hpp"
 #include "engine/fixed_point.hpp"
 #include "engine/state.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,14 +27,18 @@ public:
   /// The place of a grain that keeps to its course.
   static constexpr std::int32_t flying = -1;
 
-  explicit Courses(State& state) : grains_(state.grains), fall_(fall_per_step(state)) {}
+  explicit Courses(State& state)
+      : grains_(state.grains),
+        fall_(fall_per_step(state)),
+        since_(grains_.size()),
+        place_(grains_.size()) {}
 
-  /// The grains have just been sorted, all are at `step`, and all fly. A course must be set anew,
-  /// or all be started over, within 2^31 steps.
-  void start_over(std::int64_t step) {
-    sorted_at_ = step;
-    since_.assign(grains_.size(), 0);
-    place_.assign(grains_.size(), flying);
+  /// The grains have just been sorted; all are at `step`. To be called once for all.
+  void start_over(std::int64_t step) { sorted_at_ = step; }
+  /// These grains fly. A course must be set anew, or all be started over, within 2^31 steps.
+  void start_over(SlotRange slots) {
+    std::fill_n(since_.begin() + static_cast<std::ptrdiff_t>(slots.begin), slots.size(), 0);
+    std::fill_n(place_.begin() + static_cast<std::ptrdiff_t>(slots.begin), slots.size(), flying);
   }
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
   Fixed fall() const { return fall_; }                   ///< gravity per step^2, quanta
@@ -83,7 +89,8 @@ private:
   Grains& grains_;
   const Fixed fall_;
   std::int64_t sorted_at_ = 0;
-  AlignedVector<std::int32_t> since_, place_;
+  AlignedVector<std::int32_t> since_;  // steps after sorted_at_
+  AlignedVector<std::int32_t> place_;
 };
 
 }  // namespace riesel

@@ -69,10 +69,14 @@ DeflectedGrains::Place DeflectedGrains::take(std::uint32_t slot, const Motion& m
   free_.pop_back();
   slots_[place] = slot;
   contacts_[place] = 0;
+  put(place, motion);
+  return place;
+}
+
+void DeflectedGrains::put(Place place, const Motion& motion) {
   const std::array values{motion.x, motion.y, motion.ux, motion.uy, motion.kick_x, motion.kick_y};
   for (std::size_t c = 0; c < column_count; ++c)
     columns_[c][place] = c < values.size() ? values[c] : 0;
-  return place;
 }
 
 void DeflectedGrains::release(Place place) {

@@ -22,6 +22,8 @@ public:
 
   /// Takes up a grain that is on its course. Returns its place.
   Place take(std::uint32_t slot, const Motion& motion);
+  /// What stands there moves like this now, on its course.
+  void put(Place place, const Motion& motion);
   /// The grain leaves; its place will be given to another.
   void release(Place place);
   void clear();

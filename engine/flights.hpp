@@ -12,20 +12,22 @@
 // too close for that are exact, and made anew when one of the two is deflected. A grain that goes
 // beyond the tolerance, or whose last contact ends, gets a new course and new appointments. So no
 // contact is missed, and the steps done here are the same, bit by bit, as those of plain stepping.
+//
+// Each slice of the candidates has a region, stepped by one thread. All regions do the same step;
+// what they tell each other is in border.hpp.
+//
 // See docs/performance.md for the figures and docs/architecture.md for how this compares with fixed
 // windows.
 #pragma once
 
-#include "engine/appointments.hpp"
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
-#include "engine/courses.hpp"
-#include "engine/deflected_grains.hpp"
-#include "engine/skin_guard.hpp"
+#include "engine/flight_region.hpp"
 #include "engine/state.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <deque>
 
 namespace riesel {
 
@@ -35,51 +37,28 @@ public:
   /// an appointment.
   static constexpr double skin_per_diameter = 0.6;
 
-  /// One slice only; nobody else uses the candidates afterwards. Keeps references.
-  Flights(State& state, const ContactModel& model, Candidates& candidates);
+  /// Nobody else uses the candidates afterwards. Keeps references.
+  Flights(State& state, const ContactModel& model, Candidates& candidates)
+      : airspace_(state, model, candidates) {
+    for (std::size_t slice = 0; slice < candidates.slices().size(); ++slice)
+      regions_.emplace_back(airspace_, slice);
+  }
 
-  /// To be called before the first step(), and between land() and the next. All grains are at the
-  /// step of the state. From here to land() the store is no state.
-  void take_off();
-  /// One step of all that does not fly.
-  void step(std::int64_t step);
+  // All that follows is to be called by all threads of a team, one for each slice, with the same
+  // step; `member` is the slice of the thread. What returns a bool tells all the same: false if
+  // the run cannot go on.
+
+  /// To be called before the first step(), and between land() and the next. All grains are at this
+  /// step. From here to land() the store is no state.
+  bool take_off(std::size_t member, std::int64_t step) { return regions_[member].take_off(step); }
+  /// One step, to this one, of all that does not fly.
+  bool step(std::size_t member, std::int64_t step) { return regions_[member].step(step); }
   /// Brings all grains to this step, which must be that of the last step().
-  void land(std::int64_t step);
+  void land(std::size_t member, std::int64_t step) { regions_[member].land(step); }
 
 private:
-  void begin(std::int64_t step, std::int64_t earliest);
-  void renew(std::int64_t step);
-
-  void keep_appointments(std::int64_t step);
-  void look_at_pair(std::uint32_t pair, std::int64_t step);
-  void look_at_near_wall(std::uint32_t near_wall, std::int64_t step);
-  void step_contacts();
-  void correct_courses(std::int64_t step);
-
-  void take_up(LiveContacts& contacts, std::size_t contact, std::int64_t step);
-  DeflectedGrains::Place deflect(std::uint32_t slot, std::int64_t step);
-  void let_go(std::int64_t place);
-  void set_course(DeflectedGrains::Place place, std::int64_t step);
-
-  Fixed x(std::uint32_t slot, std::int64_t step) const;
-  Fixed y(std::uint32_t slot, std::int64_t step) const;
-  Motion motion(std::uint32_t slot, std::int64_t step) const;
-
-  State& state_;
-  const ContactModel& model_;
-  Candidates& candidates_;
-  Slice& slice_;
-  StepUnits units_;
-  const double tolerance_;                 // m
-  const Fixed tolerance_x_, tolerance_y_;  // quanta, along each axis
-
-  Courses courses_;
-  DeflectedGrains deflected_;
-  std::vector<DeflectedGrains::Place> let_go_;  // of this step: a contact has ended
-  SkinGuard skin_guard_;
-  std::int64_t hold_until_ = 0;  // step until which the candidates hold for sure
-  Appointments appointments_;
-  bool under_way_ = false;  // they are made
+  Airspace airspace_;
+  std::deque<FlightRegion> regions_;  // which never move
 };
 
 }  // namespace riesel

@@ -42,6 +42,7 @@ struct Kinematics {
   Fixed fall;
   std::int64_t now, since_sorted;
   double tolerance;
+  std::int64_t own_begin, own_end;  // slots
 };
 
 RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::int64_t* second,
@@ -65,7 +66,10 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::in
     const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * k.metre_y;
     const double reach = (c.radius[i] + c.radius[j]) * generous;
     const double stray_i = c.place[i] == Courses::flying ? 0.0 : k.tolerance;
-    const double stray_j = c.place[j] == Courses::flying ? 0.0 : k.tolerance;
+    // Where a foreign grain stands is for its own slice to change: nobody looks.
+    const bool foreign = j < k.own_begin || j >= k.own_end;
+    const double own_stray_j = c.place[foreign ? i : j] == Courses::flying ? 0.0 : k.tolerance;
+    const double stray_j = foreign ? k.tolerance : own_stray_j;
     const double stray = stray_i + stray_j;
     const double patient = first_touch(x, y, ux, uy, reach + 2.0 * k.tolerance);
     const double closer = first_touch(x, y, ux, uy, reach + stray);
@@ -77,9 +81,8 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::in
 
 }  // namespace
 
-void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& which,
-             const State& state, const Courses& courses, std::int64_t now, double tolerance,
-             Forecast& result) {
+void foresee(const Slice& slice, const std::vector<std::uint32_t>& which, const State& state,
+             const Courses& courses, std::int64_t now, double tolerance, Forecast& result) {
   const std::size_t room = (which.size() + lanes - 1) / lanes * lanes;
   if (result.free_steps.size() < room) {
     result.free_steps.resize(2 * room);
@@ -98,12 +101,15 @@ void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& whic
                               .fall = courses.fall(),
                               .now = now,
                               .since_sorted = now - courses.sorted_at(),
-                              .tolerance = tolerance};
+                              .tolerance = tolerance,
+                              .own_begin = static_cast<std::int64_t>(slice.begin),
+                              .own_end = static_cast<std::int64_t>(slice.end)};
   alignas(cache_line) std::array<std::int64_t, lanes> first{}, second{};
   for (std::size_t block = 0; block < which.size(); block += lanes) {
-    for (std::size_t lane = 0; lane < std::min(lanes, which.size() - block); ++lane) {
-      first[lane] = pairs.first[which[block + lane]];
-      second[lane] = pairs.second[which[block + lane]];
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::size_t k = std::min(block + lane, which.size() - 1);  // the last one is repeated
+      first[lane] = slice.pairs.first[which[k]];
+      second[lane] = slice.pairs.second[which[k]];
     }
     foresee_lanes(first.data(), second.data(), paths, kinematics, &result.free_steps[block],
                   &result.exact[block]);

@@ -34,11 +34,11 @@ struct Forecast {
   }
 };
 
-/// Computes result.free_steps[k] and result.exact[k] for pairs[which[k]], from step `now` on. A
-/// deflected grain may be off its course by `tolerance` (m). Where there is time enough, all grains
-/// are granted as much, deflected or not, so that the answer outlives the beginning of contacts.
-void foresee(const CandidatePairs& pairs, const std::vector<std::uint32_t>& which,
-             const State& state, const Courses& courses, std::int64_t now, double tolerance,
-             Forecast& result);
+/// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on.
+/// A deflected grain may be off its course by `tolerance` (m). Where there is time enough, all
+/// grains are granted as much, deflected or not, so that the answer outlives the beginning of
+/// contacts. A second grain that is not in the slice may be deflected without notice.
+void foresee(const Slice& slice, const std::vector<std::uint32_t>& which, const State& state,
+             const Courses& courses, std::int64_t now, double tolerance, Forecast& result);
 
 }  // namespace riesel

@@ -80,26 +80,37 @@ int team_size(int wanted) {
   return granted;
 }
 
-/// In units of what plain stepping takes for a grain without contacts on one
-/// thread, a contact takes plain stepping 7.5 and flights 10, and flights take next to nothing for
-/// a grain: docs/performance.md.
-bool flights_look_faster(const State& state, int threads) {
+/// In units of what plain stepping takes for a grain without contacts, a contact takes plain
+/// stepping 7.5 and flights 10, and flights take next to nothing for a grain: docs/performance.md.
+bool flights_look_faster(const State& state) {
   const auto contacts = static_cast<double>(state.contacts.size());
   const auto grains = static_cast<double>(state.grains.size());
-  return 10.0 * contacts < (grains + 7.5 * contacts) / static_cast<double>(threads);
+  return 10.0 * contacts < grains + 7.5 * contacts;
 }
 
 /// The ways that `stepping` allows, the one to begin with first.
 std::vector<Way> ways(Stepping stepping, const State& state, int threads) {
-  constexpr int one = 1;
-  const Way plain{.by_flights = false, .threads = threads};
-  const Way flights{.by_flights = true, .threads = one};
-  if (stepping == Stepping::plain) return {plain};
-  if (stepping == Stepping::windows) return {flights};
-  std::vector<Way> all{plain, flights};
-  if (flights_look_faster(state, threads)) std::swap(all.front(), all.back());
-  if (threads > one) all.push_back({.by_flights = false, .threads = one});
+  const bool flights_first = stepping == Stepping::windows
+                             || (stepping == Stepping::automatic && flights_look_faster(state));
+  std::vector<Way> all{{.by_flights = flights_first, .threads = threads}};
+  if (stepping != Stepping::automatic) return all;
+  all.push_back({.by_flights = !flights_first, .threads = threads});
+  if (threads > 1)
+    for (const bool by_flights : {flights_first, !flights_first})
+      all.push_back({.by_flights = by_flights, .threads = 1});
   return all;
+}
+
+/// Calls work(member) in each thread of a team of so many.
+template <class Work>
+void as_a_team(int members, Work work) {
+  bool complete = true;
+#pragma omp parallel num_threads(members)
+  if (omp_get_num_threads() == members)
+    work(static_cast<std::size_t>(omp_get_thread_num()));
+  else
+    complete = false;  // the same for all
+  if (!complete) throw RunFailure("the system grants fewer threads than at the start of the run");
 }
 
 std::string partners(const ContactName& name) {
@@ -203,26 +214,20 @@ void Simulation::prepare() {
 
 void Simulation::advance_plainly(std::int64_t last) {
   const std::int64_t first = state_.step + 1;  // before the team starts: a step changes state_.step
-  bool complete = true;
-#pragma omp parallel num_threads(prepared_->threads)
-  if (omp_get_num_threads() != prepared_->threads) {
-    complete = false;  // the same for all
-  } else {
-    Slice& mine = candidates_->slices()[static_cast<std::size_t>(omp_get_thread_num())];
+  as_a_team(prepared_->threads, [&](std::size_t member) {
+    Slice& mine = candidates_->slices()[member];
     for (std::int64_t next = first; next <= last && !in_trouble(); ++next) step(mine, next);
-  }
-  if (!complete) throw RunFailure("the system grants fewer threads than at the start of the run");
+  });
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {
-  // A team of one: the caller may be in a team of its own, whose barriers are none of our business.
-#pragma omp parallel num_threads(1)
-  {
-    flights_->take_off();
-    for (std::int64_t next = state_.step + 1; next <= last && !in_trouble(); ++next)
-      flights_->step(next);
-    flights_->land(state_.step);
-  }
+  const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
+  as_a_team(prepared_->threads, [&](std::size_t member) {
+    std::int64_t done = now;
+    bool go_on = flights_->take_off(member, now);
+    while (go_on && done < last) go_on = flights_->step(member, ++done);
+    flights_->land(member, done);
+  });
 }
 
 /// Velocities take up the last kicks, positions move on to step `step`.

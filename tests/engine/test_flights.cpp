@@ -9,11 +9,14 @@ using namespace systems;
 
 namespace {
 
-/// Runs both ways, compares them, and returns the end.
-State same_both_ways(const State& start, std::int64_t steps,
+/// Runs both ways, compares them, and returns the end. With several threads most contacts of so few
+/// grains are between slices.
+State same_both_ways(const State& start, std::int64_t steps, int threads = 2,
                      const ContactModel& model = paper_model()) {
   State plain = advanced(start, model, steps, 1, Stepping::plain);
   CHECK(state_hash(advanced(start, model, steps, 1, Stepping::windows)) == state_hash(plain));
+  CAPTURE(threads);
+  CHECK(state_hash(advanced(start, model, steps, threads, Stepping::windows)) == state_hash(plain));
 
   Simulation in_pieces(start, model, 1, Stepping::windows);
   Dice dice(1);
@@ -69,7 +72,7 @@ TEST_CASE("Newton's cradle goes both ways alike") {
   add_grain(state, grain(2e-3, 5e-3, 3.0, 0.0));
   const double gap = GENERATE(0.0, 1e-9, 1e-6, 5e-5);
   for (int i = 0; i < 8; ++i) add_grain(state, grain(4e-3 + i * (1e-3 + gap), 5e-3, 0.0, 0.0));
-  CHECK(same_both_ways(state, 2500, frictionless(0.0)).tally.grains.begun >= 8);
+  CHECK(same_both_ways(state, 2500, 3, frictionless(0.0)).tally.grains.begun >= 8);
 }
 
 TEST_CASE("grains that start overlapped go both ways alike") {
@@ -118,6 +121,7 @@ TEST_CASE("random systems of all kinds go both ways alike") {
                   .common_vy = dice.between(-20.0, 20.0),
                   .polydispersity = 0.2},
                  dice);
-    same_both_ways(state, 1000);
+    // Teams take time on a busy machine: only some.
+    same_both_ways(state, 1000, seed % 5 == 0 ? 2 + static_cast<int>(seed / 5 % 3) : 1);
   }
 }

@@ -101,8 +101,23 @@ TEST_CASE("a run that changes its stepping on the way has the same bits") {
   CHECK(same(simulation.state(), advanced(state, paper_model(), steps, 1, Stepping::plain)));
 }
 
-TEST_CASE("windows take one thread, whatever is given") {
-  CHECK(same(advanced(start(), paper_model(), some_steps, 3, Stepping::windows), expected()));
+TEST_CASE("windows on any number of threads give the same bits") {
+  const int threads = GENERATE(1, 2, 3, 4);
+  CHECK(same(advanced(start(), paper_model(), some_steps, threads, Stepping::windows), expected()));
+}
+
+TEST_CASE("windows on several threads give the same bits for any order of the slots") {
+  const auto seed = GENERATE(as<std::uint64_t>{}, 1, 2, 3);
+  CHECK(same(advanced(shuffled(start(), seed), paper_model(), some_steps, 2, Stepping::windows),
+             expected()));
+}
+
+TEST_CASE("windows on several threads give the same bits for any split of the steps") {
+  Simulation simulation(start(), paper_model(), 3, Stepping::windows);
+  Dice dice(35);
+  while (simulation.state().step < some_steps)
+    simulation.advance(std::min(dice.below(60), some_steps - simulation.state().step));
+  CHECK(same(simulation.state(), expected()));
 }
 
 TEST_CASE("two runs are the same") {
@@ -201,6 +216,19 @@ TEST_CASE("a run taken up again at any step has the same bits") {
 TEST_CASE("a run taken up again with another number of threads has the same bits") {
   const State middle = advanced(start(), paper_model(), some_steps - 60, 1);
   CHECK(same(advanced(middle, paper_model(), 60, 2), expected()));
+}
+
+TEST_CASE("windows taken up again with another number of threads have the same bits") {
+  Dice dice(36);
+  for (int i = 0; i < 10; ++i) {
+    const std::int64_t stop = dice.below(some_steps);
+    const int first = 1 + i % 4, then = 1 + (i + 1 + i / 4) % 4;
+    CAPTURE(stop, first, then);
+    const State middle =
+        advanced(shuffled(start(), 9), paper_model(), stop, first, Stepping::windows);
+    CHECK(same(advanced(middle, paper_model(), some_steps - stop, then, Stepping::windows),
+               expected()));
+  }
 }
 
 TEST_CASE("a run taken up in every step has the same bits") {

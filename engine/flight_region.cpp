@@ -1,0 +1,344 @@
+#include "engine/flight_region.hpp"
+
+#include "engine/contact_loop.hpp"
+#include "engine/encounter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel {
+
+namespace {
+
+/// How far a grain in contact may leave its course, as a part of the mean diameter: more means
+/// fewer new courses, but more neighbours to look at in every step.
+constexpr double tolerance_per_diameter = 0.001;
+
+}  // namespace
+
+Airspace::Airspace(State& the_state, const ContactModel& the_model, Candidates& the_candidates)
+    : state(the_state),
+      model(the_model),
+      candidates(the_candidates),
+      courses(the_state),
+      announcements(the_candidates.slices().size()),
+      barrier(static_cast<int>(the_candidates.slices().size())),
+      tolerance(tolerance_per_diameter * mean_diameter(the_state.grains)) {}
+
+FlightRegion::FlightRegion(Airspace& airspace, std::size_t index)
+    : airspace_(airspace),
+      slice_(airspace.candidates.slices()[index]),
+      index_(index),
+      units_(airspace.state),
+      tolerance_x_(
+          nearest_fixed(airspace.tolerance * std::sqrt(0.5) / airspace.state.box.quantum_x())),
+      tolerance_y_(
+          nearest_fixed(airspace.tolerance * std::sqrt(0.5) / airspace.state.box.quantum_y())),
+      border_(slice_, airspace.courses, airspace.announcements, index),
+      skin_guard_(airspace.state, airspace.candidates, airspace.courses, airspace.tolerance),
+      appointments_(airspace.state, slice_, airspace.courses, border_, airspace.tolerance) {}
+
+/// What a step is, in the order in which it happens. Between the barriers all may change their
+/// courses and what they announce, and nobody looks at those of others.
+bool FlightRegion::step(std::int64_t step) {
+  Profile& profile = slice_.profile;
+  profile.begin_step(step);
+  move(step);
+  profile.done(Profile::Phase::fly);
+  if (step >= hold_until_) renew(step);
+  keep_appointments(step);
+  profile.done(Profile::Phase::search);
+  step_contacts(step);
+  airspace_.barrier.arrive_and_wait();
+  suffer(step);
+  profile.done(Profile::Phase::forces);
+  correct_courses(step);
+  announce(step);
+  airspace_.barrier.arrive_and_wait();
+  heed();
+  appointments_.make(step, step + 1, hold_until_);
+  profile.done(Profile::Phase::appointments);
+  return !trouble_;
+}
+
+bool FlightRegion::take_off(std::int64_t step) {
+  units_.move_to(step);
+  if (!under_way_) {
+    begin(step, step + 1);
+    under_way_ = true;
+    return !trouble_;
+  }
+  border_.mine().new_courses.clear();
+  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place)
+    if (deflected_.in_use(place) && border_.owns(deflected_.slot(place))) set_course(place, step);
+  announce(step);
+  airspace_.barrier.arrive_and_wait();
+  heed();
+  appointments_.make(step, step + 1, hold_until_);
+  return !trouble_;
+}
+
+void FlightRegion::land(std::int64_t step) {
+  airspace_.barrier.arrive_and_wait();
+  put_down(step);
+}
+
+/// The courses of deflected grains are given up for their motion.
+void FlightRegion::put_down(std::int64_t step) {
+  for (std::size_t i = slice_.begin; i < slice_.end; ++i) {
+    const auto slot = static_cast<std::uint32_t>(i);
+    const std::int32_t place = airspace_.courses.place(slot);
+    airspace_.courses.set(slot,
+                          place == Courses::flying
+                              ? airspace_.courses.motion(slot, step)
+                              : deflected_.motion(static_cast<DeflectedGrains::Place>(place)),
+                          step);
+  }
+}
+
+/// Makes the appointments of all candidates, which have just been listed. All grains are at `step`.
+void FlightRegion::begin(std::int64_t step, std::int64_t earliest) {
+  if (index_ == 0) airspace_.courses.start_over(step);
+  airspace_.courses.start_over(SlotRange{slice_.begin, slice_.end});
+  deflected_.clear();
+  guests_.clear();
+  let_go_.clear();
+  border_.list_foreign();
+  appointments_.start_over();
+  airspace_.barrier.arrive_and_wait();
+
+  border_.list_border();
+  take_up_contacts(step);
+  airspace_.barrier.arrive_and_wait();
+
+  suffer(step);
+  border_.mine().hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
+  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
+    if (!border_.owns(deflected_.slot(place))) continue;
+    set_course(place, step);
+    if (deflected_.contacts(place) == 0) let_go_.push_back(place);
+  }
+  announce(step);
+  airspace_.barrier.arrive_and_wait();
+
+  heed();
+  appointments_.make_all(step, earliest, hold_until_);
+}
+
+/// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
+void FlightRegion::take_up_contacts(std::int64_t step) {
+  for (const Kick& kick : slice_.received) deflect(kick.slot, step);
+  for (LiveContacts* contacts : {&slice_.pair_contacts, &slice_.wall_contacts})
+    for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
+}
+
+/// The candidates do not hold any more.
+void FlightRegion::renew(std::int64_t step) {
+  slice_.profile.begin_build();
+  land(step);
+  airspace_.candidates.sort_anew(airspace_.state, slice_, step);
+  begin(step, step);
+  slice_.profile.done_build();
+}
+
+/// Everything that does not fly moves on to `step`, but for guests, whose motion is not known here.
+void FlightRegion::move(std::int64_t step) {
+  if (index_ == 0) airspace_.state.step = step;
+  units_.move_to(step);
+  deflected_.move(units_.fallen);
+}
+
+/// Looks at the candidates that are due: which contacts begin?
+void FlightRegion::keep_appointments(std::int64_t step) {
+  appointments_.keep(
+      step, [&](std::uint32_t pair) { look_at_pair(pair, step); },
+      [&](std::uint32_t near_wall) { look_at_near_wall(near_wall, step); });
+}
+
+void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
+  const Grains& g = airspace_.state.grains;
+  const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
+  const Position a = position(i, step), b = position(j, step);
+  if (!overlapping(wrapped_difference(b.x, a.x), wrapped_difference(b.y, a.y),
+                   g.radius[i] + g.radius[j], units_)) {
+    appointments_.reconsider_pair(pair);
+    return;
+  }
+  begin_contact(slice_, slice_.pair_contacts, meeting_of_pair(slice_, g, pair));
+  take_up(slice_.pair_contacts, slice_.pair_contacts.size() - 1, step);
+}
+
+/// A grain that touches a wall is looked at in every step: it may touch a second wall grain.
+void FlightRegion::look_at_near_wall(std::uint32_t near_wall, std::int64_t step) {
+  const State& state = airspace_.state;
+  const NearWall& near = slice_.near_walls[near_wall];
+  const Position at = position(near.slot, step);
+  for_each_touched_wall_grain(state, near, at.x, at.y, units_, [&](std::int64_t k) {
+    begin_contact(slice_, slice_.wall_contacts, meeting_at_wall(slice_, state, near_wall, k));
+    take_up(slice_.wall_contacts, slice_.wall_contacts.size() - 1, step);
+  });
+  appointments_.reconsider_near_wall(near_wall);
+}
+
+/// Kicks of this step by the contacts of the slice; those that have ended let their grains go.
+void FlightRegion::step_contacts(std::int64_t step) {
+  for (const DeflectedGrains::Place guest : guests_)
+    deflected_.put(guest, border_.foreign_motion(deflected_.slot(guest), step, units_.fallen));
+  const Bodies bodies = deflected_.bodies();
+  slice_.pair_contacts.step(bodies, units_, airspace_.model);
+  slice_.wall_contacts.step(bodies, units_, airspace_.model);
+  deflected_.clear_kicks();
+
+  LiveContacts& pairs = slice_.pair_contacts;
+  complete_step(slice_, pairs, [&](std::size_t i) {
+    let_go(pairs.first(i));
+    let_go(pairs.second(i));
+  });
+  LiveContacts& walls = slice_.wall_contacts;
+  complete_step(slice_, walls, [&](std::size_t i) { let_go(walls.first(i)); });
+  for_each_kick(slice_,
+                [&](std::int64_t place, Fixed x, Fixed y) { deflected_.add_kick(place, x, y); });
+
+  for (const DeflectedGrains::Place guest : guests_) {
+    const Motion m = deflected_.motion(guest);
+    border_.mine().deeds.push_back(
+        {.slot = deflected_.slot(guest), .kick_x = m.kick_x, .kick_y = m.kick_y, .contacts = 0});
+  }
+}
+
+/// What the contacts of other slices do to grains of this one.
+void FlightRegion::suffer(std::int64_t step) {
+  border_.mine().new_courses.clear();
+  border_.for_each_other([&](const Announcement& other) {
+    for (const Deed& deed : other.deeds) {
+      if (!border_.owns(deed.slot)) continue;
+      const DeflectedGrains::Place place = deflect(deed.slot, step);
+      deflected_.add_kick(place, deed.kick_x, deed.kick_y);
+      deflected_.contacts(place) += deed.contacts;
+      if (deed.contacts < 0) let_go_.push_back(place);
+    }
+  });
+}
+
+/// Gives a new course to grains that have ended a contact or go too far from the old course.
+void FlightRegion::correct_courses(std::int64_t step) {
+  for (const DeflectedGrains::Place place : let_go_) {
+    if (!deflected_.in_use(place)) continue;
+    if (!is_guest(place)) set_course(place, step);
+    if (deflected_.contacts(place) == 0) release(place);
+  }
+  let_go_.clear();
+  for (const DeflectedGrains::Place place : deflected_.straying(tolerance_x_, tolerance_y_))
+    if (!is_guest(place)) set_course(place, step);
+}
+
+void FlightRegion::announce(std::int64_t step) {
+  Announcement& mine = border_.mine();
+  mine.step = step;
+  mine.trouble = slice_.trouble || slice_.lost;
+  for (BorderGrain& grain : mine.border) {
+    const std::int32_t place = airspace_.courses.place(grain.slot);
+    grain.deflected = place != Courses::flying;
+    if (grain.deflected)
+      grain.motion = deflected_.motion(static_cast<DeflectedGrains::Place>(place));
+  }
+}
+
+void FlightRegion::heed() {
+  Announcement& mine = border_.mine();
+  mine.deeds.clear();
+  hold_until_ = mine.hold_until;
+  trouble_ = mine.trouble;
+  border_.for_each_other([&](const Announcement& other) {
+    hold_until_ = std::min(hold_until_, other.hold_until);
+    trouble_ = trouble_ || other.trouble;
+    for (const std::uint32_t slot : other.new_courses)
+      if (border_.is_foreign(slot)) appointments_.reconsider(slot);
+  });
+}
+
+/// The grains of a contact are stepped from now on.
+void FlightRegion::take_up(LiveContacts& contacts, std::size_t contact, std::int64_t step) {
+  const auto place_of = [&](std::int64_t body) {
+    const auto slot = static_cast<std::uint32_t>(body);
+    return border_.owns(slot) ? deflect(slot, step) : invite(slot);
+  };
+  const auto first = place_of(contacts.first(contact));
+  const auto second = place_of(contacts.second(contact));
+  contacts.move(contact, first, second);
+  change_contacts(first, 1);
+  if (second != first) change_contacts(second, 1);  // it is no wall grain
+}
+
+/// The appointments that counted on its keeping to the course are made anew.
+DeflectedGrains::Place FlightRegion::deflect(std::uint32_t slot, std::int64_t step) {
+  Courses& courses = airspace_.courses;
+  if (courses.place(slot) == Courses::flying) {
+    const DeflectedGrains::Place place = deflected_.take(slot, courses.motion(slot, step));
+    courses.set_place(slot, static_cast<std::int32_t>(place));
+    appointments_.reconsider_exact(slot);
+  }
+  return static_cast<DeflectedGrains::Place>(courses.place(slot));
+}
+
+/// A place for a foreign grain.
+DeflectedGrains::Place FlightRegion::invite(std::uint32_t slot) {
+  const auto there =
+      std::find_if(guests_.begin(), guests_.end(),
+                   [&](DeflectedGrains::Place guest) { return deflected_.slot(guest) == slot; });
+  if (there != guests_.end()) return *there;
+  guests_.push_back(deflected_.take(slot, {}));
+  return guests_.back();
+}
+
+void FlightRegion::let_go(std::int64_t body) {
+  const auto place = static_cast<DeflectedGrains::Place>(body);
+  change_contacts(place, -1);
+  let_go_.push_back(place);
+}
+
+void FlightRegion::change_contacts(DeflectedGrains::Place place, std::int32_t by) {
+  deflected_.contacts(place) += by;
+  if (is_guest(place))
+    border_.mine().deeds.push_back(
+        {.slot = deflected_.slot(place), .kick_x = 0, .kick_y = 0, .contacts = by});
+}
+
+void FlightRegion::release(DeflectedGrains::Place place) {
+  if (is_guest(place))
+    guests_.erase(std::find(guests_.begin(), guests_.end(), place));
+  else
+    airspace_.courses.set_place(deflected_.slot(place), Courses::flying);
+  deflected_.release(place);
+}
+
+/// From here, with the velocity of the next step.
+void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step) {
+  const std::uint32_t slot = deflected_.slot(place);
+  const Motion m = deflected_.motion(place);
+  airspace_.courses.set(slot,
+                        {.x = m.x,
+                         .y = m.y,
+                         .ux = wrapped_sum(m.ux, m.kick_x),
+                         .uy = wrapped_sum(m.uy, m.kick_y),
+                         .kick_x = 0,
+                         .kick_y = 0},
+                        step);
+  deflected_.set_course(place);
+  std::int64_t& hold_until = border_.mine().hold_until;
+  hold_until = std::min(hold_until, skin_guard_.hold_until(slot, step));
+  border_.announce_course(slot);
+  appointments_.reconsider(slot);
+}
+
+FlightRegion::Position FlightRegion::position(std::uint32_t slot, std::int64_t step) const {
+  if (!border_.owns(slot)) {
+    const Motion m = border_.foreign_motion(slot, step, units_.fallen);
+    return {m.x, m.y};
+  }
+  const std::int32_t place = airspace_.courses.place(slot);
+  if (place != Courses::flying) return {deflected_.x(place), deflected_.y(place)};
+  return {airspace_.courses.x(slot, step), airspace_.courses.y(slot, step)};
+}
+
+}  // namespace riesel
