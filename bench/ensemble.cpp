@@ -67,7 +67,7 @@ void measure_ensemble(const fs::path& riesel, const fs::path& folder, const Effo
       return seconds;
     });
   const std::vector<Timing> timings = in_turns(measurements, effort.repetitions);
-  fs::remove(plan);
+  fs::remove_all(folder);
 
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     results.rows.push_back({.case_name = "ensemble",
