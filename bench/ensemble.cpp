@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto tube = "tube_start";
+constexpr auto member = "tube_start";  // each run is one of this case
 constexpr int seeds = 6;
 constexpr double duration = 0.2;  // s of each run, at full effort
 
@@ -51,7 +51,7 @@ void measure_ensemble(const fs::path& riesel, const fs::path& folder, const Effo
   const fs::path plan = folder / "ensemble.yaml", sweep = folder / "ensemble";
   std::ofstream(plan) << fmt::format(
       "{{base: {}, set: {{run.duration: {:.3g} s, run.threads: 1}}, seeds: {}}}\n",
-      flow_case(tube).settings, duration * effort.work, seeds);
+      flow_case(member).settings, duration * effort.work, seeds);
 
   const std::array jobs = {1, 2};
   std::array<Outcome, 2> outcomes{};
@@ -67,7 +67,7 @@ void measure_ensemble(const fs::path& riesel, const fs::path& folder, const Effo
       return seconds;
     });
   const std::vector<Timing> timings = in_turns(measurements, effort.repetitions);
-  fs::remove(plan);
+  fs::remove_all(folder);
 
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     results.rows.push_back({.case_name = "ensemble",
