@@ -114,7 +114,7 @@ io::Svg draw_velocities(const std::string& title, const std::string& x_label,
     for (const VelocityLine& line : curves[i].lines)
       for (const VelocityPoint& point : line.points) draw_point(point, io::look_of(i), up, plot);
   plot.svg().end_group();
-  plot.legend(legend_of(curves), true);
+  plot.legend(title, legend_of(curves), true);
   return plot.svg();
 }
 
@@ -145,7 +145,7 @@ io::Svg draw_impacts(const std::string& title, const ImpactQuantity& quantity,
                 io::axis_for(quantity.label, y));
   for (std::size_t i = 0; i < lines.size(); ++i)
     draw_line(lines[i], quantity, io::look_of(i), plot);
-  plot.legend(legend_of(lines), false);
+  plot.legend(title, legend_of(lines), false);
   return plot.svg();
 }
 

@@ -35,8 +35,8 @@ struct VelocityCurve {
   std::vector<VelocityLine> lines;
 };
 
-/// Full symbols: steady. Arrows: accelerating. A cross: unphysical. `up` is what leads from the
-/// figure to the page: "" or "../".
+/// `title`: what all curves share; may be empty. Full symbols: steady. Arrows: accelerating. A
+/// cross: unphysical. `up` is what leads from the figure to the page: "" or "../".
 io::Svg draw_velocities(const std::string& title, const std::string& x_label,
                         std::span<const VelocityCurve> curves, const std::string& up);
 

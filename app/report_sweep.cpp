@@ -97,10 +97,6 @@ private:
     return of == 1 ? name : fmt::format("{}_{}", name, i + 1);
   }
 
-  static std::string caption_of(const std::string& title, const std::string& text) {
-    return title.empty() ? text : title + ". " + text;
-  }
-
   void show_velocities() {
     if (scenario_has_curves()) return;
     page().heading("Mean axial velocity");
@@ -111,12 +107,13 @@ private:
     }
     const io::VariedSetting& setting = manifest().varied[*axis];
     const std::string label = with_unit(setting.key, setting.unit);
+    page().paragraph(what_symbols_mean());
     const auto panels = velocity_panels(*record_, *axis);
     for (std::size_t i = 0; i < panels.size(); ++i)
       draft_.add_figure(numbered("mean_axial_velocity", i, panels.size()),
                         draw_velocities(panels[i].title, label, panels[i].curves, ""),
                         draw_velocities(panels[i].title, label, panels[i].curves, "../"),
-                        caption_of(panels[i].title, what_symbols_mean()));
+                        "Mean axial velocity against " + setting.key + ".");
   }
 
   /// Of draw_velocities().
@@ -146,8 +143,7 @@ private:
       for (std::size_t q = 0; q < 2; ++q) {  // those of the paper; the others are in the runs
         const ImpactQuantity& quantity = impact_quantities()[q];
         draft_.add_figure(numbered(quantity.name, i, panels.size()),
-                          draw_impacts(panels[i].title, quantity, panels[i].lines),
-                          caption_of(panels[i].title, quantity.doc));
+                          draw_impacts(panels[i].title, quantity, panels[i].lines), quantity.doc);
       }
   }
 

@@ -266,10 +266,16 @@ void Plot::cross(double x, double y, const Look& look) {
   svg_.line({c.x - reach, c.y + reach}, {c.x + reach, c.y - reach}, style);
 }
 
-void Plot::legend(const std::vector<std::pair<std::string, Look>>& entries, bool with_symbols) {
+void Plot::legend(std::string_view shared, const std::vector<std::pair<std::string, Look>>& entries,
+                  bool with_symbols) {
   constexpr double row = 18.0, sample = 28.0;
-  double y = bottom_ + bottom_margin + 0.5 * row;
+  const double begin = bottom_ + bottom_margin + 0.5 * row;
+  double y = begin;
   svg_.begin_group("legend");
+  if (!shared.empty()) {
+    svg_.text({left, y + 4.0}, shared, {.font_size = "13"});
+    y += row;
+  }
   for (const auto& [name, look] : entries) {
     svg_.line({left, y}, {left + sample, y},
               {.stroke = look.colour, .stroke_width = 1.5, .dashes = look.dashes});
@@ -278,7 +284,7 @@ void Plot::legend(const std::vector<std::pair<std::string, Look>>& entries, bool
     y += row;
   }
   svg_.end_group();
-  svg_.extend(static_cast<double>(entries.size()) * row + 4.0);
+  svg_.extend(y - begin + 4.0);
 }
 
 }  // namespace riesel::io

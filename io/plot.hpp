@@ -85,14 +85,15 @@ public:
   void arrow_up(double x, double y, const Look& look);
   /// Over a value: it is not to be used.
   void cross(double x, double y, const Look& look);
-  /// Below the axes: each name with its look, as a symbol on a line. Grows the drawing. For once.
-  void legend(const std::vector<std::pair<std::string, Look>>& entries, bool with_symbols);
-
-  const Svg& svg() const { return svg_; }
-  Svg& svg() { return svg_; }  ///< to put what comes next into a link or a group
+  /// Below the axes: what all share, if that is not empty, and each name with its look, as a symbol
+  /// on a line. Grows the drawing. For once.
+  void legend(std::string_view shared, const std::vector<std::pair<std::string, Look>>& entries,
+              bool with_symbols);
 
   const Axis& x() const { return x_; }
   const Axis& y() const { return y_; }
+  const Svg& svg() const { return svg_; }
+  Svg& svg() { return svg_; }  ///< to put what comes next into a link or a group
 
 private:
   void draw_axes();

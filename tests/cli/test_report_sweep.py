@@ -259,11 +259,12 @@ class OtherSweeps(SweepReport):
         names = sorted(path.name for path in (sweep / "figures").iterdir())
         self.assertEqual(names, [f"mean_axial_velocity_{i}.svg" for i in (1, 2, 3)])
         for i, stiffness in ((1, 1000), (2, 2000), (3, 3000)):
-            self.assertIn(f"stiffness {stiffness} N/m. Means", page.text)
+            self.assertIn(f"\nstiffness {stiffness} N/m\n", page.text)
             legend = self.figure(sweep, f"mean_axial_velocity_{i}").findall(
                 f"{SVG}g[@class='legend']/{SVG}text")
             self.assertEqual([text.text for text in legend],
-                             [f"friction {mu}" for mu in (0.1, 0.2, 0.3)])
+                             [f"stiffness {stiffness} N/m"]
+                             + [f"friction {mu}" for mu in (0.1, 0.2, 0.3)])
 
     def test_points_that_failed_are_told_with_their_reason(self):
         sweep = self.sweep(ONE_FAILS, status=1)
@@ -280,7 +281,7 @@ class OtherSweeps(SweepReport):
                          {"dv_y.svg", "contacts.svg"})
         root = self.figure(sweep, "dv_y")
         legend = [text.text for text in root.findall(f"{SVG}g[@class='legend']/{SVG}text")]
-        self.assertEqual(legend, ["stiffness 2000 N/m", "stiffness 200000 N/m"])
+        self.assertEqual(legend, ["v_x 0 m/s", "stiffness 2000 N/m", "stiffness 200000 N/m"])
         for point in self.point_directories(sweep):
             verdicts = [p["verdict"] for p in self.summary(point)["curve"]]
             self.assertRegex(page.text, rf"{point.name}\d+(5|15)0{verdicts.count('valid')} valid")

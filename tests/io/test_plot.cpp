@@ -149,10 +149,11 @@ TEST_CASE("What is not known is not drawn") {
 
 TEST_CASE("A legend makes room for its entries") {
   auto plot = small_plot();
-  plot.legend({{"slow", look_of(0)}, {"fast", look_of(1)}}, true);
+  plot.legend("both", {{"slow", look_of(0)}, {"fast", look_of(1)}}, true);
   const auto text = plot.svg().element();
   CHECK(count_of(text, ">slow</text>") == 1);
-  CHECK(count_of(text, "height=\"140\"") == 1);
+  CHECK(count_of(text, ">both</text>") == 1);
+  CHECK(count_of(text, "height=\"158\"") == 1);
   CHECK(look_of(0).colour != look_of(1).colour);
   CHECK(look_of(0).symbol != look_of(1).symbol);
 }
