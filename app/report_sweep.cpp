@@ -170,8 +170,7 @@ private:
     const io::ManifestPoint& point = manifest().points[i];
     const SweepResult& result = record_->results[i];
     std::vector<io::HtmlCell> row = {{point.name, result.directory + "/"}};
-    for (std::size_t k = 0; k < point.values.size(); ++k)
-      row.emplace_back(text_of(point.values[k], ""));
+    for (const io::Cell& value : point.values) row.emplace_back(text_of(value, ""));
     row.emplace_back(point.branch);
     row.emplace_back(point.leg);
     if (const auto* summary = flow(i)) add_flow(*summary, row);

@@ -2,6 +2,7 @@
 // marks for means and spans, and a legend.
 #pragma once
 
+#include "io/axis.hpp"
 #include "io/svg.hpp"
 
 #include <cstddef>
@@ -13,43 +14,10 @@
 
 namespace riesel::io {
 
-struct Interval {
-  double low, high;  ///< low < high
-};
-
-enum class Scale { linear, logarithmic };
-
-/// Logarithmic where all finite values are positive and spread over more than a factor of 20.
-Scale scale_for(std::span<const double> values);
-
-/// The range of the finite values, a little wider; around a single value, or [0, 1] for none. On a
-/// logarithmic scale only positive values count, and for none it is [1, 10].
-Interval range_of(std::span<const double> values, Scale scale = Scale::linear);
-
-/// At least one and at most `most` >= 2 multiples of 1, 2 or 5 times a power of ten within the
-/// range, ascending.
-std::vector<double> ticks(Interval range, int most);
-
-/// Powers of ten within a positive range, or 1, 2 and 5 times them where it spans less than
-/// three decades; if there is none of them ticks(). At most ten.
-std::vector<double> logarithmic_ticks(Interval range);
-
 /// A curve of which no more can be seen: of the points that fall into one of `columns` >= 1 columns
 /// of equal width from the first point to the last only the first, the lowest, the highest and the
 /// last are kept. x ascends.
 std::vector<Point> thinned(std::span<const Point> points, std::size_t columns);
-
-struct Axis {
-  std::string label;
-  Interval range;
-  Scale scale = Scale::linear;
-};
-
-/// The axis that shows all of these values.
-Axis axis_for(std::string label, std::span<const double> values);
-
-/// The same axis with more room at its upper end: a part of its length.
-Axis with_room_above(Axis axis, double part);
 
 enum class Symbol { disc, square, triangle, diamond };
 

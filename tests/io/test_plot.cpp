@@ -20,7 +20,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 bool contains_all(Interval range, const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(),
-                     [&](double value) { return value >= range.low && value <= range.high; });
+                     [&](double value) { return contains(range, value); });
 }
 
 bool close(const std::vector<double>& found, const std::vector<double>& expected) {
