@@ -11,6 +11,8 @@ build_packages=(
   python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
+# Shows the pages of riesel report to the tests, which are skipped without it.
+browser_packages=(chromium)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
 peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
@@ -32,6 +34,7 @@ Usage: ./setup.sh COMMAND
   format     let clang-format rewrite the C++ sources
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
+  browser    install Chromium too: the pages of reports are tested in it
   help       this text
 END
 }
@@ -168,6 +171,7 @@ case $command in
     cpp_files | xargs clang-format -i
     ;;
   packages) install_packages "${build_packages[@]}" ;;
+  browser) install_packages "${build_packages[@]}" "${browser_packages[@]}" ;;
   peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)

@@ -69,7 +69,8 @@ int sweep_status(const std::filesystem::path& directory);
 /// Gathers the results of the sweep in a directory into one table.
 int sweep_collect(const std::filesystem::path& directory);
 
-/// Writes a page with figures beside the files of the finished run in a directory.
+/// Writes a page with figures beside the files of the finished run, or of the sweep, in a
+/// directory.
 int report(const std::filesystem::path& directory);
 
 int list_scenarios();

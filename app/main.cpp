@@ -54,8 +54,8 @@ public:
     add_run();
     add_resume();
     add_check();
-    add_directory("report", "Make a page with figures of a flow that is over", "the run",
-                  app::report);
+    add_directory("report", "Make a page with figures of a run that is over, or of a sweep",
+                  "the run or the sweep", app::report);
     add_sweep();
     add_sweep_task();
     add_directory("status", "Tell how far a sweep has come", "the sweep", app::sweep_status);

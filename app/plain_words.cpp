@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace riesel::app {
 
@@ -18,6 +20,36 @@ std::string explanation(const Finding& f) {
   const double threshold = f.verdict == Validity::unphysical ? f.unphysical : f.suspect;
   return fmt::format("{} = {:.3g}, {} {:.3g}: {}; {}", f.name, f.value,
                      f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
+}
+
+std::string count_of_verdicts(const io::CurveSummary& summary) {
+  std::string text;
+  for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
+    if (const auto count = std::ranges::count(summary.curve, validity, &io::CurvePoint::verdict))
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name(validity));
+  return text;
+}
+
+std::vector<std::string> where_unphysical(const io::CurveSummary& summary) {
+  struct Count {
+    int points = 0, unphysical = 0;
+    double first = HUGE_VAL;  // m/s
+  };
+  std::map<double, Count> count_of;
+  for (const io::CurvePoint& point : summary.curve) {
+    Count& count = count_of[point.v_x];
+    ++count.points;
+    if (point.verdict != Validity::unphysical) continue;
+    ++count.unphysical;
+    count.first = std::min(count.first, point.v_y);
+  }
+  std::vector<std::string> texts;
+  for (const auto& [v_x, count] : count_of)
+    if (count.unphysical > 0)
+      texts.push_back(
+          fmt::format("at v_x = {:.4g} m/s {} of {} points, the first at v_y = {:.4g} m/s", v_x,
+                      count.unphysical, count.points, count.first));
+  return texts;
 }
 
 }  // namespace riesel::app

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/validity.hpp"
+#include "io/summary.hpp"
 
 #include <string>
+#include <vector>
 
 namespace riesel::app {
 
@@ -12,5 +14,11 @@ std::string explanation(const std::string& state);
 
 /// What speaks against a run: the value, the threshold it passed, what it means and what helps.
 std::string explanation(const Finding& finding);
+
+/// "40 valid, 2 suspect, 18 unphysical", of the points of a curve.
+std::string count_of_verdicts(const io::CurveSummary& summary);
+
+/// For each v_x that has such: how many of its points are unphysical, and from which v_y.
+std::vector<std::string> where_unphysical(const io::CurveSummary& summary);
 
 }  // namespace riesel::app

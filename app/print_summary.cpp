@@ -79,6 +79,9 @@ void print_summary(const io::CurveSummary& s, const std::filesystem::path& direc
     fmt::print("  {:<22}{} impacts, left out of the means\n", "through the wall", passed);
   if (stuck > 0)
     fmt::print("  {:<22}{} impacts, left out of the means\n", "stuck at the wall", stuck);
+  fmt::print("  {:<22}{}\n", "validity", count_of_verdicts(s));
+  for (const std::string& text : where_unphysical(s))
+    fmt::print("  {:<22}{}\n", "unphysical", text);
   print_common(s.run, directory);
 }
 

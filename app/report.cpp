@@ -1,19 +1,23 @@
-// riesel report: the directory of a flow that is over becomes a page with figures.
+// riesel report: the directory of a run that is over, or of a sweep, becomes a page with figures.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
-#include "app/report_page.hpp"
+#include "app/report_flow.hpp"
+#include "app/report_impacts.hpp"
+#include "app/report_sweep.hpp"
+#include "app/sweep_directory.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/settings_text.hpp"
 #include "io/summary_reader.hpp"
-#include "io/sweep_manifest.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <system_error>
+#include <variant>
 
 namespace riesel::app {
 
@@ -25,13 +29,10 @@ constexpr auto page_name = "report.html";
 constexpr auto figures_name = "figures";
 
 void require_finished_run(const fs::path& directory) {
-  if (fs::exists(directory / io::manifest_name))
-    throw UnusableInput(directory.string()
-                        + ": holds a sweep, and reports are made of single runs so far; give one "
-                          "of the directories in its points/");
   if (!fs::exists(directory / io::run_file_name))
     throw UnusableInput(directory.string()
-                        + ": holds no run; give the directory of a run (see 'riesel run')");
+                        + ": holds no run and no sweep; give the directory of one (see 'riesel "
+                          "run' and 'riesel sweep')");
   if (!fs::exists(directory / io::summary_name))
     throw UnusableInput(directory.string() + ": its run has not come to its end; "
                         + (io::DirectoryLock::is_held(directory)
@@ -39,29 +40,66 @@ void require_finished_run(const fs::path& directory) {
                                : "go on with it by 'riesel resume " + directory.string() + "'"));
 }
 
-FlowRecord read_record(const fs::path& directory) {
-  FlowRecord record{.summary = io::read_flow_summary(directory / io::summary_name),
-                    .run = io::read_run_file(directory / io::run_file_name),
-                    .effective_settings =
-                        io::read_settings_text(directory / io::effective_settings_name)};
+Report report_of(const io::FlowSummary& summary, const std::string& effective_settings,
+                 const fs::path& run_file) {
+  FlowRecord record{.summary = summary,
+                    .run = io::read_run_file(run_file),
+                    .effective_settings = effective_settings};
   const auto& state = record.run.final_state;
   if (state.step != record.summary.run.steps
       || static_cast<std::int64_t>(state.grains.size()) != record.summary.run.grains)
-    throw UnusableInput((directory / io::run_file_name).string()
+    throw UnusableInput(run_file.string()
                         + ": is of another run than summary.json beside it; restore the file that "
                           "belongs to it");
-  return record;
-}
-
-Report report_of(const fs::path& directory) {
   try {
-    return make_report(read_record(directory));
-  } catch (const io::FileError& error) {
-    throw UnusableInput(error.what());
+    return make_report(record);
   } catch (const std::out_of_range& error) {
-    throw UnusableInput((directory / io::run_file_name).string() + ": " + error.what()
+    throw UnusableInput(run_file.string() + ": " + error.what()
                         + "; make the run again with this version of riesel");
   }
+}
+
+Report report_of(const io::CurveSummary& summary, const std::string& effective_settings,
+                 const fs::path& run_file) {
+  return make_report(ImpactRecord{.summary = summary,
+                                  .history = io::read_run_history(run_file),
+                                  .effective_settings = effective_settings});
+}
+
+Report report_of_run(const fs::path& directory) {
+  const io::Summary summary = io::read_summary(directory / io::summary_name);
+  const std::string settings = io::read_settings_text(directory / io::effective_settings_name);
+  return std::visit(
+      [&](const auto& known) { return report_of(known, settings, directory / io::run_file_name); },
+      summary);
+}
+
+SweepResult result_of(const io::ManifestPoint& point, const fs::path& sweep) {
+  const fs::path directory = point_directory(sweep, point.name);
+  SweepResult result{.summary = std::nullopt,
+                     .flaw = "",
+                     .directory = point_directory("", point.name).generic_string(),
+                     .has_report = fs::exists(directory / page_name)};
+  if (point.status != to_string(RunStatus::done)) return result;
+  try {
+    result.summary = io::read_summary(directory / io::summary_name);
+  } catch (const io::FileError& error) {
+    result.flaw = error.what();
+  }
+  return result;
+}
+
+Report report_of_sweep(const fs::path& directory) {
+  SweepRecord record{.manifest = io::read_manifest(directory),
+                     .results = {},
+                     .sweep_file = io::read_settings_text(directory / sweep_file_name)};
+  refresh(record.manifest, directory);
+  for (const io::ManifestPoint& point : record.manifest.points)
+    record.results.push_back(result_of(point, directory));
+  if (std::ranges::none_of(record.results, [](const auto& r) { return r.summary.has_value(); }))
+    throw UnusableInput(directory.string() + ": has no point with a result; see 'riesel status "
+                        + directory.string() + "', and run 'riesel sweep' to its end");
+  return make_report(record);
 }
 
 /// The page last: where it is, its figures are, too.
@@ -75,13 +113,29 @@ void write(const Report& report, const fs::path& directory) {
   io::write_durably(directory / page_name, report.page);
 }
 
+/// What it reads cannot be used, rather than that it failed.
+template <class Make>
+Report reading(Make make, const fs::path& directory) {
+  try {
+    return make(directory);
+  } catch (const io::FileError& error) {
+    throw UnusableInput(error.what());
+  }
+}
+
+void report_on_run(const fs::path& directory) {
+  require_finished_run(directory);
+  const io::DirectoryLock lock(directory);
+  write(reading(report_of_run, directory), directory);
+}
+
 }  // namespace
 
 int report(const fs::path& directory) {
-  require_finished_run(directory);
-  const io::DirectoryLock lock(directory);
-  const Report made = report_of(directory);
-  write(made, directory);
+  if (fs::exists(directory / io::manifest_name))
+    write(reading(report_of_sweep, directory), directory);  // also while it goes on
+  else
+    report_on_run(directory);
   fmt::print("{}\n", (directory / page_name).string());
   return exit_done;
 }

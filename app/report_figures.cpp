@@ -1,5 +1,6 @@
 #include "app/report_figures.hpp"
 
+#include "app/report_parts.hpp"
 #include "io/plot.hpp"
 
 #include <fmt/format.h>
@@ -15,9 +16,7 @@ constexpr double width = 760.0;  // px
 constexpr std::string_view blue = "#26548c", orange = "#d9730d", pale_orange = "#f9dcc0",
                            grey = "#777777", pale_grey = "#eeeeee";
 
-std::string label_of(const io::Column& column) {
-  return column.unit == "1" ? column.name : fmt::format("{} ({})", column.name, column.unit);
-}
+std::string label_of(const io::Column& column) { return with_unit(column.name, column.unit); }
 
 /// With room for the mean and its error.
 io::Interval range_with(std::vector<double> values, const std::optional<io::Measured>& mean) {
@@ -80,6 +79,22 @@ io::Svg draw_energy(const std::vector<EnergyPart>& parts) {
   }
   svg.line({zero, 0.0}, {zero, height}, {.stroke = grey});
   return svg;
+}
+
+io::Svg draw_visits(std::span<const std::int64_t> of_contacts) {
+  const auto most = static_cast<double>(*std::ranges::max_element(of_contacts));
+  const auto last = static_cast<double>(of_contacts.size());
+  io::Plot plot(width, 250.0, "Contacts per visit to a wall",
+                {.label = fmt::format("contacts of the visit ({}: as many or more)", last),
+                 .range = {0.4, last + 0.6}},
+                {.label = "visits", .range = {0.0, 1.08 * std::max(most, 1.0)}});
+  plot.svg().begin_group("bars", {.fill = blue});
+  for (std::size_t i = 0; i < of_contacts.size(); ++i) {
+    const double contacts = static_cast<double>(i) + 1.0;
+    plot.area({contacts - 0.4, contacts + 0.4}, {0.0, static_cast<double>(of_contacts[i])}, {});
+  }
+  plot.svg().end_group();
+  return plot.svg();
 }
 
 }  // namespace riesel::app

@@ -5,7 +5,9 @@
 #include "io/summary.hpp"
 #include "io/svg.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,5 +34,8 @@ std::vector<EnergyPart> parts_of(const io::FlowSummary::Energy& energy);
 
 /// A bar for each part; all are finite.
 io::Svg draw_energy(const std::vector<EnergyPart>& parts);
+
+/// How many visits to walls had one contact, two, ...; the last bar stands for more, too.
+io::Svg draw_visits(std::span<const std::int64_t> of_contacts);
 
 }  // namespace riesel::app

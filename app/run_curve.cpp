@@ -7,6 +7,7 @@
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 #include <span>
@@ -16,10 +17,11 @@ namespace riesel::app {
 namespace {
 
 /// Mean over the impacts that went away from the wall; the others are counted.
-io::CurvePoint average(const scenarios::ImpactCurve::Point& point,
+io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::Point& point,
                        std::span<const ImpactResult> results) {
   io::CurvePoint mean{.v_x = point.v_x, .v_y = point.v_y};
   int away = 0;
+  double largest_overlap = 0.0, braking = 0.0, braking_cut_short = 0.0;
   for (const ImpactResult& r : results) {
     if (r.end == ImpactEnd::passed) ++mean.passed;
     if (r.end == ImpactEnd::stuck) ++mean.stuck;
@@ -30,10 +32,17 @@ io::CurvePoint average(const scenarios::ImpactCurve::Point& point,
     mean.contacts += r.contacts;
     mean.contact_time += r.contact_time;
     mean.max_overlap += r.max_overlap;
+    mean.cut_short += r.cut_short;
+    largest_overlap = std::max(largest_overlap, r.max_overlap);
+    braking += r.braking;
+    braking_cut_short += r.braking_cut_short;
   }
-  for (double* value :
-       {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time, &mean.max_overlap})
-    *value /= away;  // not a number where no impact counts
+  for (double* value : {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time,
+                        &mean.max_overlap, &mean.cut_short})
+    *value /= away;                                           // not a number where no impact counts
+  mean.brake_failure_fraction = braking_cut_short / braking;  // nor where nothing brakes
+  const double smaller_radius = std::min(setup.grain_radius, setup.wall_grain_radius);
+  mean.verdict = judge_impacts(largest_overlap / smaller_radius, mean.brake_failure_fraction);
   return mean;
 }
 
@@ -41,7 +50,8 @@ void write_curve(io::RunFile& file, const std::vector<io::CurvePoint>& curve) {
   std::vector<std::vector<double>> rows;
   for (const io::CurvePoint& p : curve)
     rows.push_back({p.v_x, p.v_y, p.dv_x, p.dv_y, p.contacts, p.contact_time, p.max_overlap,
-                    static_cast<double>(p.passed), static_cast<double>(p.stuck)});
+                    static_cast<double>(p.passed), static_cast<double>(p.stuck), p.cut_short,
+                    p.brake_failure_fraction, static_cast<double>(p.verdict)});
   file.write_curve({{"v_x", "m/s", "Velocity towards the wall before the impact."},
                     {"v_y", "m/s", "Axial velocity before the impact."},
                     {"dv_x", "m/s", "Velocity away from the wall after the impact plus v_x."},
@@ -50,7 +60,10 @@ void write_curve(io::RunFile& file, const std::vector<io::CurvePoint>& curve) {
                     {"contact_time", "s", "Sum of the durations of the contacts."},
                     {"max_overlap", "m", "Largest overlap."},
                     {"passed", "1", "Starts that went through the wall; not in the means."},
-                    {"stuck", "1", "Starts that were given up; not in the means."}},
+                    {"stuck", "1", "Starts that were given up; not in the means."},
+                    {"cut_short", "1", "Number of contacts cut short."},
+                    {"brake_failure_fraction", "1", "Part of the braking that they did."},
+                    {"verdict", "1", "Validity: 0 valid, 1 suspect, 2 unphysical."}},
                    rows);
 }
 
@@ -76,7 +89,7 @@ int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
   io::CurveSummary summary;
   for (const auto& point : curve.points)
     summary.curve.push_back(
-        average(point, std::span(results).subspan(point.first_impact, point.impacts)));
+        average(curve.setup, point, std::span(results).subspan(point.first_impact, point.impacts)));
   const std::int64_t steps =
       std::accumulate(results.begin(), results.end(), std::int64_t{0},
                       [](std::int64_t sum, const ImpactResult& r) { return sum + r.steps; });

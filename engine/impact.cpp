@@ -79,11 +79,15 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
   }
   const Grain grain = grain_at(simulation.state(), 0);
   const ContactTally& tally = simulation.state().tally.walls;
+  const BrakeTally& brakes = simulation.state().tally.brakes;
   return {.dv_x = grain.vx + impact.v_x,
           .dv_y = impact.v_y - grain.vy,
           .contacts = static_cast<double>(tally.begun),
           .contact_time = tally.duration.value(),
           .max_overlap = tally.max_overlap,
+          .cut_short = static_cast<double>(brakes.cut_short),
+          .braking = brakes.braking.value(),
+          .braking_cut_short = brakes.braking_cut_short.value(),
           .end = end,
           .steps = simulation.state().step};
 }

@@ -43,6 +43,9 @@ struct ImpactResult {
   double contacts;      ///< number of overlaps begun
   double contact_time;  ///< s, sum of their durations
   double max_overlap;   ///< m
+  double cut_short;     ///< number of contacts cut short, see brake.hpp
+  /// kg m/s, impulse against y of the contacts that brake, and of those among them cut short.
+  double braking, braking_cut_short;
   ImpactEnd end;
   std::int64_t steps;
 };

@@ -21,11 +21,25 @@ struct Criterion {
 
 constexpr std::string_view stiffer = "raise contact.stiffness";
 
+constexpr Criterion overlap_criterion = {"max_overlap_ratio",
+                                         &Evidence::max_overlap_ratio,
+                                         0.2,
+                                         0.5,
+                                         false,
+                                         "grains sink deep into each other",
+                                         stiffer};
+constexpr Criterion brake_criterion = {
+    "brake_failure_fraction",
+    &Evidence::brake_failure_fraction,
+    0.1,
+    0.5,
+    false,
+    "walls brake by contacts that are passed through before they can push",
+    stiffer};
+
 constexpr std::array<Criterion, 6> criteria = {{
-    {"max_overlap_ratio", &Evidence::max_overlap_ratio, 0.2, 0.5, false,
-     "grains sink deep into each other", stiffer},
-    {"brake_failure_fraction", &Evidence::brake_failure_fraction, 0.1, 0.5, false,
-     "walls brake by contacts that are passed through before they can push", stiffer},
+    overlap_criterion,
+    brake_criterion,
     {"passages_per_wall_visit", &Evidence::passages_per_visit, 0.5, 2.0, false,
      "grains scrape through the wall grains one after the other", stiffer},
     {"wall_speed_over_v_crit", &Evidence::wall_speed_ratio, 1.0, 3.0, false,
@@ -63,6 +77,17 @@ ValidityVerdict judge(const Evidence& evidence) {
     result.verdict = std::max(result.verdict, verdict);
   }
   return result;
+}
+
+Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction) {
+  return std::max(judge(overlap_criterion, max_overlap_ratio),
+                  judge(brake_criterion, brake_failure_fraction));
+}
+
+std::optional<Validity> validity_named(std::string_view text) {
+  for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
+    if (name(validity) == text) return validity;
+  return std::nullopt;
 }
 
 std::string_view name(Validity validity) {

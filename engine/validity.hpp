@@ -6,6 +6,7 @@
 // their reasons are in docs/validity.md.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -46,7 +47,13 @@ struct ValidityVerdict {
 
 ValidityVerdict judge(const Evidence& evidence);
 
+/// What single impacts can be judged by: the worse of these two findings.
+Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction);
+
 /// The verdict as it is written to files: "valid", "suspect", "unphysical".
 std::string_view name(Validity validity);
+
+/// That back again; nothing for a text that is none of them.
+std::optional<Validity> validity_named(std::string_view text);
 
 }  // namespace riesel

@@ -6,36 +6,64 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string_view>
+#include <vector>
 
 namespace riesel::io {
 namespace {
 
+/// Figures are drawn in dark ink: they keep their light paper in the dark. What is too wide for the
+/// window scrolls by itself.
 constexpr std::string_view style = R"(
-body { max-width: 62em; margin: 2em auto; padding: 0 1em; font: 16px/1.5 sans-serif; color: #222;
-       background: #fff; }
-h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid #ccc; }
-svg { max-width: 100%; height: auto; } figure { margin: 1em 0; }
-figcaption { color: #555; font-size: 0.9em; max-width: 50em; }
-table { border-collapse: collapse; } th, td { padding: 0.2em 0.8em; text-align: left;
-       border-bottom: 1px solid #ddd; vertical-align: top; overflow-wrap: anywhere; }
-th.number, td.number { text-align: right; white-space: nowrap; }
+:root { color-scheme: light dark; --ink: #222; --paper: #fff; --faint: #ddd; --soft: #555;
+        --inset: #f5f5f5; --link: #1a5fb4; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e4e4e4; --paper: #1b1d20; --faint: #44484d; --soft: #b0b4b8; --inset: #272a2e;
+          --link: #8ab8f0; }
+}
+body { max-width: 66em; margin: 2em auto; padding: 0 1em; font: 16px/1.5 sans-serif;
+       color: var(--ink); background: var(--paper); }
+h1 { font-size: 1.6em; }
+h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid var(--faint); }
+a { color: var(--link); }
+figure { margin: 1em 0; overflow-x: auto; }
+svg { max-width: 100%; height: auto; background: #fff; border-radius: 4px; }
+@media (max-width: 40em) { svg { max-width: none; width: 40em; } }
+figcaption { color: var(--soft); font-size: 0.9em; max-width: 50em; }
+.table { overflow-x: auto; font-size: 0.9em; }
+table { border-collapse: collapse; }
+th, td { padding: 0.2em 0.7em; text-align: left; border-bottom: 1px solid var(--faint);
+         vertical-align: top; }
+th { vertical-align: bottom; }
+.number { text-align: right; }
+td.number, td.short { white-space: nowrap; }
+td.long { overflow-wrap: anywhere; min-width: 16em; }
 .good, .doubtful, .bad { padding: 0.4em 0.8em; border-left: 0.4em solid; }
 .good { border-color: #2e7d32; } .doubtful { border-color: #e6a100; } .bad { border-color: #c62828; }
-pre { background: #f5f5f5; padding: 0.8em; overflow-x: auto; font-size: 0.85em; }
+pre { background: var(--inset); padding: 0.8em; overflow-x: auto; font-size: 0.85em; }
 summary { cursor: pointer; }
 )";
 
-using Rows = std::vector<std::vector<std::string>>;
-
 bool is_number(std::string_view cell) {
-  return !cell.empty() && cell.find_first_not_of("0123456789+-.e %") == std::string_view::npos;
+  return cell.find_first_not_of("0123456789+-.e %") == std::string_view::npos;
 }
 
-/// Below the head.
-bool has_numbers_only(const Rows& rows, std::size_t column) {
-  return rows.size() > 1 && std::all_of(rows.begin() + 1, rows.end(), [&](const auto& row) {
-           return is_number(row.at(column));
-         });
+/// Stands on one line.
+bool is_short(std::string_view cell) { return cell.size() <= 40; }
+
+/// Of the cells of a column, see the style. Where nothing is known a cell is empty.
+std::string_view class_of(const HtmlRows& rows, std::size_t column) {
+  const auto all = [&](auto holds) {
+    return std::all_of(rows.begin() + 1, rows.end(),
+                       [&](const auto& row) { return holds(row.at(column).text); });
+  };
+  if (rows.size() > 1 && all(is_number)) return "number";
+  return all(is_short) ? "short" : "long";
+}
+
+std::string markup_of(const HtmlCell& cell) {
+  if (cell.link.empty()) return escaped(cell.text);
+  return fmt::format("<a href=\"{}\">{}</a>", escaped(cell.link), escaped(cell.text));
 }
 
 }  // namespace
@@ -57,18 +85,20 @@ void HtmlPage::list(const std::vector<std::string>& items) {
   body_ += "</ul>\n";
 }
 
-void HtmlPage::table(const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<table>\n";
+void HtmlPage::table(const HtmlRows& rows) {
+  std::vector<std::string_view> classes;
+  for (std::size_t column = 0; column < rows.front().size(); ++column)
+    classes.push_back(class_of(rows, column));
+  body_ += "<div class=\"table\">\n<table>\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string_view element = i == 0 ? "th" : "td";
     body_ += "<tr>";
     for (std::size_t column = 0; column < rows[i].size(); ++column)
-      body_ += fmt::format("<{}{}>{}</{}>", element,
-                           has_numbers_only(rows, column) ? " class=\"number\"" : "",
-                           escaped(rows[i][column]), element);
+      body_ += fmt::format("<{} class=\"{}\">{}</{}>", element, classes.at(column),
+                           markup_of(rows[i][column]), element);
     body_ += "</tr>\n";
   }
-  body_ += "</table>\n";
+  body_ += "</table>\n</div>\n";
 }
 
 void HtmlPage::figure(const Svg& svg, std::string_view caption) {

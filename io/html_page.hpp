@@ -6,9 +6,22 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace riesel::io {
+
+/// Of a table.
+struct HtmlCell {
+  HtmlCell(std::string content, std::string address = "")  // NOLINT(google-explicit-constructor)
+      : text(std::move(content)), link(std::move(address)) {}
+  HtmlCell(const char* content) : text(content) {}  // NOLINT(google-explicit-constructor)
+
+  std::string text;
+  std::string link;  ///< relative to the page; empty: none
+};
+
+using HtmlRows = std::vector<std::vector<HtmlCell>>;
 
 /// Parts appear in the order in which they are added. All texts are escaped.
 class HtmlPage {
@@ -20,7 +33,7 @@ public:
   void paragraph(std::string_view text, std::string_view name = "");
   void list(const std::vector<std::string>& items);
   /// The first row is the head; all rows are of one length. Columns of numbers stand on the right.
-  void table(const std::vector<std::vector<std::string>>& rows);
+  void table(const HtmlRows& rows);
   void figure(const Svg& svg, std::string_view caption);
   /// Text as it is, folded away under its name.
   void folded(std::string_view name, std::string_view text);

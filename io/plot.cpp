@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,37 +19,7 @@ Interval clipped(Interval range, Interval limits) {
           std::clamp(range.high, limits.low, limits.high)};
 }
 
-bool contains(Interval range, double value) { return value >= range.low && value <= range.high; }
-
 }  // namespace
-
-Interval range_of(std::span<const double> values) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  if (low > high) return {0.0, 1.0};
-  const double spread = high - low;
-  const double room = spread > 0.0 ? 0.05 * spread : low == 0.0 ? 1.0 : 0.1 * std::abs(low);
-  return {low - room, high + room};
-}
-
-std::vector<double> ticks(Interval range, int most) {
-  const double coarsest = range.high - range.low;
-  const double unit = std::pow(10.0, std::floor(std::log10(coarsest / most)));
-  std::vector<double> found;
-  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-    const double step = factor * unit;
-    const double first = std::ceil(range.low / step), last = std::floor(range.high / step);
-    found.clear();
-    if (last - first >= most) continue;
-    for (double k = first; k <= last; k += 1.0) found.push_back(k * step + 0.0);  // no -0
-    break;
-  }
-  return found;
-}
 
 std::vector<Point> thinned(std::span<const Point> points, std::size_t columns) {
   if (points.size() <= 4 * columns) return {points.begin(), points.end()};
@@ -74,6 +45,14 @@ std::vector<Point> thinned(std::span<const Point> points, std::size_t columns) {
   return kept;
 }
 
+Look look_of(std::size_t index) {
+  constexpr std::array<std::string_view, 8> colours = {"#26548c", "#d9730d", "#2e7d32", "#a3245b",
+                                                       "#6b4fa0", "#8a6d1d", "#0f8a8a", "#555555"};
+  constexpr std::array symbols = {Symbol::disc, Symbol::square, Symbol::triangle, Symbol::diamond};
+  return {.colour = colours.at(index % colours.size()),
+          .symbol = symbols.at(index % symbols.size())};
+}
+
 Plot::Plot(double width, double height, std::string_view description, Axis x, Axis y)
     : x_(std::move(x)),
       y_(std::move(y)),
@@ -84,19 +63,17 @@ Plot::Plot(double width, double height, std::string_view description, Axis x, Ax
 }
 
 Point Plot::at(double x, double y) const {
-  const double across = (x - x_.range.low) / (x_.range.high - x_.range.low);
-  const double up = (y - y_.range.low) / (y_.range.high - y_.range.low);
-  return {left + across * (right_ - left), bottom_ - up * (bottom_ - top)};
+  return {left + part_of(x_, x) * (right_ - left), bottom_ - part_of(y_, y) * (bottom_ - top)};
 }
 
 void Plot::draw_axes() {
   svg_.begin_group("axes", {.fill = ink});
-  for (const double value : ticks(x_.range, 9)) {
+  for (const double value : ticks_of(x_, 9)) {
     const double x = at(value, y_.range.low).x;
     svg_.line({x, top}, {x, bottom_}, {.stroke = faint});
     svg_.text({x, bottom_ + 16.0}, fmt::format("{:.6g}", value), {.anchor = "middle"});
   }
-  for (const double value : ticks(y_.range, 6)) {
+  for (const double value : ticks_of(y_, 6)) {
     const double y = at(x_.range.low, value).y;
     svg_.line({left, y}, {right_, y}, {.stroke = faint});
     svg_.text({left - 6.0, y + 4.0}, fmt::format("{:.6g}", value), {.anchor = "end"});
@@ -116,8 +93,9 @@ void Plot::curve(std::span<const double> x, std::span<const double> y, const Sty
   };
   svg_.begin_group("curve", {.fill = "none"});
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
-    if (std::isfinite(x[i]) && std::isfinite(y[i]))
-      piece.push_back(at(x[i], y[i]));
+    const Point place = at(x[i], y[i]);
+    if (std::isfinite(place.x) && std::isfinite(place.y))
+      piece.push_back(place);
     else
       draw();
   }
@@ -144,6 +122,79 @@ void Plot::moment(double x, std::string_view label, const Style& style) {
   const Point place = at(x, y_.range.high);
   svg_.text({place.x + (to_the_left ? -5.0 : 5.0), place.y + 14.0}, label,
             {.fill = style.stroke, .anchor = to_the_left ? "end" : "start"});
+}
+
+void Plot::draw_symbol(Point place, const Look& look, bool is_full) {
+  const Style style{
+      .fill = is_full ? look.colour : "#ffffff", .stroke = look.colour, .stroke_width = 1.5};
+  const auto [x, y] = place;
+  switch (look.symbol) {
+  case Symbol::disc:
+    return svg_.disc(place, 4.5, style);
+  case Symbol::square:
+    return svg_.rectangle({x - 4.0, y - 4.0}, 8.0, 8.0, style);
+  case Symbol::triangle:
+    return svg_.polygon(
+        std::array<Point, 3>{{{x, y - 5.5}, {x + 5.0, y + 3.5}, {x - 5.0, y + 3.5}}}, style);
+  case Symbol::diamond:
+    return svg_.polygon(
+        std::array<Point, 4>{{{x, y - 5.5}, {x + 5.5, y}, {x, y + 5.5}, {x - 5.5, y}}}, style);
+  }
+}
+
+void Plot::measured(double x, double y, double error, const Look& look, bool is_full) {
+  const Point place = at(x, y);
+  if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
+  if (std::isfinite(error)) {
+    const Style thin{.stroke = look.colour, .stroke_width = 1.2};
+    const Interval bar = clipped({y - error, y + error}, y_.range);
+    const Point low = at(x, bar.low), high = at(x, bar.high);
+    svg_.line(low, high, thin);
+    for (const Point& end : {low, high})
+      svg_.line({end.x - 3.0, end.y}, {end.x + 3.0, end.y}, thin);
+  }
+  draw_symbol(place, look, is_full);
+}
+
+void Plot::arrow_up(double x, double y, const Look& look) {
+  const Point place = at(x, y);
+  if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
+  const double foot = place.y - 7.0, tip = place.y - 22.0;
+  svg_.line({place.x, foot}, {place.x, tip}, {.stroke = look.colour, .stroke_width = 1.5});
+  svg_.polygon(
+      std::array<Point, 3>{
+          {{place.x, tip - 5.0}, {place.x + 3.5, tip + 2.0}, {place.x - 3.5, tip + 2.0}}},
+      {.fill = look.colour});
+}
+
+void Plot::cross(double x, double y, const Look& look) {
+  constexpr double reach = 6.5;
+  const Point c = at(x, y);
+  if (!std::isfinite(c.x) || !std::isfinite(c.y)) return;
+  const Style style{.stroke = look.colour, .stroke_width = 1.2};
+  svg_.line({c.x - reach, c.y - reach}, {c.x + reach, c.y + reach}, style);
+  svg_.line({c.x - reach, c.y + reach}, {c.x + reach, c.y - reach}, style);
+}
+
+void Plot::legend(std::string_view shared, const std::vector<std::pair<std::string, Look>>& entries,
+                  bool with_symbols) {
+  constexpr double row = 18.0, sample = 28.0;
+  const double begin = bottom_ + bottom_margin + 0.5 * row;
+  double y = begin;
+  svg_.begin_group("legend");
+  if (!shared.empty()) {
+    svg_.text({left, y + 4.0}, shared, {.font_size = "13"});
+    y += row;
+  }
+  for (const auto& [name, look] : entries) {
+    svg_.line({left, y}, {left + sample, y},
+              {.stroke = look.colour, .stroke_width = 1.5, .dashes = look.dashes});
+    if (with_symbols) draw_symbol({left + 0.5 * sample, y}, look, true);
+    svg_.text({left + sample + 8.0, y + 4.0}, name);
+    y += row;
+  }
+  svg_.end_group();
+  svg_.extend(y - begin + 4.0);
 }
 
 }  // namespace riesel::io

@@ -1,43 +1,42 @@
-// A plot in SVG: axes with round ticks, curves, and marks for means and spans.
+// A plot in SVG: axes with round ticks, linear or logarithmic; curves, symbols with error bars,
+// marks for means and spans, and a legend.
 #pragma once
 
+#include "io/axis.hpp"
 #include "io/svg.hpp"
 
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace riesel::io {
-
-struct Interval {
-  double low, high;  ///< low < high
-};
-
-/// The range of the finite values, a little wider; around a single value, or [0, 1] for none.
-Interval range_of(std::span<const double> values);
-
-/// At least one and at most `most` >= 2 multiples of 1, 2 or 5 times a power of ten within the
-/// range, ascending.
-std::vector<double> ticks(Interval range, int most);
 
 /// A curve of which no more can be seen: of the points that fall into one of `columns` >= 1 columns
 /// of equal width from the first point to the last only the first, the lowest, the highest and the
 /// last are kept. x ascends.
 std::vector<Point> thinned(std::span<const Point> points, std::size_t columns);
 
-struct Axis {
-  std::string label;
-  Interval range;
+enum class Symbol { disc, square, triangle, diamond };
+
+/// What a curve is recognised by.
+struct Look {
+  std::string_view colour;
+  Symbol symbol = Symbol::disc;
+  std::string_view dashes{};
 };
+
+/// A different one for each small index; they begin again after 8 colours.
+Look look_of(std::size_t index);
 
 class Plot {
 public:
   /// Draws the axes. Lengths in pixels.
   Plot(double width, double height, std::string_view description, Axis x, Axis y);
 
-  /// The place of a pair of values.
+  /// The place of a pair of values. A value that a logarithmic axis does not have is not finite.
   Point at(double x, double y) const;
 
   /// A line through all pairs, x ascending; more of them than pixels are thinned. Pairs that are
@@ -48,12 +47,25 @@ public:
   void level(Interval x, double y, const Style& style);
   void moment(double x, std::string_view label, const Style& style);
 
+  /// A value with its error, if that is known; full or open. Nothing for a value that is not known.
+  void measured(double x, double y, double error, const Look& look, bool is_full);
+  /// Beside a value: it still grows.
+  void arrow_up(double x, double y, const Look& look);
+  /// Over a value: it is not to be used.
+  void cross(double x, double y, const Look& look);
+  /// Below the axes: what all share, if that is not empty, and each name with its look, as a symbol
+  /// on a line. Grows the drawing. For once.
+  void legend(std::string_view shared, const std::vector<std::pair<std::string, Look>>& entries,
+              bool with_symbols);
+
   const Axis& x() const { return x_; }
   const Axis& y() const { return y_; }
   const Svg& svg() const { return svg_; }
+  Svg& svg() { return svg_; }  ///< to put what comes next into a link or a group
 
 private:
   void draw_axes();
+  void draw_symbol(Point place, const Look& look, bool is_full);
 
   Axis x_, y_;
   double right_, bottom_;  // of the frame

@@ -13,6 +13,7 @@
 #include <span>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace riesel::io {
 namespace {
@@ -129,18 +130,34 @@ Provenance read_provenance(const Hdf5Group& group, std::size_t most_bytes) {
   return provenance;
 }
 
-RunContents read_contents(const Hdf5Group& root, std::size_t most_bytes) {
+RunHistory read_history(const Hdf5Group& root, std::size_t most_bytes) {
   require(root.text_attribute("format") == "riesel run", "it is no run of riesel");
-  require(root.has("final"), "it holds no final state");
   const auto provenance = root.group("provenance");
-  RunContents contents{.final_state = read_final_state(root.group("final"), most_bytes),
-                       .series = read_series(root.group("series"), most_bytes),
-                       .start = read_provenance(provenance, most_bytes),
-                       .resumes = {}};
+  RunHistory history{.start = read_provenance(provenance, most_bytes), .resumes = {}};
   for (int i = 1; provenance.has(fmt::format("resume_{}", i)); ++i)
-    contents.resumes.push_back(
+    history.resumes.push_back(
         read_provenance(provenance.group(fmt::format("resume_{}", i)), most_bytes));
-  return contents;
+  return history;
+}
+
+RunContents read_contents(const Hdf5Group& root, std::size_t most_bytes) {
+  RunHistory history = read_history(root, most_bytes);
+  require(root.has("final"), "it holds no final state");
+  return {.final_state = read_final_state(root.group("final"), most_bytes),
+          .series = read_series(root.group("series"), most_bytes),
+          .history = std::move(history)};
+}
+
+/// What `read` makes of the root of the file and of its size.
+template <class Read>
+auto read_file(const std::filesystem::path& path, Read read) {
+  try {
+    const auto root = Hdf5File::open(path).root();
+    return read(root, std::filesystem::file_size(path));
+  } catch (const Hdf5Error& error) {
+    throw FileError(path, fmt::format("is damaged, or of another kind of run ({})", error.what()),
+                    "restore the file, or make the run again");
+  }
 }
 
 }  // namespace
@@ -153,13 +170,11 @@ const Series& RunContents::series_of(const std::string& name) const {
 }
 
 RunContents read_run_file(const std::filesystem::path& path) {
-  try {
-    const auto root = Hdf5File::open(path).root();
-    return read_contents(root, std::filesystem::file_size(path));
-  } catch (const Hdf5Error& error) {
-    throw FileError(path, fmt::format("is damaged, or no record of a flow ({})", error.what()),
-                    "restore the file, or make the run again");
-  }
+  return read_file(path, read_contents);
+}
+
+RunHistory read_run_history(const std::filesystem::path& path) {
+  return read_file(path, read_history);
 }
 
 }  // namespace riesel::io

@@ -30,11 +30,16 @@ struct Series {
   std::vector<double> values;
 };
 
+/// What tells by whom and how a run was made.
+struct RunHistory {
+  Provenance start;
+  std::vector<Provenance> resumes;  ///< the same of each time it was resumed
+};
+
 struct RunContents {
   FinalState final_state;
-  std::vector<Series> series;       ///< all of the same length
-  Provenance start;                 ///< what tells how the run was started, and by what
-  std::vector<Provenance> resumes;  ///< the same of each time it was resumed
+  std::vector<Series> series;  ///< all of the same length
+  RunHistory history;
 
   /// Throws std::out_of_range for a name that is not there.
   const Series& series_of(const std::string& name) const;
@@ -42,5 +47,8 @@ struct RunContents {
 
 /// Throws FileError if the file cannot be read, is damaged, or is of something else than a flow.
 RunContents read_run_file(const std::filesystem::path& path);
+
+/// Of any run. Throws FileError as above.
+RunHistory read_run_history(const std::filesystem::path& path);
 
 }  // namespace riesel::io

@@ -15,7 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json common_part(const RunSummary& run) {
-  return {{"scenario", run.scenario},
+  return {{"format", summary_format},
+          {"scenario", run.scenario},
           {"version", std::string(build_info().version)},
           {"commit", std::string(build_info().git_commit)},
           {"grains", run.grains},
@@ -140,7 +141,10 @@ std::string to_json(const CurveSummary& s) {
                      {"contact_time", p.contact_time},
                      {"max_overlap", p.max_overlap},
                      {"passed", p.passed},
-                     {"stuck", p.stuck}});
+                     {"stuck", p.stuck},
+                     {"cut_short", p.cut_short},
+                     {"brake_failure_fraction", p.brake_failure_fraction},
+                     {"verdict", name(p.verdict)}});
   json["curve"] = curve;
   return text_of(json);
 }

@@ -15,6 +15,10 @@
 
 namespace riesel::io {
 
+/// Of what stands in the file: raised when a name that a reader needs changes its meaning, goes, or
+/// comes. Version 1 had no number.
+inline constexpr int summary_format = 2;
+
 /// What every summary tells.
 struct RunSummary {
   std::string scenario;
@@ -94,8 +98,11 @@ struct FlowSummary {
 struct CurvePoint {
   double v_x = 0.0, v_y = 0.0, dv_x = 0.0, dv_y = 0.0;  ///< m/s
   double contacts = 0.0, contact_time = 0.0, max_overlap = 0.0;
-  int passed = 0;  ///< how many starts went through the wall; not in the means
-  int stuck = 0;   ///< how many were given up; not in the means
+  int passed = 0;                       ///< how many starts went through the wall; not in the means
+  int stuck = 0;                        ///< how many were given up; not in the means
+  double cut_short = 0.0;               ///< mean number of contacts cut short
+  double brake_failure_fraction = 0.0;  ///< part of the braking that they did
+  Validity verdict = Validity::valid;
 };
 
 struct CurveSummary {

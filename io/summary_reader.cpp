@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -88,23 +89,51 @@ FlowSummary::Zone read_zone(const Json& json) {
           .stress_yy = measured(json.at("stress_yy"))};
 }
 
-/// The findings stand in the order of Evidence.
+Validity validity(const Json& json) {
+  const auto text = json.get<std::string>();
+  if (const auto found = validity_named(text)) return *found;
+  throw std::runtime_error("there is no verdict " + text);
+}
+
+/// What it says is what the file says; its words are those of this program.
+Finding read_finding(const Json& json) {
+  const std::string name = json.at("name");
+  const double value = number(json, "value");
+  const auto known = judge({value, value, value, value, value, value}).findings;
+  const auto found = std::ranges::find(known, name, &Finding::name);
+  if (found == known.end()) throw std::runtime_error("there is no finding " + name);
+  return {.name = found->name,
+          .value = value,
+          .suspect = number(json, "suspect"),
+          .unphysical = number(json, "unphysical"),
+          .low_is_bad = json.at("bad_if") == "below",
+          .verdict = validity(json.at("verdict")),
+          .meaning = found->meaning,
+          .remedy = found->remedy};
+}
+
 ValidityVerdict read_verdict(const Json& json) {
-  const auto& findings = json.at("findings");
-  const auto value = [&](std::size_t i) { return number(findings.at(i), "value"); };
-  ValidityVerdict verdict = judge({.max_overlap_ratio = value(0),
-                                   .brake_failure_fraction = value(1),
-                                   .passages_per_visit = value(2),
-                                   .wall_speed_ratio = value(3),
-                                   .pulling_fraction = value(4),
-                                   .steps_per_contact = value(5)});
-  bool same = findings.size() == verdict.findings.size()
-              && json.at("verdict") == std::string(name(verdict.verdict));
-  for (std::size_t i = 0; same && i < findings.size(); ++i)
-    same = findings[i].at("name") == std::string(verdict.findings[i].name)
-           && findings[i].at("verdict") == std::string(name(verdict.findings[i].verdict));
-  if (!same) throw std::runtime_error("its findings are judged otherwise by this version");
+  ValidityVerdict verdict{.verdict = validity(json.at("verdict")), .findings = {}};
+  for (const auto& finding : json.at("findings")) verdict.findings.push_back(read_finding(finding));
   return verdict;
+}
+
+CurveSummary read_curve(const Json& json) {
+  CurveSummary summary{.run = read_run(json), .curve = {}};
+  for (const auto& point : json.at("curve"))
+    summary.curve.push_back({.v_x = number(point, "v_x"),
+                             .v_y = number(point, "v_y"),
+                             .dv_x = number(point, "dv_x"),
+                             .dv_y = number(point, "dv_y"),
+                             .contacts = number(point, "contacts"),
+                             .contact_time = number(point, "contact_time"),
+                             .max_overlap = number(point, "max_overlap"),
+                             .passed = point.at("passed"),
+                             .stuck = point.at("stuck"),
+                             .cut_short = number(point, "cut_short"),
+                             .brake_failure_fraction = number(point, "brake_failure_fraction"),
+                             .verdict = validity(point.at("verdict"))});
+  return summary;
 }
 
 FlowSummary read_flow(const Json& json) {
@@ -129,20 +158,31 @@ FlowSummary read_flow(const Json& json) {
                        .friction_failure_fraction = number(validity, "friction_failure_fraction")}};
 }
 
+/// Throws FileError for the summary of another program or of another time.
+void require_this_format(const std::filesystem::path& path, const Json& json) {
+  if (!json.is_object() || !json.contains("version") || !json["version"].is_string()) return;
+  const Json format = json.value("format", Json(1));
+  if (format == summary_format) return;
+  throw FileError(path,
+                  fmt::format("has format {}, and this version of riesel reads {}", format.dump(),
+                              summary_format),
+                  "use riesel " + json["version"].get<std::string>()
+                      + ", which wrote it, or make the run again");
+}
+
 }  // namespace
 
-FlowSummary read_flow_summary(const std::filesystem::path& path) {
+Summary read_summary(const std::filesystem::path& path) {
   std::ifstream stream(path);
   if (!stream) throw FileError(path, "cannot be read", "give the directory of a run that is over");
   const auto json = Json::parse(stream, nullptr, false);
-  if (json.is_object() && json.contains("curve"))
-    throw FileError(path, "is the result of an impact scenario, and reports are made of flows",
-                    "plot 'curve' of this file instead");
+  require_this_format(path, json);
   try {
+    if (json.contains("curve")) return read_curve(json);
     return read_flow(json);
   } catch (const std::exception& error) {
-    throw FileError(path, fmt::format("is damaged, or of another version ({})", error.what()),
-                    "restore the file, or make the run again with this version");
+    throw FileError(path, fmt::format("is damaged ({})", error.what()),
+                    "restore the file, or make the run again");
   }
 }
 

@@ -27,6 +27,13 @@ std::string attribute(std::string_view name, double value) {
   return attribute(name, number(value));
 }
 
+std::string list_of(std::span<const Point> points) {
+  std::string list;
+  for (const Point& point : points)
+    list += (list.empty() ? "" : " ") + number(point.x) + "," + number(point.y);
+  return list;
+}
+
 std::string attributes(const Style& style) {
   return attribute("fill", style.fill) + attribute("stroke", style.stroke)
          + (style.stroke_width > 0.0 ? attribute("stroke-width", style.stroke_width) : "")
@@ -45,6 +52,12 @@ void Svg::begin_group(std::string_view name, const Style& style) {
 
 void Svg::end_group() { shapes_ += "</g>\n"; }
 
+void Svg::begin_link(std::string_view address, std::string_view tip) {
+  shapes_ += "<a" + attribute("href", address) + "><title>" + escaped(tip) + "</title>\n";
+}
+
+void Svg::end_link() { shapes_ += "</a>\n"; }
+
 void Svg::disc(Point centre, double radius, const Style& style) {
   shapes_ += "<circle" + attribute("cx", centre.x) + attribute("cy", centre.y)
              + attribute("r", radius) + attributes(style) + "/>\n";
@@ -56,10 +69,11 @@ void Svg::line(Point from, Point to, const Style& style) {
 }
 
 void Svg::polyline(std::span<const Point> points, const Style& style) {
-  std::string list;
-  for (const Point& point : points)
-    list += (list.empty() ? "" : " ") + number(point.x) + "," + number(point.y);
-  shapes_ += "<polyline" + attribute("points", list) + attributes(style) + "/>\n";
+  shapes_ += "<polyline" + attribute("points", list_of(points)) + attributes(style) + "/>\n";
+}
+
+void Svg::polygon(std::span<const Point> points, const Style& style) {
+  shapes_ += "<polygon" + attribute("points", list_of(points)) + attributes(style) + "/>\n";
 }
 
 void Svg::rectangle(Point corner, double width, double height, const Style& style) {

@@ -33,13 +33,21 @@ public:
 
   double width() const { return width_; }
 
+  /// More room below.
+  void extend(double height) { height_ += height; }
+
   /// What follows up to end_group() is in a group of this class and style. Groups may be nested.
   void begin_group(std::string_view name, const Style& style = {});
   void end_group();
 
+  /// What follows up to end_link() leads to `address`, and says `tip` when it is pointed at.
+  void begin_link(std::string_view address, std::string_view tip);
+  void end_link();
+
   void disc(Point centre, double radius, const Style& style = {});
   void line(Point from, Point to, const Style& style = {});
   void polyline(std::span<const Point> points, const Style& style = {});
+  void polygon(std::span<const Point> points, const Style& style = {});
   void rectangle(Point corner, double width, double height, const Style& style = {});
   void text(Point at, std::string_view text, const Style& style = {});
   void upward_text(Point at, std::string_view text, const Style& style = {});

@@ -72,6 +72,14 @@ class CommandTest(unittest.TestCase):
     def setUp(self):
         self.move_to_an_empty_home()
 
+    @classmethod
+    def maker(cls):
+        """For setUpClass: makes, in a home of its own, what all tests of the class only look at."""
+        maker = cls()
+        maker.setUp()
+        cls.addClassCleanup(maker.doCleanups)
+        return maker
+
     def move_to_an_empty_home(self):
         directory = tempfile.TemporaryDirectory(prefix="riesel-test-")
         self.addCleanup(directory.cleanup)

@@ -1,13 +1,16 @@
 """The shipped impact scenarios from end to end."""
 
+import math
+
 import h5py
 
 from riesel_command import SHIPPED, CommandTest
 
-COMMON_NAMES = {"scenario", "version", "commit", "grains", "steps", "state_hash", "performance"}
+COMMON_NAMES = {"format", "scenario", "version", "commit", "grains", "steps", "state_hash", "performance"}
 PERFORMANCE_NAMES = {"wall_seconds", "particle_steps_per_second", "threads"}
 POINT_NAMES = {"v_x", "v_y", "dv_x", "dv_y", "contacts", "contact_time", "max_overlap", "passed",
-               "stuck"}
+               "stuck", "cut_short", "brake_failure_fraction", "verdict"}
+VERDICTS = ["valid", "suspect", "unphysical"]
 
 
 class Impacts:
@@ -42,7 +45,10 @@ class Impacts:
         with h5py.File(out / "run.h5", "r") as file:
             self.assertEqual(set(file["curve"]), POINT_NAMES)
             for name, column in file["curve"].items():
-                self.assertEqual(list(column), [point[name] for point in curve], name)
+                of_curve = [point[name] for point in curve]
+                if name == "verdict":
+                    of_curve = [VERDICTS.index(verdict) for verdict in of_curve]
+                self.assertEqual(list(column), of_curve, name)
                 self.assertIn("unit", column.attrs)
 
     def test_the_result_depends_neither_on_threads_nor_on_the_way_the_settings_came(self):
@@ -58,6 +64,33 @@ class Impacts:
 class SingleWallGrain(Impacts, CommandTest):
     scenario = "single_wall_grain"
     normal_velocities = [0.0]
+
+    def test_the_brake_fails_above_v_crit(self):
+        """chord / t_col in closed form; the border was found within 3 % of it at this e_N
+        (docs/validity.md)."""
+        chord = 2.0 * math.sqrt(0.83e-3**2 - 0.82e-3**2)
+        t_col = math.pi / math.sqrt(2000.0 / 1e-6 - 1e4**2 / 4.0)
+        for point in self.summary(self.run_shipped("out"))["curve"]:
+            fails = point["v_y"] > 0.97 * chord / t_col
+            if abs(point["v_y"] * t_col / chord - 0.97) > 0.03:
+                self.assertEqual(point["verdict"], "unphysical" if fails else "valid", point)
+                self.assertEqual(point["brake_failure_fraction"], 1.0 if fails else 0.0, point)
+                self.assertEqual(point["cut_short"], 1.0 if fails else 0.0, point)
+
+    def test_stiff_contacts_do_not_fail_and_deep_ones_are_told(self):
+        one_speed = ("--set", "impact.axial_velocity=[10]")
+        for stiffness, verdict in ((2e7, "valid"), (2000.0, "unphysical")):
+            out = self.run_to_end(SHIPPED / "single_wall_grain.yaml", f"k{stiffness:g}",
+                                  "--set", f"contact.stiffness={stiffness}", *one_speed)
+            self.assertEqual([p["verdict"] for p in self.summary(out)["curve"]], [verdict])
+
+    def test_the_screen_tells_where_it_fails(self):
+        result = self.riesel("run", SHIPPED / "single_wall_grain.yaml", "--out", "out")
+        curve = self.summary(self.home / "out")["curve"]
+        bad = [point["v_y"] for point in curve if point["verdict"] == "unphysical"]
+        self.assertRegex(result.stdout, rf"(?m)^  validity  .*{len(bad)} unphysical$")
+        self.assertIn(f"{len(bad)} of 60 points, the first at v_y = {min(bad):.4g} m/s",
+                      result.stdout)
 
 
 class WallArray(Impacts, CommandTest):

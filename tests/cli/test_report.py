@@ -1,65 +1,16 @@
 """riesel report: a page that stands alone, shows what the run left, and is refused where there is
 nothing to show."""
 
-import html.parser
+import json
 import re
 import shutil
-import xml.etree.ElementTree
 
 import h5py
 
-from riesel_command import SHIPPED, CommandTest, bytes_of_files
+from report_files import SVG, Report
+from riesel_command import SHIPPED, bytes_of_files
 
-VOID_ELEMENTS = {"meta", "br", "hr", "img", "link", "input"}
-FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy"}
-SVG = "{http://www.w3.org/2000/svg}"
-
-
-class Page(html.parser.HTMLParser):
-    """Elements and text of a page; an element that is not closed in its place is a mistake."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.elements, self.open, self.text, self.mistakes = [], [], "", []
-        self.shapes = {}  # class of the group: number of shapes
-        self.feed(text)
-        self.close()
-        self.mistakes += [f"<{name}> is left open" for name, _ in self.open]
-
-    def handle_starttag(self, tag, attrs):
-        attributes = dict(attrs)
-        self.elements.append((tag, attributes))
-        groups = [given.get("class") for name, given in self.open if name == "g"]
-        if groups and tag in ("circle", "line"):
-            self.shapes[groups[-1]] = self.shapes.get(groups[-1], 0) + 1
-        if tag not in VOID_ELEMENTS:
-            self.open.append((tag, attributes))
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open[-1][0] != tag:
-            self.mistakes.append(f"</{tag}> closes nothing")
-        else:
-            self.open.pop()
-
-    def handle_data(self, data):
-        self.text += data
-
-
-class Report(CommandTest):
-
-    def page_of(self, directory):
-        return Page((directory / "report.html").read_text(encoding="utf-8"))
-
-    def report_on(self, directory):
-        self.assert_done(self.riesel("report", directory))
-        return self.page_of(directory)
-
-    def figure(self, directory, name):
-        return xml.etree.ElementTree.parse(directory / "figures" / f"{name}.svg").getroot()
-
-    def discs(self, directory):
-        """Number of discs of grains in the figure of the state."""
-        return len(self.figure(directory, "state").findall(f"{SVG}g[@class='grains']/{SVG}circle"))
+FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits"}
 
 
 class FinishedRun(Report):
@@ -67,9 +18,7 @@ class FinishedRun(Report):
     @classmethod
     def setUpClass(cls):
         """One run and its report for all that only look at them."""
-        maker = Report()
-        maker.setUp()
-        cls.addClassCleanup(maker.doCleanups)
+        maker = cls.maker()
         cls.out = maker.run_small_tube("a&b<c>")
         cls.before = bytes_of_files(cls.out)
         result = maker.riesel("report", "a&b<c>")
@@ -125,7 +74,8 @@ class FinishedRun(Report):
             self.assertEqual(self.page.shapes["walls"], int(sum(final["walls/count"])))
             self.assertEqual(self.page.shapes.get("contacts", 0), final["contacts/grain"].shape[0])
             self.assertGreater(final["contacts/grain"].shape[0], 0)
-        self.assertEqual(self.discs(self.out), self.page.shapes["grains"])
+        discs = self.figure(self.out, "state").findall(f"{SVG}g[@class='grains']/{SVG}circle")
+        self.assertEqual(len(discs), self.page.shapes["grains"])
         self.assertIn(f"All {self.page.shapes['grains']} grains", self.page.text)
 
     def test_the_discs_are_where_the_grains_are(self):
@@ -142,6 +92,18 @@ class FinishedRun(Report):
                 self.assertAlmostEqual(moved, scale * (here - first), delta=0.2)
         fills = [disc.get("fill") for disc in discs]
         self.assertEqual((fills[speed.argmin()], fills[speed.argmax()]), ("#241c5c", "#fae860"))
+
+    def test_visits_are_drawn_as_a_histogram(self):
+        """Bars as high as the counts, in their order."""
+        counts = self.summary(self.out)["wall_visits"]["of_contacts_since_start"]
+        self.assertGreater(sum(counts), 0)
+        bars = self.figure(self.out, "visits").findall(f"{SVG}g[@class='bars']/{SVG}rect")
+        heights = [float(bar.get("height")) for bar in bars]
+        self.assertEqual(len(heights), len(counts))
+        for height, count in zip(heights, counts):
+            self.assertAlmostEqual(height / max(heights), count / max(counts), delta=1e-3)
+        places = [float(bar.get("x")) for bar in bars]
+        self.assertEqual(places, sorted(places))
 
     def test_the_figures_stand_alone_too(self):
         for name in FIGURES:
@@ -205,6 +167,69 @@ class OtherRuns(Report):
         self.assertIn((out / "effective.yaml").read_text(encoding="utf-8"), page.text)
 
 
+class OtherVersions(Report):
+
+    def test_a_run_of_another_version_with_the_same_format_says_what_it_said(self):
+        """The verdict is that of the file, although this version would judge otherwise."""
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        summary = {**self.summary(out), "version": "7.8.9"}
+        finding = summary["validity"]["findings"][0]
+        self.assertEqual(finding["verdict"], "valid")
+        finding.update(suspect=1e-9, verdict="suspect")
+        summary["validity"]["verdict"] = "suspect"
+        (out / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+        page = self.report_on(out)
+        self.assertIn("Suspect:", page.text)
+        self.assertIn("suspect: max_overlap_ratio = ", page.text)
+        self.assertIn("above 1e-09", page.text)
+
+
+class Impacts(Report):
+
+    @classmethod
+    def setUpClass(cls):
+        maker = cls.maker()
+        cls.out = maker.run_to_end(SHIPPED / "wall_array.yaml", "wall", "--set",
+                                   "impact.axial_velocity={from: 0.3, to: 40, points: 9, spacing: log}")
+        cls.page = maker.report_on("wall")
+
+    def page_of(self, directory):
+        return super().page_of(self.home / directory)
+
+    def test_the_page_is_well_formed_and_has_the_curves(self):
+        self.assertEqual(self.page.mistakes, [])
+        names = {path.stem for path in (self.out / "figures").iterdir()}
+        self.assertEqual(names, {"dv_y", "contacts", "dv_x", "max_overlap"})
+        for name in names:
+            legend = self.figure(self.out, name).findall(f"{SVG}g[@class='legend']/{SVG}text")
+            self.assertEqual([text.text for text in legend],
+                             ["v_x = 0.1 m/s", "v_x = 0.3 m/s", "v_x = 0.5 m/s"])
+
+    def test_lines_go_through_all_points_and_are_dashed_where_they_are_unphysical(self):
+        lines = self.figure(self.out, "dv_y").findall(f"{SVG}g[@class='curve']/{SVG}polyline")
+        curve = self.summary(self.out)["curve"]
+        for is_dashed in (False, True):
+            drawn = sum(len(line.get("points").split()) for line in lines
+                        if (line.get("stroke-dasharray") is not None) == is_dashed)
+            bad = sum(point["verdict"] == "unphysical" for point in curve)
+            self.assertGreater(bad, 0)
+            self.assertLess(bad, len(curve))
+            # the last full point begins the dashed piece
+            self.assertEqual(drawn, bad + 3 if is_dashed else len(curve) - bad)
+
+    def test_every_point_is_in_the_table_and_the_verdicts_are_told(self):
+        curve = self.summary(self.out)["curve"]
+        for point in curve:
+            self.assertIn(f"{point['v_y']:.4g}{point['dv_y']:.4g}{point['dv_x']:.4g}",
+                          self.page.text)
+        verdicts = [point["verdict"] for point in curve]
+        self.assertIn(f"{verdicts.count('unphysical')} unphysical", self.page.text)
+        first = min(p["v_y"] for p in curve if p["v_x"] == 0.3 and p["verdict"] == "unphysical")
+        self.assertRegex(self.page.text,
+                         rf"at v_x = 0.3 m/s \d of 9 points, the first at v_y = {first:.4g} m/s")
+        self.assertIn(self.state_hash(self.out), self.page.text)
+
+
 class Refused(Report):
 
     def assert_no_report(self, directory, *mentions):
@@ -220,14 +245,16 @@ class Refused(Report):
         (self.home / "empty").mkdir()
         self.assert_no_report("empty", "holds no run")
 
-    def test_a_sweep(self):
-        (self.home / "sweep").mkdir()
-        (self.home / "sweep" / "manifest.json").write_text("{}", encoding="utf-8")
-        self.assert_no_report("sweep", "holds a sweep", "points/")
-
-    def test_a_run_of_impacts(self):
-        self.run_to_end(SHIPPED / "single_wall_grain.yaml", "wall")
-        self.assert_no_report("wall", "wall/summary.json", "impact")
+    def test_a_summary_of_another_format(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        summary = self.summary(out)
+        for other, told in ((None, "has format 1"), (99, "has format 99")):
+            changed = {"format": other, **{k: v for k, v in summary.items() if k != "format"},
+                       "version": "7.8.9"}
+            if other is None:
+                del changed["format"]
+            (out / "summary.json").write_text(json.dumps(changed), encoding="utf-8")
+            self.assert_no_report("out", "out/summary.json", told, "riesel 7.8.9")
 
     def test_a_run_that_is_not_over(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")

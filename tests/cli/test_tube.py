@@ -21,10 +21,7 @@ class Tube(CommandTest):
     @classmethod
     def setUpClass(cls):
         """One run for all that only look at it."""
-        maker = CommandTest()
-        maker.setUp()
-        cls.addClassCleanup(maker.doCleanups)
-        cls.out = maker.run_small_tube("out")
+        cls.out = cls.maker().run_small_tube("out")
 
     def test_the_directory_holds_the_files_of_a_run(self):
         names = {path.name for path in self.out.iterdir()}

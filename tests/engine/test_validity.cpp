@@ -35,6 +35,22 @@ TEST_CASE("hard grains are valid, with all findings told") {
   CHECK(v.findings[1].value == hard.brake_failure_fraction);
 }
 
+TEST_CASE("impacts are judged by their overlaps and by how they brake") {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  CHECK(judge_impacts(0.19, 0.09) == Validity::valid);
+  CHECK(judge_impacts(0.21, 0.09) == Validity::suspect);
+  CHECK(judge_impacts(0.19, 0.11) == Validity::suspect);
+  CHECK(judge_impacts(0.51, 0.09) == Validity::unphysical);
+  CHECK(judge_impacts(0.19, 0.51) == Validity::unphysical);
+  CHECK(judge_impacts(0.19, unknown) == Validity::suspect);
+}
+
+TEST_CASE("a verdict has one name") {
+  for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
+    CHECK(validity_named(name(validity)) == validity);
+  CHECK_FALSE(validity_named("good"));
+}
+
 TEST_CASE("each threshold separates two verdicts") {
   struct Case {
     double Evidence::*member;

@@ -18,6 +18,16 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
+bool contains_all(Interval range, const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [&](double value) { return contains(range, value); });
+}
+
+bool close(const std::vector<double>& found, const std::vector<double>& expected) {
+  return std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
+                    [](double a, double b) { return std::abs(a / b - 1.0) < 1e-12; });
+}
+
 Plot small_plot() { return {200.0, 100.0, "a plot", {"t (s)", {0.0, 2.0}}, {"v", {-1.0, 1.0}}}; }
 
 }  // namespace
@@ -55,6 +65,97 @@ TEST_CASE("A range holds all finite values and is never empty") {
        std::vector<std::vector<double>>{{}, {0.0}, {-4.0, -4.0}, {std::nan("")}})
     CHECK(range_of(values).low < range_of(values).high);
   CHECK(range_of(std::vector{-4.0}).low == Approx(-4.4));
+}
+
+TEST_CASE("Values that differ in their last digits have a range whose ticks can be told apart") {
+  for (const double value : {1.0, -3.5e-7, 4e12}) {
+    const std::vector values = {value, std::nextafter(value, 2.0 * value)};
+    const auto range = range_of(values);
+    const auto found = ticks(range, 6);
+    INFO(value);
+    CHECK(found.size() >= 2);
+    CHECK(found.size() <= 6);
+    CHECK(std::abs(found[1] - found[0]) > 1e-5 * std::abs(value));
+    CHECK(contains_all(range, values));
+  }
+}
+
+TEST_CASE("A scale is logarithmic where positive values spread widely") {
+  CHECK(scale_for(std::vector{1.0, 21.0}) == Scale::logarithmic);
+  CHECK(scale_for(std::vector{1.0, std::nan(""), 19.0}) == Scale::linear);
+  CHECK(scale_for(std::vector{0.0, 100.0}) == Scale::linear);
+  CHECK(scale_for(std::vector{-1.0, 100.0}) == Scale::linear);
+  CHECK(scale_for(std::vector<double>{}) == Scale::linear);
+}
+
+TEST_CASE("A logarithmic range holds all positive values and no other") {
+  const std::vector values = {0.01, 1e4};
+  const auto range = range_of(values, Scale::logarithmic);
+  CHECK(contains_all(range, values));
+  CHECK(range.low > 0.003);
+  CHECK(range.high < 3e4);
+  for (const auto& some : std::vector<std::vector<double>>{{}, {3.0}, {-1.0, 0.0}}) {
+    const auto of_few = range_of(some, Scale::logarithmic);
+    CHECK(of_few.low > 0.0);
+    CHECK(of_few.low < of_few.high);
+  }
+}
+
+TEST_CASE("Logarithmic ticks are powers of ten, or 1, 2 and 5 times them where there are few") {
+  CHECK(close(logarithmic_ticks({0.09, 20.0}), {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}));
+  CHECK(close(logarithmic_ticks({0.05, 2e3}), {0.1, 1.0, 10.0, 100.0, 1e3}));
+  CHECK(close(logarithmic_ticks({0.9, 1.9}), {1.0}));
+  CHECK(close(logarithmic_ticks({2.2, 2.9}), ticks({2.2, 2.9}, 6)));
+  const auto wide = logarithmic_ticks({1e-12, 1e12});
+  CHECK(wide.size() >= 5);
+  CHECK(wide.size() <= 10);
+}
+
+TEST_CASE("A logarithmic axis has equal ratios at equal distances, and no place for zero") {
+  const Plot plot(200.0, 100.0, "a plot", {"t", {1.0, 100.0}, Scale::logarithmic},
+                  {"v", {0.1, 1000.0}, Scale::logarithmic});
+  CHECK(plot.at(10.0, 10.0).x == Approx(0.5 * (plot.at(1.0, 1.0).x + plot.at(100.0, 1.0).x)));
+  CHECK(plot.at(10.0, 10.0).y == Approx(0.5 * (plot.at(1.0, 0.1).y + plot.at(1.0, 1e3).y)));
+  CHECK_FALSE(std::isfinite(plot.at(10.0, 0.0).y));
+  CHECK_FALSE(std::isfinite(plot.at(10.0, -1.0).y));
+}
+
+TEST_CASE("A value with its error is a symbol on a bar that stays within the axes") {
+  auto plot = small_plot();
+  plot.measured(1.0, 0.9, 0.3, look_of(0), true);
+  Svg expected(200.0, 100.0, "");
+  const Point low = plot.at(1.0, 0.6), high = plot.at(1.0, 1.0);
+  expected.line(low, high, {.stroke = look_of(0).colour, .stroke_width = 1.2});
+  expected.disc(plot.at(1.0, 0.9), 4.5,
+                {.fill = look_of(0).colour, .stroke = look_of(0).colour, .stroke_width = 1.5});
+  for (const auto* shape : {"<line", "<circle"}) {
+    const auto text = expected.element();
+    const auto begin = text.find(shape);
+    CHECK(count_of(plot.svg().element(), text.substr(begin, text.find("/>") - begin)) == 1);
+  }
+}
+
+TEST_CASE("What is not known is not drawn") {
+  auto plot = small_plot();
+  const auto before = plot.svg().element();
+  plot.measured(1.0, std::nan(""), 0.1, look_of(0), true);
+  plot.cross(1.0, std::nan(""), look_of(0));
+  plot.arrow_up(1.0, std::nan(""), look_of(0));
+  CHECK(plot.svg().element() == before);
+  plot.measured(1.0, 0.5, std::nan(""), look_of(0), false);
+  CHECK(count_of(plot.svg().element(), "<line") == count_of(before, "<line"));
+  CHECK(count_of(plot.svg().element(), "<circle") == 1);
+}
+
+TEST_CASE("A legend makes room for its entries") {
+  auto plot = small_plot();
+  plot.legend("both", {{"slow", look_of(0)}, {"fast", look_of(1)}}, true);
+  const auto text = plot.svg().element();
+  CHECK(count_of(text, ">slow</text>") == 1);
+  CHECK(count_of(text, ">both</text>") == 1);
+  CHECK(count_of(text, "height=\"158\"") == 1);
+  CHECK(look_of(0).colour != look_of(1).colour);
+  CHECK(look_of(0).symbol != look_of(1).symbol);
 }
 
 TEST_CASE("A plot puts a pair of values where its axes say") {

@@ -61,8 +61,8 @@ TEST_CASE("What was written to a run file is read back") {
   CHECK(run.series_of("velocity").column.doc == "Mean axial velocity.");
   CHECK(run.series_of("velocity").values == std::vector{-1.0, -1.0 / 2, -1.0 / 3});
   CHECK_THROWS_AS(run.series_of("speed"), std::out_of_range);
-  CHECK(run.start == Provenance{{"date", "today"}, {"command", "riesel run"}});
-  CHECK(run.resumes.empty());
+  CHECK(run.history.start == Provenance{{"date", "today"}, {"command", "riesel run"}});
+  CHECK(run.history.resumes.empty());
 }
 
 TEST_CASE("Each resume of a run is told of") {
@@ -75,7 +75,8 @@ TEST_CASE("Each resume of a run is told of") {
     file.flush();
   }
   const auto run = read_run_file(path);
-  CHECK(run.resumes == std::vector<Provenance>{{{"date", "tomorrow"}}, {{"date", "later"}}});
+  CHECK(run.history.resumes
+        == std::vector<Provenance>{{{"date", "tomorrow"}}, {{"date", "later"}}});
 }
 
 TEST_CASE("A run file that is damaged or no record of a flow is refused") {

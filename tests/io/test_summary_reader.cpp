@@ -2,10 +2,15 @@
 // refused.
 #include "io/summary_reader.hpp"
 
+#include "io/build_info.hpp"
 #include "io/file_error.hpp"
 #include "tests/io/file_fixture.hpp"
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 using namespace riesel;
 using namespace riesel::io;
@@ -68,7 +73,7 @@ FlowSummary special_summary() {
 }
 
 std::string complaint(const fs::path& path) {
-  return message_of<FileError>([&] { read_flow_summary(path); });
+  return message_of<FileError>([&] { read_summary(path); });
 }
 
 std::string with(std::string text, const std::string& old, const std::string& replacement) {
@@ -84,7 +89,7 @@ TEST_CASE("A summary that is read back and written again is the same text") {
   const auto path = directory / summary_name;
   const auto text = to_json(special_summary());
   overwrite(path, text);
-  const auto summary = read_flow_summary(path);
+  const auto summary = std::get<FlowSummary>(read_summary(path));
   CHECK(to_json(summary) == text);
   CHECK(std::isnan(summary.mean_axial_velocity.error));
   CHECK(summary.validity.verdict.findings.at(2).verdict == Validity::unphysical);
@@ -100,11 +105,57 @@ TEST_CASE("A summary that does not fit is refused with a reason") {
        {std::string(), std::string("[]"), text.substr(0, text.size() / 2),
         with(text, "\"gravity_work\"", "\"work\""),
         with(text, "\"grains\": 1403", "\"grains\": \"many\""),
-        with(text, "\"verdict\": \"unphysical\"", "\"verdict\": \"valid\"")}) {
+        with(text, "\"verdict\": \"unphysical\"", "\"verdict\": \"good\""),
+        with(text, "\"name\": \"max_overlap_ratio\"", "\"name\": \"overlap\"")}) {
     overwrite(path, damaged);
     INFO(damaged.substr(0, 200));
-    CHECK(complaint(path).find("is damaged, or of another version") != std::string::npos);
+    CHECK(complaint(path).find("is damaged") != std::string::npos);
   }
-  overwrite(path, to_json(CurveSummary{}));
-  CHECK(complaint(path).find("impact") != std::string::npos);
+}
+
+TEST_CASE("A summary of another format is refused, and told which riesel wrote it") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  const auto text = to_json(special_summary());
+  const auto format = "\"format\": " + std::to_string(summary_format) + ",";
+  for (const auto& [replacement, told] : std::vector<std::pair<std::string, std::string>>{
+           {"", "has format 1"}, {"\"format\": 99,", "has format 99"}}) {
+    overwrite(path, with(text, format, replacement));
+    CHECK(complaint(path).find(told) != std::string::npos);
+    CHECK(complaint(path).find("use riesel " + std::string(build_info().version))
+          != std::string::npos);
+  }
+}
+
+TEST_CASE("Verdicts and thresholds are those of the file, words are those of this program") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  overwrite(path, with(to_json(special_summary()), "\"suspect\": 0.2,", "\"suspect\": 0.001,"));
+  const auto summary = std::get<FlowSummary>(read_summary(path));
+  const Finding& finding = summary.validity.verdict.findings.at(0);
+  CHECK(finding.suspect == 0.001);
+  CHECK(finding.verdict == Validity::suspect);
+  CHECK(finding.meaning == "grains sink deep into each other");
+}
+
+TEST_CASE("A curve that is read back and written again is the same text") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  CurveSummary curve;
+  curve.run.scenario = "wall_array";
+  curve.curve = {{.v_x = 0.1,
+                  .v_y = 1.0 / 3.0,
+                  .dv_x = std::nan(""),
+                  .dv_y = -0.5,
+                  .contacts = 1.5,
+                  .contact_time = 1e-5,
+                  .max_overlap = 2e-6,
+                  .passed = 3,
+                  .stuck = 4,
+                  .cut_short = 0.25,
+                  .brake_failure_fraction = 0.125,
+                  .verdict = Validity::suspect},
+                 {.v_x = 0.2, .verdict = Validity::unphysical}};
+  overwrite(path, to_json(curve));
+  CHECK(to_json(std::get<CurveSummary>(read_summary(path))) == to_json(curve));
 }

@@ -46,6 +46,10 @@ TEST_CASE("Shapes of a drawing have their places and styles") {
   svg.line({0.0, -0.001}, {1e3, 10.10}, {.stroke = "#123456", .dashes = "4 3"});
   svg.polyline(std::array<Point, 2>{{{0.5, 1.0}, {2.0, 3.25}}});
   svg.text({5.0, 6.0}, "1 < 2", {.anchor = "end"});
+  svg.begin_link("../a b/\"c\"/", "what <it> is");
+  svg.polygon(std::array<Point, 3>{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}}, {.fill = "blue"});
+  svg.end_link();
+  svg.extend(20.0);
   const auto text = svg.element();
   CHECK(has(text, "<g class=\"dots\" fill=\"red\" stroke-width=\"0.5\">\n"
                   "<circle cx=\"1\" cy=\"2.35\" r=\"3\"/>\n</g>\n"));
@@ -54,7 +58,9 @@ TEST_CASE("Shapes of a drawing have their places and styles") {
   CHECK(has(text, "<polyline points=\"0.5,1 2,3.25\"/>"));
   CHECK(has(text, "<text x=\"5\" y=\"6\" text-anchor=\"end\">1 &lt; 2</text>"));
   CHECK(has(text, "<title>a &lt;drawing&gt;</title>"));
-  CHECK(has(text, "viewBox=\"0 0 200 100.5\""));
+  CHECK(has(text, "<a href=\"../a b/&quot;c&quot;/\"><title>what &lt;it&gt; is</title>\n"
+                  "<polygon points=\"0,0 1,0 0,1\" fill=\"blue\"/>\n</a>\n"));
+  CHECK(has(text, "viewBox=\"0 0 200 120.5\""));
   CHECK(text.substr(0, 5) == "<svg ");
 }
 
@@ -88,16 +94,21 @@ TEST_CASE("A page holds its parts in their order, escaped") {
   page.paragraph("<script>", "good");
   page.table({{"name", "J"}, {"a<b", "-1.5e-07"}});
   page.table({{"of both"}, {"1 m/s"}, {"2"}});
+  page.table({{"linked"}, {{"3", "points/\"/"}}, {""}});
+  page.table({{"words"}, {"many words that need not stand on one line, as others do"}});
   page.figure(Svg(10.0, 10.0, "nothing"), "c > d");
   page.folded("settings", "a: {b: 'c'}\n");
   const auto text = page.text();
   std::size_t last = 0;
   for (const std::string part :
        {"<!DOCTYPE html>", "<title>1 &lt; 2</title>", "<h1>1 &lt; 2</h1>", "<h2>R&amp;D</h2>",
-        "<p class=\"good\">&lt;script&gt;</p>", "<th>name</th><th class=\"number\">J</th>",
-        "<td>a&lt;b</td><td class=\"number\">-1.5e-07</td>", "<td>1 m/s</td>", "<td>2</td>",
-        "<svg ", "<figcaption>c &gt; d</figcaption>", "<summary>settings</summary>",
-        "<pre>a: {b: &#39;c&#39;}\n</pre>", "</html>"}) {
+        "<p class=\"good\">&lt;script&gt;</p>",
+        "<th class=\"short\">name</th><th class=\"number\">J</th>",
+        "<td class=\"short\">a&lt;b</td><td class=\"number\">-1.5e-07</td>",
+        "<td class=\"short\">1 m/s</td>", "<td class=\"short\">2</td>",
+        "<td class=\"number\"><a href=\"points/&quot;/\">3</a></td>", "<td class=\"number\"></td>",
+        "<td class=\"long\">many words", "<svg ", "<figcaption>c &gt; d</figcaption>",
+        "<summary>settings</summary>", "<pre>a: {b: &#39;c&#39;}\n</pre>", "</html>"}) {
     const auto found = text.find(part, last);
     INFO(part);
     REQUIRE(found != std::string::npos);

@@ -1,9 +1,8 @@
-#include "app/report_page.hpp"
+#include "app/report_flow.hpp"
 
 #include "app/plain_words.hpp"
 #include "app/report_figures.hpp"
 #include "app/state_figure.hpp"
-#include "io/html_page.hpp"
 
 #include <fmt/format.h>
 
@@ -19,25 +18,6 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-using Rows = std::vector<std::vector<std::string>>;
-
-std::string number(double value, const char* form = "{:.4g}") {
-  return std::isnan(value) ? "not known" : fmt::format(fmt::runtime(form), value);
-}
-
-std::string with_error(const io::Measured& m, const std::string& unit) {
-  if (std::isnan(m.value)) return "not known";
-  const std::string error =
-      std::isnan(m.error) ? "(error not known)" : "± " + number(m.error, "{:.2g}");
-  return fmt::format("{:.4g} {}{}", m.value, error, unit.empty() ? "" : " " + unit);
-}
-
-/// The class of a paragraph, see io::HtmlPage.
-std::string class_of(Validity validity) {
-  if (validity == Validity::valid) return "good";
-  return validity == Validity::suspect ? "doubtful" : "bad";
-}
-
 std::string what_validity_means(Validity validity) {
   if (validity == Validity::valid)
     return "Valid: nothing was found that would make the result an artefact of soft contacts.";
@@ -46,10 +26,10 @@ std::string what_validity_means(Validity validity) {
   return "Unphysical: the result is an artefact of soft contacts and no property of hard grains:";
 }
 
-class ReportMaker {
+class FlowReport {
 public:
-  explicit ReportMaker(const FlowRecord& record)
-      : record_(&record), page_("riesel: " + record.summary.run.scenario) {}
+  explicit FlowReport(const FlowRecord& record)
+      : record_(&record), draft_("riesel: " + record.summary.run.scenario) {}
 
   Report make() && {
     tell_result();
@@ -57,24 +37,20 @@ public:
     show_series();
     show_energy();
     show_walls();
-    tell_settings();
-    return {.page = page_.text(), .figures = std::move(figures_)};
+    draft_.add_origin(summary().run, record_->run.history, record_->effective_settings);
+    return draft_.report();
   }
 
 private:
   const io::FlowSummary& summary() const { return record_->summary; }
-
-  void add_figure(const std::string& name, const io::Svg& svg, const std::string& caption) {
-    page_.figure(svg, caption);
-    figures_.push_back({.name = name, .svg = svg});
-  }
+  io::HtmlPage& page() { return draft_.page(); }
 
   void tell_result() {
     const auto& s = summary();
-    page_.paragraph(
+    page().paragraph(
         fmt::format("{} grains, {:.6g} s in {} steps.", s.run.grains, s.time, s.run.steps));
     const bool is_steady = s.state == "steady";
-    page_.paragraph(
+    page().paragraph(
         fmt::format(
             "Mean axial velocity {} after {:.3g} s, from {} independent samples (68 % error "
             "bar). State: {}: {}.{}",
@@ -87,13 +63,13 @@ private:
 
   void tell_validity() {
     const ValidityVerdict& v = summary().validity.verdict;
-    page_.paragraph(what_validity_means(v.verdict), class_of(v.verdict));
+    page().paragraph(what_validity_means(v.verdict), class_of(v.verdict));
     std::vector<std::string> reasons;
     for (const Finding& f : v.findings)
       if (f.verdict != Validity::valid)
         reasons.push_back(fmt::format("{}: {}", name(f.verdict), explanation(f)));
-    if (!reasons.empty()) page_.list(reasons);
-    Rows rows = {{"finding", "value", "suspect", "unphysical", "says"}};
+    if (!reasons.empty()) page().list(reasons);
+    io::HtmlRows rows = {{"finding", "value", "suspect", "unphysical", "says"}};
     for (const Finding& f : v.findings) {
       const auto threshold = [&](double value) {
         return std::isfinite(value)
@@ -103,7 +79,7 @@ private:
       rows.push_back({std::string(f.name), number(f.value, "{:.3g}"), threshold(f.suspect),
                       threshold(f.unphysical), std::string(name(f.verdict))});
     }
-    page_.table(rows);
+    page().table(rows);
   }
 
   void show_state() {
@@ -121,8 +97,8 @@ private:
             : fmt::format(
                 " The tube is cut into {} columns: each goes on at the top of the next one.",
                 figure.columns);
-    page_.heading("The state at the end");
-    add_figure(
+    page().heading("The state at the end");
+    draft_.add_figure(
         "state", figure.svg,
         fmt::format("{} at t = {:.6g} s, coloured by their axial velocity; gravity points down. "
                     "The tube is {:.4g} mm wide and {:.4g} mm long. Grey: wall grains. Red lines: "
@@ -143,7 +119,7 @@ private:
         {"granular_temperature", mean({.value = s.granular_temperature, .error = unknown})},
         {"contacts", std::nullopt},
         {"max_overlap", std::nullopt}};
-    page_.heading("Series");
+    page().heading("Series");
     const io::Series& time = record_->run.series_of("time");
     for (const auto& [name, of_mean] : shown) {
       const io::Series& series = record_->run.series_of(name);
@@ -152,26 +128,26 @@ private:
       if (of_mean)
         caption +=
             std::isnan(of_mean->error) ? "; its error is not known." : ", and its error as a band.";
-      add_figure(name, draw_series(time, series, {s.transient_end, of_mean}), caption);
+      draft_.add_figure(name, draw_series(time, series, {s.transient_end, of_mean}), caption);
     }
-    page_.paragraph(fmt::format(
+    page().paragraph(fmt::format(
         "Grey: the transient, up to t = {:.4g} s, which is left out of all means. Where there are "
         "more rows than pixels, each column shows its first, lowest, highest and last value.",
         s.transient_end));
   }
 
   void show_energy() {
-    page_.heading("Energy");
+    page().heading("Energy");
     const auto parts = parts_of(summary().energy);
     const double came_in = summary().energy.initial + summary().energy.gravity_work;
-    Rows rows = {{"part", "J", "of what came in"}};
+    io::HtmlRows rows = {{"part", "J", "of what came in"}};
     for (const EnergyPart& part : parts)
       rows.push_back({part.name, number(part.value),
                       came_in > 0.0 ? fmt::format("{:.3g} %", 100.0 * part.value / came_in)
                                     : std::string("not defined")});
-    page_.table(rows);
+    page().table(rows);
     if (std::ranges::all_of(parts, [](const EnergyPart& p) { return std::isfinite(p.value); }))
-      add_figure(
+      draft_.add_figure(
           "energy", draw_energy(parts),
           "Blue: energy that came in since the start. Orange: where it is. The residual is what "
           "is missing in the balance: the error of the calculation.");
@@ -180,8 +156,8 @@ private:
   void show_walls() {
     const auto& b = summary().balance;
     const auto& v = summary().wall_visits;
-    page_.heading("Walls");
-    page_.table(
+    page().heading("Walls");
+    page().table(
         {{"after the transient", "value"},
          {"wall contacts per grain, n_dot", with_error(b.n_dot, "1/s")},
          {"axial velocity lost per wall contact", with_error(b.dv_y, "m/s")},
@@ -192,32 +168,18 @@ private:
          {"axial velocity lost per visit", with_error(v.dv_y, "m/s")},
          {"velocity above which a wall contact is cut short, v_crit",
           number(summary().validity.v_crit) + " m/s"}});
-  }
-
-  void tell_settings() {
-    page_.heading("Settings and origin");
-    page_.folded("Effective settings: running them again gives the same bits",
-                 record_->effective_settings);
-    Rows rows = {{"origin", ""},
-                 {"state hash", fmt::format("{:016x}", summary().run.state_hash)},
-                 {"performance", fmt::format("{:.3g} particle-steps/s, threads: {}, {:.3g} s",
-                                             summary().run.particle_steps_per_second,
-                                             summary().run.threads, summary().run.wall_seconds)}};
-    for (const auto& [name, value] : record_->run.start) rows.push_back({name, value});
-    for (std::size_t i = 0; i < record_->run.resumes.size(); ++i)
-      for (const auto& entry : record_->run.resumes[i])
-        if (std::ranges::count(record_->run.start, entry) == 0)  // tell what is new
-          rows.push_back({fmt::format("resume {}: {}", i + 1, entry.first), entry.second});
-    page_.table(rows);
+    draft_.add_figure("visits", draw_visits(v.of_contacts),
+                      "Contacts per visit to a wall, of all visits that have ended since the "
+                      "start. Many contacts with short passages are the brake failure of the "
+                      "paper; see passages_per_wall_visit above.");
   }
 
   const FlowRecord* record_;
-  io::HtmlPage page_;
-  std::vector<ReportFigure> figures_;
+  ReportDraft draft_;
 };
 
 }  // namespace
 
-Report make_report(const FlowRecord& record) { return ReportMaker(record).make(); }
+Report make_report(const FlowRecord& record) { return FlowReport(record).make(); }
 
 }  // namespace riesel::app

@@ -1,0 +1,92 @@
+#include "app/report_impacts.hpp"
+
+#include "app/plain_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace riesel::app {
+
+namespace {
+
+Validity worst_of(const io::CurveSummary& summary) {
+  Validity worst = Validity::valid;
+  for (const io::CurvePoint& point : summary.curve) worst = std::max(worst, point.verdict);
+  return worst;
+}
+
+void tell_result(const io::CurveSummary& summary, io::HtmlPage& page) {
+  page.paragraph(
+      fmt::format("{} points, each the mean over its starting places.", summary.curve.size()));
+  page.paragraph("Validity of the points: " + count_of_verdicts(summary) + ".",
+                 class_of(worst_of(summary)));
+  const auto limits = where_unphysical(summary);
+  if (!limits.empty()) {
+    page.paragraph("Unphysical are:");
+    page.list(limits);
+  }
+  int passed = 0, stuck = 0;
+  for (const io::CurvePoint& point : summary.curve) {
+    passed += point.passed;
+    stuck += point.stuck;
+  }
+  if (passed + stuck > 0)
+    page.paragraph(fmt::format("{} impacts went through the wall and {} never came away from it: "
+                               "they are left out of the means.",
+                               passed, stuck),
+                   "doubtful");
+}
+
+void show_curves(const io::CurveSummary& summary, ReportDraft& draft) {
+  std::vector<ImpactLine> lines = lines_of(summary);
+  if (lines.size() > 1)
+    for (ImpactLine& line : lines)
+      line.name = fmt::format("v_x = {:.6g} m/s", line.points.front().v_x);
+  draft.page().heading("Curves");
+  draft.page().paragraph(what_dashes_mean);
+  for (const ImpactQuantity& quantity : impact_quantities())
+    draft.add_figure(quantity.name, draw_impacts("", quantity, lines), quantity.doc);
+}
+
+void list_points(const io::CurveSummary& summary, io::HtmlPage& page) {
+  page.heading("Points");
+  io::HtmlRows rows = {{"v_x (m/s)", "v_y (m/s)", "dv_y (m/s)", "dv_x (m/s)", "contacts",
+                        "cut short", "brake failure", "overlap (m)", "passed", "stuck",
+                        "validity"}};
+  for (const io::CurvePoint& p : summary.curve)
+    rows.push_back({number(p.v_x), number(p.v_y), number(p.dv_y), number(p.dv_x),
+                    number(p.contacts), number(p.cut_short),
+                    number(p.brake_failure_fraction, "{:.3g}"), number(p.max_overlap, "{:.3g}"),
+                    std::to_string(p.passed), std::to_string(p.stuck),
+                    std::string(name(p.verdict))});
+  page.table(rows);
+}
+
+}  // namespace
+
+std::vector<ImpactLine> lines_of(const io::CurveSummary& summary) {
+  std::vector<ImpactLine> lines;
+  for (const io::CurvePoint& point : summary.curve) {
+    const auto found = std::ranges::find_if(
+        lines, [&](const ImpactLine& line) { return line.points.front().v_x == point.v_x; });
+    if (found == lines.end())
+      lines.push_back({.name = "", .points = {point}});
+    else
+      found->points.push_back(point);
+  }
+  for (ImpactLine& line : lines) std::ranges::stable_sort(line.points, {}, &io::CurvePoint::v_y);
+  return lines;
+}
+
+Report make_report(const ImpactRecord& record) {
+  ReportDraft draft("riesel: " + record.summary.run.scenario);
+  tell_result(record.summary, draft.page());
+  show_curves(record.summary, draft);
+  list_points(record.summary, draft.page());
+  draft.add_origin(record.summary.run, record.history, record.effective_settings);
+  return draft.report();
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,34 @@
+// The report of an impact scenario: its curves, and where they are no property of hard grains.
+#pragma once
+
+#include "app/report_curves.hpp"
+#include "app/report_parts.hpp"
+#include "io/run_reader.hpp"
+#include "io/summary.hpp"
+
+#include <string>
+#include <vector>
+
+namespace riesel::app {
+
+/// What a finished run left.
+struct ImpactRecord {
+  io::CurveSummary summary;
+  io::RunHistory history;
+  std::string effective_settings;
+};
+
+/// Equal records give equal reports, byte by byte.
+Report make_report(const ImpactRecord& record);
+
+/// A line for each v_x, without names.
+std::vector<ImpactLine> lines_of(const io::CurveSummary& summary);
+
+/// What dashed lines of draw_impacts() mean, in words.
+inline constexpr auto what_dashes_mean =
+    "Lines are dashed where the result is unphysical: more than half of the braking is done by "
+    "contacts that "
+    "are passed through before they can push (brake failure), or grains sink into each other by "
+    "more than half a radius.";
+
+}  // namespace riesel::app

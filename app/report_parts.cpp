@@ -1,0 +1,58 @@
+#include "app/report_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel::app {
+
+void ReportDraft::add_figure(const std::string& name, const io::Svg& svg,
+                             std::string_view caption) {
+  add_figure(name, svg, svg, caption);
+}
+
+void ReportDraft::add_figure(const std::string& name, const io::Svg& in_page,
+                             const io::Svg& as_file, std::string_view caption) {
+  page_.figure(in_page, caption);
+  figures_.push_back({.name = name, .svg = as_file});
+}
+
+void ReportDraft::add_origin(const io::RunSummary& run, const io::RunHistory& history,
+                             const std::string& effective_settings) {
+  page_.heading("Settings and origin");
+  page_.folded("Effective settings: running them again gives the same bits", effective_settings);
+  io::HtmlRows rows = {
+      {"origin", ""},
+      {"state hash", fmt::format("{:016x}", run.state_hash)},
+      {"performance", fmt::format("{:.3g} particle-steps/s, threads: {}, {:.3g} s",
+                                  run.particle_steps_per_second, run.threads, run.wall_seconds)}};
+  for (const auto& [name, value] : history.start) rows.push_back({name, value});
+  for (std::size_t i = 0; i < history.resumes.size(); ++i)
+    for (const auto& entry : history.resumes[i])
+      if (std::ranges::count(history.start, entry) == 0)  // tell what is new
+        rows.push_back({fmt::format("resume {}: {}", i + 1, entry.first), entry.second});
+  page_.table(rows);
+}
+
+std::string number(double value, const char* form) {
+  return std::isnan(value) ? "not known" : fmt::format(fmt::runtime(form), value);
+}
+
+std::string with_error(const io::Measured& m, const std::string& unit) {
+  if (std::isnan(m.value)) return "not known";
+  const std::string error =
+      std::isnan(m.error) ? "(error not known)" : "± " + number(m.error, "{:.2g}");
+  return fmt::format("{:.4g} {}{}", m.value, error, unit.empty() ? "" : " " + unit);
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
+}
+
+std::string class_of(Validity validity) {
+  if (validity == Validity::valid) return "good";
+  return validity == Validity::suspect ? "doubtful" : "bad";
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,62 @@
+// What the reports of runs and of sweeps are made of: a page that collects its figures, and numbers
+// in words.
+#pragma once
+
+#include "engine/validity.hpp"
+#include "io/html_page.hpp"
+#include "io/run_reader.hpp"
+#include "io/summary.hpp"
+#include "io/svg.hpp"
+
+#include <string>
+#include <vector>
+
+namespace riesel::app {
+
+struct ReportFigure {
+  std::string name;  ///< of a file, without its ending
+  io::Svg svg;       ///< as it stands in figures/: its links go up first
+};
+
+struct Report {
+  std::string page;  ///< HTML that stands alone
+  std::vector<ReportFigure> figures;
+};
+
+/// A report that is being made.
+class ReportDraft {
+public:
+  explicit ReportDraft(std::string_view title) : page_(title) {}
+
+  io::HtmlPage& page() { return page_; }
+
+  /// A figure without links.
+  void add_figure(const std::string& name, const io::Svg& svg, std::string_view caption);
+  /// A figure with links: once as it stands in the page, once as a file in figures/.
+  void add_figure(const std::string& name, const io::Svg& in_page, const io::Svg& as_file,
+                  std::string_view caption);
+
+  /// Settings, program, machine and command of a run.
+  void add_origin(const io::RunSummary& run, const io::RunHistory& history,
+                  const std::string& effective_settings);
+
+  Report report() const { return {.page = page_.text(), .figures = figures_}; }
+
+private:
+  io::HtmlPage page_;
+  std::vector<ReportFigure> figures_;
+};
+
+/// "not known" for what is not a number. `form` is a format of one double.
+std::string number(double value, const char* form = "{:.4g}");
+
+/// "1.53 ± 0.02 m/s"; `unit` may be empty.
+std::string with_error(const io::Measured& measured, const std::string& unit);
+
+/// "spacing (m)"; without a unit if that is empty or "1".
+std::string with_unit(const std::string& name, const std::string& unit);
+
+/// The class of a paragraph, see io::HtmlPage.
+std::string class_of(Validity validity);
+
+}  // namespace riesel::app

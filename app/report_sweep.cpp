@@ -1,0 +1,216 @@
+#include "app/report_sweep.hpp"
+
+#include "app/plain_words.hpp"
+#include "app/report_impacts.hpp"
+#include "app/report_sweep_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace riesel::app {
+
+namespace {
+
+/// "3 steady, 1 too_short"
+std::string counted(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+  return text;
+}
+
+/// Below the head: no branches, no legs.
+io::HtmlRows without_empty_columns(const io::HtmlRows& rows) {
+  io::HtmlRows kept(rows.size());
+  for (std::size_t column = 0; column < rows.front().size(); ++column) {
+    const auto is_empty = [&](const auto& row) { return row[column].text.empty(); };
+    if (std::all_of(rows.begin() + 1, rows.end(), is_empty)) continue;
+    for (std::size_t i = 0; i < rows.size(); ++i) kept[i].push_back(rows[i][column]);
+  }
+  return kept;
+}
+
+class SweepReport {
+public:
+  explicit SweepReport(const SweepRecord& record)
+      : record_(&record), draft_("riesel: sweep of " + scenario()) {}
+
+  Report make() && {
+    tell_result();
+    show_velocities();
+    show_impacts();
+    list_points();
+    page().heading("The sweep");
+    page().folded("The sweep file", record_->sweep_file);
+    return draft_.report();
+  }
+
+private:
+  const io::Manifest& manifest() const { return record_->manifest; }
+  io::HtmlPage& page() { return draft_.page(); }
+
+  const io::FlowSummary* flow(std::size_t i) const {
+    const auto& summary = record_->results[i].summary;
+    return summary ? std::get_if<io::FlowSummary>(&*summary) : nullptr;
+  }
+
+  const io::CurveSummary* curve(std::size_t i) const {
+    const auto& summary = record_->results[i].summary;
+    return summary ? std::get_if<io::CurveSummary>(&*summary) : nullptr;
+  }
+
+  std::string scenario() const {
+    for (std::size_t i = 0; i < record_->results.size(); ++i) {
+      if (const auto* summary = flow(i)) return summary->run.scenario;
+      if (const auto* summary = curve(i)) return summary->run.scenario;
+    }
+    return "nothing";
+  }
+
+  void tell_result() {
+    std::map<std::string, int> statuses, states, verdicts;
+    for (std::size_t i = 0; i < record_->results.size(); ++i) {
+      ++statuses[manifest().points[i].status];
+      const auto* summary = flow(i);
+      if (summary == nullptr) continue;
+      ++states[summary->state];
+      ++verdicts[std::string(name(summary->validity.verdict.verdict))];
+    }
+    page().paragraph(fmt::format("{} points: {}.", manifest().points.size(), counted(statuses)));
+    if (states.empty()) return;
+    const bool is_good = states.size() == 1 && states.contains("steady") && verdicts.size() == 1
+                         && verdicts.contains("valid");
+    page().paragraph(fmt::format("State of the flows: {}. Validity: {}.{}", counted(states),
+                                 counted(verdicts),
+                                 is_good ? ""
+                                         : " Only a steady and valid mean is a property of the "
+                                           "flow of hard grains."),
+                     is_good ? "good" : "doubtful");
+  }
+
+  /// The name of the file of one of several figures.
+  static std::string numbered(const std::string& name, std::size_t i, std::size_t of) {
+    return of == 1 ? name : fmt::format("{}_{}", name, i + 1);
+  }
+
+  void show_velocities() {
+    if (scenario_has_curves()) return;
+    page().heading("Mean axial velocity");
+    const auto axis = axis_of(manifest());
+    if (!axis) {
+      page().paragraph("There is no figure: no setting with numbers has several values.");
+      return;
+    }
+    const io::VariedSetting& setting = manifest().varied[*axis];
+    const std::string label = with_unit(setting.key, setting.unit);
+    page().paragraph(what_symbols_mean());
+    const auto panels = velocity_panels(*record_, *axis);
+    for (std::size_t i = 0; i < panels.size(); ++i)
+      draft_.add_figure(numbered("mean_axial_velocity", i, panels.size()),
+                        draw_velocities(panels[i].title, label, panels[i].curves, ""),
+                        draw_velocities(panels[i].title, label, panels[i].curves, "../"),
+                        "Mean axial velocity against " + setting.key + ".");
+  }
+
+  /// Of draw_velocities().
+  std::string what_symbols_mean() const {
+    const bool has_legs = std::ranges::any_of(
+        manifest().points, [](const io::ManifestPoint& point) { return !point.leg.empty(); });
+    return std::string(
+               "Means after the transient, with 68 % error bars. Full symbols: steady. Open: not "
+               "steady, no property of the flow. Arrows: still accelerating. Red crosses: "
+               "unphysical, an artefact of soft contacts. A click leads to the run. Lines join "
+               "runs of one seed and are there to guide the eye.")
+           + (has_legs ? " Full lines: the way there along the axis; dashed: the way back." : "");
+  }
+
+  bool scenario_has_curves() const {
+    for (std::size_t i = 0; i < record_->results.size(); ++i)
+      if (curve(i) != nullptr) return true;
+    return false;
+  }
+
+  void show_impacts() {
+    const auto panels = impact_panels(*record_);
+    if (panels.empty()) return;
+    page().heading("Impacts");
+    page().paragraph(what_dashes_mean);
+    for (std::size_t i = 0; i < panels.size(); ++i)
+      for (std::size_t q = 0; q < 2; ++q) {  // those of the paper; the others are in the runs
+        const ImpactQuantity& quantity = impact_quantities()[q];
+        draft_.add_figure(numbered(quantity.name, i, panels.size()),
+                          draw_impacts(panels[i].title, quantity, panels[i].lines), quantity.doc);
+      }
+  }
+
+  void list_points() {
+    page().heading("Points");
+    std::vector<io::HtmlCell> head = {"point"};
+    for (const io::VariedSetting& setting : manifest().varied)
+      head.emplace_back(with_unit(last_part(setting.key), setting.unit));
+    for (const char* name : {"branch", "leg"}) head.emplace_back(name);
+    const std::vector<const char*> of_results =
+        scenario_has_curves()
+            ? std::vector{"points of the curve", "left out", "validity of these points"}
+            : std::vector{"mean v_y (m/s)", "state", "validity", "brake failure", "n_dot dv_y / g"};
+    for (const char* name : of_results) head.emplace_back(name);
+    for (const char* name : {"report", "status"}) head.emplace_back(name);
+    io::HtmlRows rows = {head};
+    for (std::size_t i = 0; i < record_->results.size(); ++i)
+      rows.push_back(row_of(i, head.size()));
+    page().table(without_empty_columns(rows));
+  }
+
+  /// With as many cells as the head.
+  std::vector<io::HtmlCell> row_of(std::size_t i, std::size_t cells) const {
+    const io::ManifestPoint& point = manifest().points[i];
+    const SweepResult& result = record_->results[i];
+    std::vector<io::HtmlCell> row = {{point.name, result.directory + "/"}};
+    for (const io::Cell& value : point.values) row.emplace_back(text_of(value, ""));
+    row.emplace_back(point.branch);
+    row.emplace_back(point.leg);
+    if (const auto* summary = flow(i)) add_flow(*summary, row);
+    if (const auto* summary = curve(i)) add_curve(*summary, row);
+    row.resize(cells - 2, "");
+    row.push_back(result.has_report ? io::HtmlCell("report", result.directory + "/report.html")
+                                    : io::HtmlCell(""));
+    const std::string& reason = result.flaw.empty() ? point.reason : result.flaw;
+    row.emplace_back(point.status + (reason.empty() ? "" : ": " + reason));
+    return row;
+  }
+
+  static void add_flow(const io::FlowSummary& s, std::vector<io::HtmlCell>& row) {
+    const io::Measured& carried = s.balance.n_dot_dv_y;
+    row.emplace_back(with_error(s.mean_axial_velocity, ""));
+    row.emplace_back(s.state);
+    row.emplace_back(std::string(name(s.validity.verdict.verdict)));
+    double failure = std::numeric_limits<double>::quiet_NaN();
+    for (const Finding& finding : s.validity.verdict.findings)
+      if (finding.name == "brake_failure_fraction") failure = finding.value;
+    row.emplace_back(number(failure, "{:.2g}"));
+    row.emplace_back(with_error(
+        {.value = carried.value / s.balance.gravity, .error = carried.error / s.balance.gravity},
+        ""));
+  }
+
+  static void add_curve(const io::CurveSummary& s, std::vector<io::HtmlCell>& row) {
+    int left_out = 0;
+    for (const io::CurvePoint& point : s.curve) left_out += point.passed + point.stuck;
+    row.emplace_back(std::to_string(s.curve.size()));
+    row.emplace_back(std::to_string(left_out));
+    row.emplace_back(count_of_verdicts(s));
+  }
+
+  const SweepRecord* record_;
+  ReportDraft draft_;
+};
+
+}  // namespace
+
+Report make_report(const SweepRecord& record) { return SweepReport(record).make(); }
+
+}  // namespace riesel::app

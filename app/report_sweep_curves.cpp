@@ -1,0 +1,214 @@
+#include "app/report_sweep_curves.hpp"
+
+#include "app/report_impacts.hpp"
+#include "app/report_panels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace riesel::app {
+
+namespace {
+
+using Marks = std::vector<Mark>;
+
+bool is_seed(const io::VariedSetting& setting) { return setting.key == "seed"; }
+
+bool is_number(const io::Cell& cell) { return std::holds_alternative<double>(cell); }
+
+/// Whether some setting is the axis of a figure: numbers, and not always the same.
+bool can_be_axis(const io::Manifest& manifest, std::size_t setting) {
+  return !is_seed(manifest.varied[setting])
+         && std::ranges::all_of(manifest.points,
+                                [&](const auto& p) { return is_number(p.values[setting]); });
+}
+
+std::size_t number_of_values(const io::Manifest& manifest, std::size_t setting) {
+  std::set<io::Cell> values;
+  for (const io::ManifestPoint& point : manifest.points) values.insert(point.values[setting]);
+  return values.size();
+}
+
+/// Where a point differs from the neighbour that it continues.
+std::optional<std::size_t> continued_axis(const io::Manifest& manifest) {
+  for (const io::ManifestPoint& point : manifest.points) {
+    if (point.parent.empty()) continue;
+    const auto parent = std::ranges::find(manifest.points, point.parent, &io::ManifestPoint::name);
+    if (parent == manifest.points.end()) continue;
+    for (std::size_t i = 0; i < manifest.varied.size(); ++i)
+      if (point.values[i] != parent->values[i] && can_be_axis(manifest, i)) return i;
+  }
+  return std::nullopt;
+}
+
+/// Whether each value on the axis comes with one value of the other setting: the two are zipped.
+bool follows_from(const io::Manifest& manifest, std::size_t axis, std::size_t other) {
+  std::map<io::Cell, io::Cell> other_of;
+  return std::ranges::all_of(manifest.points, [&](const io::ManifestPoint& point) {
+    return other_of.emplace(point.values[axis], point.values[other]).first->second
+           == point.values[other];
+  });
+}
+
+/// Whether each branch comes with one value of the setting: its name says it all.
+bool follows_from_branch(const io::Manifest& manifest, std::size_t setting) {
+  std::map<std::string, io::Cell> value_of;
+  return std::ranges::all_of(manifest.points, [&](const io::ManifestPoint& point) {
+    return !point.branch.empty()
+           && value_of.emplace(point.branch, point.values[setting]).first->second
+                  == point.values[setting];
+  });
+}
+
+/// The settings that mark a curve: those that tell something beside the axis, if there is one, and
+/// the branch. Flows of several seeds belong to one curve.
+std::vector<bool> told_beside(const io::Manifest& manifest, std::optional<std::size_t> axis) {
+  std::vector<bool> told;
+  for (std::size_t i = 0; i < manifest.varied.size(); ++i)
+    told.push_back(
+        number_of_values(manifest, i) > 1 && !follows_from_branch(manifest, i)
+        && (!axis
+            || (i != *axis && !is_seed(manifest.varied[i]) && !follows_from(manifest, *axis, i))));
+  return told;
+}
+
+/// Names and values of the settings that are told, and the branch.
+Marks marks_of(const io::Manifest& manifest, const io::ManifestPoint& point,
+               const std::vector<bool>& told) {
+  Marks marks;
+  for (std::size_t i = 0; i < manifest.varied.size(); ++i)
+    if (told[i])
+      marks.push_back({.name = last_part(manifest.varied[i].key),
+                       .value = text_of(point.values[i], manifest.varied[i].unit)});
+  if (!point.branch.empty()) marks.push_back({.name = "", .value = point.branch});
+  return marks;
+}
+
+VelocityPoint velocity_point(const SweepRecord& record, std::size_t index, std::size_t axis) {
+  const io::ManifestPoint& point = record.manifest.points[index];
+  const SweepResult& result = record.results[index];
+  const auto& flow = std::get<io::FlowSummary>(*result.summary);
+  const Validity verdict = flow.validity.verdict.verdict;
+  return {.x = std::get<double>(point.values[axis]),
+          .velocity = flow.mean_axial_velocity,
+          .state = flow.state,
+          .verdict = verdict,
+          .directory = result.directory + (result.has_report ? "/report.html" : "/"),
+          .tip =
+              fmt::format("{}: {}, {}, {}", description_of(record.manifest, point),
+                          with_error(flow.mean_axial_velocity, "m/s"), flow.state, name(verdict))};
+}
+
+/// What tells the lines of a curve apart.
+std::string line_of(const io::Manifest& manifest, const io::ManifestPoint& point) {
+  std::string line = point.leg;
+  for (std::size_t i = 0; i < manifest.varied.size(); ++i)
+    if (is_seed(manifest.varied[i])) line += " " + text_of(point.values[i], "");
+  return line;
+}
+
+VelocityCurve curve_of(const SweepRecord& record, std::size_t axis,
+                       const std::vector<std::size_t>& indices) {
+  std::map<std::string, VelocityLine> lines;
+  for (const std::size_t i : indices) {
+    const io::ManifestPoint& point = record.manifest.points[i];
+    VelocityLine& line = lines[line_of(record.manifest, point)];
+    line.leads_back = point.leg == "backward";
+    line.points.push_back(velocity_point(record, i, axis));
+  }
+  VelocityCurve curve;
+  for (auto& [name, line] : lines) {
+    std::ranges::stable_sort(line.points, {}, &VelocityPoint::x);
+    curve.lines.push_back(std::move(line));
+  }
+  return curve;
+}
+
+template <class Kind>
+bool holds(const SweepResult& result) {
+  return result.summary && std::holds_alternative<Kind>(*result.summary);
+}
+
+}  // namespace
+
+std::optional<std::size_t> axis_of(const io::Manifest& manifest) {
+  if (const auto continued = continued_axis(manifest)) return continued;
+  std::optional<std::size_t> axis;
+  std::size_t most = 1;
+  for (std::size_t i = 0; i < manifest.varied.size(); ++i) {
+    if (!can_be_axis(manifest, i) || number_of_values(manifest, i) <= most) continue;
+    most = number_of_values(manifest, i);
+    axis = i;
+  }
+  return axis;
+}
+
+std::vector<VelocityPanel> velocity_panels(const SweepRecord& record, std::size_t axis) {
+  const std::vector<bool> told = told_beside(record.manifest, axis);
+  std::vector<Marks> curves;
+  std::vector<std::vector<std::size_t>> runs;
+  for (std::size_t i = 0; i < record.results.size(); ++i) {
+    if (!holds<io::FlowSummary>(record.results[i])) continue;
+    const Marks marks = marks_of(record.manifest, record.manifest.points[i], told);
+    const auto place = std::ranges::find(curves, marks) - curves.begin();
+    if (place == std::ssize(curves)) {
+      curves.push_back(marks);
+      runs.emplace_back();
+    }
+    runs[static_cast<std::size_t>(place)].push_back(i);
+  }
+  std::vector<VelocityPanel> panels;
+  for (const Panel& panel : panels_of(curves)) {
+    panels.push_back({.title = panel.title, .curves = {}});
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+      panels.back().curves.push_back(curve_of(record, axis, runs[panel.curves[i]]));
+      panels.back().curves.back().name = panel.names[i];
+    }
+  }
+  return panels;
+}
+
+std::vector<ImpactPanel> impact_panels(const SweepRecord& record) {
+  const std::vector<bool> told = told_beside(record.manifest, std::nullopt);
+  std::vector<Marks> marks;
+  std::vector<ImpactLine> lines;
+  for (std::size_t i = 0; i < record.results.size(); ++i) {
+    if (!holds<io::CurveSummary>(record.results[i])) continue;
+    for (ImpactLine& line : lines_of(std::get<io::CurveSummary>(*record.results[i].summary))) {
+      marks.push_back(marks_of(record.manifest, record.manifest.points[i], told));
+      marks.back().push_back({.name = "v_x", .value = text_of(line.points.front().v_x, "m/s")});
+      lines.push_back(std::move(line));
+    }
+  }
+  std::vector<ImpactPanel> panels;
+  for (const Panel& panel : panels_of(marks)) {
+    panels.push_back({.title = panel.title, .lines = {}});
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+      panels.back().lines.push_back(std::move(lines[panel.curves[i]]));
+      panels.back().lines.back().name = panel.names[i];
+    }
+  }
+  return panels;
+}
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+std::string text_of(const io::Cell& cell, const std::string& unit) {
+  if (const auto* number = std::get_if<double>(&cell))
+    return fmt::format("{:.6g}{}", *number, unit.empty() || unit == "1" ? "" : " " + unit);
+  const auto* text = std::get_if<std::string>(&cell);
+  return text != nullptr ? *text : "";
+}
+
+std::string description_of(const io::Manifest& manifest, const io::ManifestPoint& point) {
+  std::string text;
+  for (const Mark& mark : marks_of(manifest, point, std::vector(manifest.varied.size(), true)))
+    text += (text.empty() ? "" : ", ") + mark.name + (mark.name.empty() ? "" : " ") + mark.value;
+  return text + (point.leg.empty() ? "" : ", " + point.leg);
+}
+
+}  // namespace riesel::app

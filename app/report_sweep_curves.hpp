@@ -1,0 +1,45 @@
+// From the points of a sweep to curves: which setting is the axis, and which runs belong together.
+#pragma once
+
+#include "app/report_curves.hpp"
+#include "app/report_sweep.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riesel::app {
+
+/// The varied setting that figures have as their axis: the one along which runs continue each
+/// other, or else the one with the most values that are numbers, the first of equals. The seed is
+/// none. Nothing if no such setting has two values.
+std::optional<std::size_t> axis_of(const io::Manifest& manifest);
+
+struct VelocityPanel {
+  std::string title;
+  std::vector<VelocityCurve> curves;
+};
+
+/// The flows of a sweep: a curve for each combination of all settings but the axis and the seed,
+/// with a line for each seed and leg. Settings that follow from the axis tell nothing apart.
+std::vector<VelocityPanel> velocity_panels(const SweepRecord& record, std::size_t axis);
+
+struct ImpactPanel {
+  std::string title;
+  std::vector<ImpactLine> lines;
+};
+
+/// The impacts of a sweep: a line for each point and v_x.
+std::vector<ImpactPanel> impact_panels(const SweepRecord& record);
+
+/// Of a dotted key.
+std::string last_part(const std::string& key);
+
+/// A value of a table with its unit; empty for nothing.
+std::string text_of(const io::Cell& cell, const std::string& unit);
+
+/// What tells a point from the others, in one line.
+std::string description_of(const io::Manifest& manifest, const io::ManifestPoint& point);
+
+}  // namespace riesel::app

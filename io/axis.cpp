@@ -1,0 +1,101 @@
+#include "io/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace riesel::io {
+namespace {
+
+/// low > high if there are none.
+Interval extremes_of(std::span<const double> values, Scale scale) {
+  Interval found{HUGE_VAL, -HUGE_VAL};
+  for (const double value : values) {
+    if (!std::isfinite(value) || (scale == Scale::logarithmic && value <= 0.0)) continue;
+    found.low = std::min(found.low, value);
+    found.high = std::max(found.high, value);
+  }
+  return found;
+}
+
+}  // namespace
+
+bool contains(Interval range, double value) { return value >= range.low && value <= range.high; }
+
+Scale scale_for(std::span<const double> values) {
+  constexpr double wide = 20.0;
+  const auto [low, high] = extremes_of(values, Scale::linear);
+  return low > 0.0 && high > wide * low ? Scale::logarithmic : Scale::linear;
+}
+
+Interval range_of(std::span<const double> values, Scale scale) {
+  const auto [low, high] = extremes_of(values, scale);
+  if (scale == Scale::logarithmic) {
+    if (low > high) return {1.0, 10.0};
+    const double room = std::max(1.1, std::pow(high / low, 0.05));
+    return {low / room, high * room};
+  }
+  if (low > high) return {0.0, 1.0};
+  const double spread = high - low;
+  if (spread == 0.0) {
+    const double room = low == 0.0 ? 1.0 : 0.1 * std::abs(low);
+    return {low - room, high + room};
+  }
+  // No narrower than six digits can tell.
+  const double room = std::max(0.05 * spread, 1e-4 * std::max(std::abs(low), std::abs(high)));
+  return {low - room, high + room};
+}
+
+std::vector<double> ticks(Interval range, int most) {
+  const double coarsest = range.high - range.low;
+  const double unit = std::pow(10.0, std::floor(std::log10(coarsest / most)));
+  std::vector<double> found;
+  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+    const double step = factor * unit;
+    const double first = std::ceil(range.low / step), last = std::floor(range.high / step);
+    found.clear();
+    if (last - first >= most) continue;
+    for (double k = first; k <= last; k += 1.0) found.push_back(k * step + 0.0);  // no -0
+    break;
+  }
+  return found;
+}
+
+std::vector<double> logarithmic_ticks(Interval range) {
+  const double decades = std::log10(range.high / range.low);
+  const auto stride = static_cast<int>(std::ceil(decades / 9.0));
+  std::vector<double> found;
+  for (auto e = static_cast<int>(std::floor(std::log10(range.low))); e < 400; ++e) {
+    const double power = std::pow(10.0, e);
+    if (power > range.high) break;
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const bool is_wanted = factor == 1.0 ? e % stride == 0 : decades < 3.0;
+      if (is_wanted && contains(range, factor * power)) found.push_back(factor * power);
+    }
+  }
+  return found.empty() ? ticks(range, 6) : found;
+}
+
+Axis axis_for(std::string label, std::span<const double> values) {
+  const Scale scale = scale_for(values);
+  return {.label = std::move(label), .range = range_of(values, scale), .scale = scale};
+}
+
+Axis with_room_above(Axis axis, double part) {
+  auto& [low, high] = axis.range;
+  high =
+      axis.scale == Scale::linear ? high + part * (high - low) : high * std::pow(high / low, part);
+  return axis;
+}
+
+double part_of(const Axis& axis, double value) {
+  if (axis.scale == Scale::linear)
+    return (value - axis.range.low) / (axis.range.high - axis.range.low);
+  return std::log(value / axis.range.low) / std::log(axis.range.high / axis.range.low);
+}
+
+std::vector<double> ticks_of(const Axis& axis, int most) {
+  return axis.scale == Scale::linear ? ticks(axis.range, most) : logarithmic_ticks(axis.range);
+}
+
+}  // namespace riesel::io
