@@ -1,6 +1,5 @@
 #include "app/commands.hpp"
 #include "app/run_flow.hpp"
-#include "app/stepping.hpp"
 #include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
@@ -58,7 +57,6 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
 
   const auto settings = io::Settings::from_text(found.checkpoint.settings, found.path.string(),
                                                 scenarios::settings_tables(), options.overrides);
-  check_stepping(settings);
   const scenarios::RunLength length = scenarios::run_length(settings);
   const State& state = found.checkpoint.state;
   if (length.at_most < state.time() - state.time_step)

@@ -23,7 +23,6 @@ using scenarios::Problem;
 
 Problem problem_of(const io::Settings& settings) {
   Problem problem = scenarios::named(settings.scenario()).prepare(settings);
-  if (std::holds_alternative<Flow>(problem)) check_stepping(settings);
   return problem;
 }
 

@@ -76,6 +76,7 @@ const std::vector<Variant>& timed_variants() {
       {.name = "plain 1", .stepping = Stepping::plain, .threads = 1},
       {.name = "plain 2", .stepping = Stepping::plain, .threads = 2},
       {.name = "windows 1", .stepping = Stepping::windows, .threads = 1},
+      {.name = "windows 2", .stepping = Stepping::windows, .threads = 2},
       {.name = "automatic", .stepping = Stepping::automatic, .threads = 0},
   };
   return table;
@@ -85,6 +86,8 @@ const std::vector<Variant>& further_variants() {
   static const std::vector<Variant> table = {
       {.name = "plain 3", .stepping = Stepping::plain, .threads = 3},
       {.name = "plain 4", .stepping = Stepping::plain, .threads = 4},
+      {.name = "windows 3", .stepping = Stepping::windows, .threads = 3},
+      {.name = "windows 4", .stepping = Stepping::windows, .threads = 4},
   };
   return table;
 }

@@ -23,6 +23,7 @@ FORMAT, FORMAT_VERSION = "riesel benchmark", 1
 RATIOS = [("plain / scalar", "plain 1", "scalar"),
           ("windows / plain", "windows 1", "plain 1"),
           ("plain, 2 threads / 1", "plain 2", "plain 1"),
+          ("windows, 2 threads / 1", "windows 2", "windows 1"),
           ("automatic / plain", "automatic", "plain 1"),
           ("2 threads / 1", "threads 2", "threads 1"),
           ("2 jobs / 1", "jobs 2", "jobs 1")]

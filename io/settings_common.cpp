@@ -133,8 +133,7 @@ SettingsTable run_settings() {
        .fallback = "auto",
        .choices = {"auto", "plain", "windows"},
        .doc = "Whether all grains are moved in each step (`plain`), or those in free flight cross "
-              "many "
-              "steps at once (`windows`, on one thread). The results do not depend on it.",
+              "many steps at once (`windows`). The results do not depend on it.",
        .matters = false},
   };
 }
