@@ -19,9 +19,9 @@ struct Lanes {
   using Coarse = xsimd::batch<std::int32_t>;
   static constexpr std::size_t reals = Reals::size, floats = Floats::size;
 
-  static Floats all(float value) { return {value}; }
-  static Reals all(double value) { return {value}; }
-  static Words all(std::uint64_t value) { return {value}; }
+  static Floats all(float value) { return Floats::broadcast(value); }
+  static Reals all(double value) { return Reals::broadcast(value); }
+  static Words all(std::uint64_t value) { return Words::broadcast(value); }
 
   static Floats load(const float* from) { return Floats::load_unaligned(from); }
   static Reals load(const double* from) { return Reals::load_unaligned(from); }
