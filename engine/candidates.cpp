@@ -118,6 +118,7 @@ bool Candidates::look_again(State& state, Slice& mine, std::int64_t step) {
 void Candidates::sort_anew(State& state, Slice& mine, std::int64_t step) {
   mine.lasting.clear();
   for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
+#pragma omp barrier  // all grains are at this step
   renew(state, mine, step);
   forget_contacts(mine);
   for (const Slice& slice : slices_) keep(state, mine, slice.lasting);
