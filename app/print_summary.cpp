@@ -59,7 +59,9 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
              s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
   fmt::print("  {:<22}{}: {}\n", "state", s.state, explanation(s.state));
   if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s));
-  fmt::print("  {:<22}{:.4g} m^2/s^2\n", "granular temperature", s.granular_temperature);
+  const io::Measured& temperature = s.fluctuations.granular_temperature;
+  fmt::print("  {:<22}{:.4g} +- {:.2g} m^2/s^2\n", "granular temperature", temperature.value,
+             temperature.error);
   print_balance(s.balance);
   print_visits(s.wall_visits);
   fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
