@@ -52,12 +52,10 @@ class AnotherFriction(unittest.TestCase):
 
     def test_it_is_noticed(self):
         """0.4 instead of 0.5: what a mistake in the physics would look like."""
-        kept = regression.kept(regression.VELOCITIES)["cases"]["slow"]["velocity"]
-        runs = [regression.run("slow", seed, friction=0.4) for seed in TESTED_SEEDS]
-        rate = regression.rate_of_each()
-        self.assertTrue(differ(kept, [result["velocity"] for result in runs], rate))
-        self.assertTrue(differ_by_own_bars(kept, [result["mean"] for result in runs],
-                                           [result["error"] for result in runs], rate))
+        kept = regression.kept(regression.VELOCITIES)["cases"]["fast"]["velocity"]
+        runs = [regression.run("fast", seed, friction=0.4) for seed in TESTED_SEEDS]
+        self.assertTrue(differ(kept, [result["velocity"] for result in runs],
+                               regression.rate_of_each()))
 
 
 class Hashes(unittest.TestCase):
@@ -83,7 +81,7 @@ class Comparisons(unittest.TestCase):
 
     def test_false_alarms_come_at_the_rate_that_is_stated(self):
         """The kept runs themselves: four of them, drawn at random, against the rest."""
-        draws, rate = 1000, 0.05
+        draws, rate = 400, 0.05
         random = np.random.default_rng(1)
         alarms = alarms_by_own_bars = by_own_bars = 0
         for name in CASES:
@@ -110,14 +108,22 @@ class Comparisons(unittest.TestCase):
             found += differ(kept, random.normal(1.0 + shift, 0.03, len(TESTED_SEEDS)), rate)
         self.assertGreater(found, 900)
 
+    def test_a_shift_is_found_by_own_bars(self):
+        case = self.cases["slow"]
+        means, errors = np.array(case["mean"][:4]), case["error"][:4]
+        rate = regression.rate_of_each()
+        self.assertFalse(differ_by_own_bars(case["velocity"], means, errors, rate))
+        self.assertTrue(differ_by_own_bars(case["velocity"], 1.1 * means, errors, rate))
+        self.assertTrue(differ_by_own_bars(case["velocity"], 0.9 * means, errors, rate))
+
     def test_the_error_bars_of_the_kept_runs_cover_the_mean_of_all(self):
-        """Of some 190 steady runs: 68 and 93-95 % are expected, within four standard errors."""
+        """Of 90 steady runs: 68 and 93-95 % are expected, within three standard errors."""
         counts = np.sum([regression.coverage(self.cases[name]) for name in SLOW], axis=0)
         steady, once, twice = (int(count) for count in counts)
-        self.assertGreater(steady, 100)
-        self.assertGreater(once, 0.54 * steady)
-        self.assertLess(once, 0.82 * steady)
-        self.assertGreater(twice, 0.86 * steady)
+        self.assertGreater(steady, 80)
+        self.assertGreater(once, 0.53 * steady)
+        self.assertLess(once, 0.83 * steady)
+        self.assertGreater(twice, 0.85 * steady)
 
 
 if __name__ == "__main__":
