@@ -12,21 +12,31 @@ namespace riesel {
 
 namespace {
 
-constexpr std::size_t block = 64;  // pairs tested at a time: their results make one 64-bit word
+/// Pairs tested at a time: so many that their answers come at the cost of one, so few that hardly a
+/// block has a pair that may overlap.
+constexpr std::size_t block = 64;
 
-/// result[p] = 1 where pair p may overlap.
-[[gnu::always_inline]] inline void test_block(const std::uint32_t* first,
-                                              const std::uint32_t* second, const float* reach2,
-                                              const std::int32_t* x, const std::int32_t* y,
-                                              CoarseUnits units, std::size_t count,
-                                              std::uint8_t* result) {
-#pragma omp simd
-  for (std::size_t p = 0; p < count; ++p) {
-    const std::uint32_t i = first[p], j = second[p];
-    const float dx = static_cast<float>(coarse_difference(x[j], x[i])) * units.x;
-    const float dy = static_cast<float>(coarse_difference(y[j], y[i])) * units.y;
-    result[p] = dx * dx + dy * dy < reach2[p];
-  }
+/// Some pairs, and where their grains are.
+struct PairBlock {
+  const std::uint32_t *first, *second;
+  const float* reach2;
+  const std::int32_t *x, *y;
+  CoarseUnits units;
+};
+
+[[gnu::always_inline]] inline bool may_overlap(const PairBlock& b, std::size_t p) {
+  const std::uint32_t i = b.first[p], j = b.second[p];
+  const float dx = static_cast<float>(coarse_difference(b.x[j], b.x[i])) * b.units.x;
+  const float dy = static_cast<float>(coarse_difference(b.y[j], b.y[i])) * b.units.y;
+  return dx * dx + dy * dy < b.reach2[p];
+}
+
+/// Whether any of the pairs may overlap.
+[[gnu::always_inline]] inline bool any_may_overlap(PairBlock b, std::size_t count) {
+  std::int32_t any = 0;
+#pragma omp simd reduction(| : any)
+  for (std::size_t p = 0; p < count; ++p) any |= may_overlap(b, p) ? 1 : 0;
+  return any != 0;
 }
 
 /// Calls visit(k) for the nonzero results k < count; most words of results are zero. What stands
@@ -47,13 +57,17 @@ template <class Visit>
 RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
                                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
   hits.clear();
-  alignas(cache_line) std::array<std::uint8_t, block> result{};
-  for (std::size_t p = 0; p < pairs.size(); p += block) {
-    const std::size_t count = std::min(block, pairs.size() - p);
-    test_block(&pairs.first[p], &pairs.second[p], &pairs.reach2[p], positions.x.data(),
-               positions.y.data(), units, count, result.data());
-    for_each_set(result.data(), count,
-                 [&](std::size_t k) { hits.push_back(static_cast<std::uint32_t>(p + k)); });
+  for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
+    const std::size_t count = std::min(block, pairs.size() - begin);
+    const PairBlock some{.first = &pairs.first[begin],
+                         .second = &pairs.second[begin],
+                         .reach2 = &pairs.reach2[begin],
+                         .x = positions.x.data(),
+                         .y = positions.y.data(),
+                         .units = units};
+    if (!any_may_overlap(some, count)) continue;
+    for (std::size_t p = 0; p < count; ++p)
+      if (may_overlap(some, p)) hits.push_back(static_cast<std::uint32_t>(begin + p));
   }
 }
 

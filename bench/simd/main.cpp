@@ -7,11 +7,11 @@
 // the same work on the pairs and contacts of that state, in turns. Exit status: 1 if a way comes to
 // other bits than the engine, 2 for a wrong command line.
 #include "bench/simd/problems.hpp"
+#include "bench/simd/ways.hpp"
 #include "bench/timing.hpp"
 #include "io/checkpoint.hpp"
 #include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
-#include "ways.hpp"
 
 #include <fmt/core.h>
 

@@ -68,9 +68,9 @@ class SmallDisk(CommandTest):
                                    "free some space on its disk")
 
     def test_a_run_that_met_a_full_disk_goes_on_when_there_is_room(self):
-        result = self.on_disk("size=1200k", """
+        result = self.on_disk("size=4000k", """
             "$1" run tube.yaml --out disk/out --threads 1 >&2 || exit 99
-            head -c 2000000 /dev/zero > disk/ballast 2> /dev/null
+            head -c 6000000 /dev/zero > disk/ballast 2> /dev/null
             "$1" resume disk/out --set "run.duration=20 ms" > /dev/null
             [ $? = 1 ] || exit 98
             rm disk/ballast
