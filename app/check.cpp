@@ -166,7 +166,6 @@ void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& cur
 int check(const CheckOptions& options) {
   const auto settings =
       io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
-  check_stepping(settings);
   const scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
   fmt::print("{}: {}\n", options.file.string(), settings.scenario());
   if (const auto* flow = std::get_if<scenarios::Flow>(&problem))

@@ -1,6 +1,5 @@
 #include "app/commands.hpp"
 #include "app/run_flow.hpp"
-#include "app/stepping.hpp"
 #include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
@@ -56,7 +55,6 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
 
   const auto settings = io::Settings::from_text(found.checkpoint.settings, found.path.string(),
                                                 scenarios::settings_tables(), options.overrides);
-  check_stepping(settings);
   if (settings.number("run.duration")
       < found.checkpoint.state.time() - found.checkpoint.state.time_step)
     settings.reject(

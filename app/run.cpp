@@ -1,7 +1,6 @@
 #include "app/commands.hpp"
 #include "app/run_curve.hpp"
 #include "app/run_flow.hpp"
-#include "app/stepping.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace riesel::app {
@@ -10,7 +9,6 @@ int run(const RunOptions& options, const Arguments& arguments) {
   const auto settings =
       io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
   scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
-  if (std::holds_alternative<scenarios::Flow>(problem)) check_stepping(settings);
   RunDirectory directory =
       RunDirectory::create(options.directory.value_or("runs" / options.file.stem()), settings);
 

@@ -8,9 +8,6 @@
 
 namespace riesel::app {
 
-/// Rejects settings that contradict each other.
-void check_stepping(const io::Settings& settings);
-
 Stepping stepping_of(const io::Settings& settings);
 
 /// The number of threads, the user's or a useful one for so many grains.

@@ -129,7 +129,7 @@ double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) 
   const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
   const Grains& g = state_.grains;
   const Box& box = state_.box;
-  const double stray = courses_.place(near.slot) == Courses::flying ? 0.0 : tolerance_;
+  const double stray = courses_.deflected(near.slot) ? tolerance_ : 0.0;
   const double reach = (g.radius[near.slot] + wall.radius) * generous + stray;
   const double ux = box.metres_x(g.ux[near.slot]);
   const double x = box.metres_x(courses_.x(near.slot, now)) - wall.line;

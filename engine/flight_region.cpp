@@ -273,7 +273,7 @@ void FlightRegion::take_up(LiveContacts& contacts, std::size_t contact, std::int
 /// The appointments that counted on its keeping to the course are made anew.
 DeflectedGrains::Place FlightRegion::deflect(std::uint32_t slot, std::int64_t step) {
   Courses& courses = airspace_.courses;
-  if (courses.place(slot) == Courses::flying) {
+  if (!courses.deflected(slot)) {
     const DeflectedGrains::Place place = deflected_.take(slot, courses.motion(slot, step));
     courses.set_place(slot, static_cast<std::int32_t>(place));
     appointments_.reconsider_exact(slot);

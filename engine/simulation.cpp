@@ -80,13 +80,13 @@ int team_size(int wanted) {
   return granted;
 }
 
-/// What to try first. In units of what plain stepping takes for a grain without contacts on one
-/// thread, a contact takes plain stepping 7.5 and flights 10, and flights take next to nothing for
-/// a grain: docs/performance.md.
-bool flights_look_faster(const State& state, int threads) {
+/// What to try first. In units of what plain stepping takes for a grain without contacts, a contact
+/// takes plain stepping 7.5 and flights 10, and flights take next to nothing for a grain:
+/// docs/performance.md.
+bool flights_look_faster(const State& state) {
   const auto contacts = static_cast<double>(state.contacts.size());
   const auto grains = static_cast<double>(state.grains.size());
-  return 10.0 * contacts < (grains + 7.5 * contacts) / static_cast<double>(threads);
+  return 10.0 * contacts < grains + 7.5 * contacts;
 }
 
 std::string partners(const ContactName& name) {
@@ -111,7 +111,7 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       fall_(fall_per_step(state_)),
       threads_(team_size(threads)),
       stepping_(stepping),
-      choice_(flights_look_faster(state_, threads_)),
+      choice_(flights_look_faster(state_)),
       wall_watch_(state_, model_) {
   prepare();
 }

@@ -27,9 +27,8 @@ int useful_threads(std::size_t grains);
 /// How grains in free flight are moved. The results are the same, bit by bit.
 enum class Stepping {
   plain,     ///< all grains in each step
-  windows,   ///< grains that touch nothing cross many steps at once; by one thread, whatever is
-             ///< given
-  automatic  ///< whatever is faster: windows on one thread or plain on all
+  windows,   ///< grains that touch nothing cross many steps at once
+  automatic  ///< whatever is faster
 };
 
 class Simulation {

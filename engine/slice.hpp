@@ -65,6 +65,8 @@ struct Kick {
 };
 
 struct Slice {
+  bool owns(std::uint32_t slot) const { return slot - begin < end - begin; }
+
   std::size_t begin = 0, end = 0;  ///< slots
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere
   std::vector<SlotPair> close;     ///< while the pairs are being listed

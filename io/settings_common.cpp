@@ -134,7 +134,7 @@ SettingsTable run_settings() {
        .choices = {"auto", "plain", "windows"},
        .doc = "Whether all grains are moved in each step (`plain`), or those in free flight cross "
               "many "
-              "steps at once (`windows`, on one thread). The results do not depend on it.",
+              "steps at once (`windows`). The results do not depend on it.",
        .matters = false},
   };
 }

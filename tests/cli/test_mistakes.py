@@ -127,11 +127,6 @@ class Mistakes(CommandTest):
                 self.assert_mistake("tube.yaml", f"--threads={threads}",
                                     mentions=["threads", threads])
 
-    def test_in_the_way_of_stepping(self):
-        self.write("tube.yaml", SMALL_TUBE)
-        self.assert_mistake("tube.yaml", "--set", "run.stepping=windows", "--threads", "2",
-                            mentions=["run.stepping:", "one thread", "run.threads"])
-
     def test_a_missing_file(self):
         self.assert_mistake("tube.yaml", mentions=["tube.yaml: ", "No such file", "check the path"])
 
