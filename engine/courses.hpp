@@ -43,10 +43,8 @@ public:
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
   Fixed fall() const { return fall_; }                   ///< gravity per step^2, quanta
 
-  /// Steps on its course.
-  std::int64_t steps(std::uint32_t slot, std::int64_t step) const {
-    return step - sorted_at_ - since_[slot];
-  }
+  /// When the course was set, in steps after sorted_at().
+  std::int32_t since(std::uint32_t slot) const { return since_[slot]; }
   /// Where the grain is in `step` if it keeps to its course.
   Fixed x(std::uint32_t slot, std::int64_t step) const {
     return wrapped_sum(grains_.x[slot], wrapped_product(steps(slot, step), grains_.ux[slot]));
@@ -83,6 +81,10 @@ public:
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
 
 private:
+  std::int64_t steps(std::uint32_t slot, std::int64_t step) const {
+    return step - sorted_at_ - since_[slot];
+  }
+
   Grains& grains_;
   const Fixed fall_;
   std::int64_t sorted_at_ = 0;

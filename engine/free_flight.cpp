@@ -100,17 +100,19 @@ void foresee(const Slice& slice, const std::vector<std::uint32_t>& which, const 
                               .now = now,
                               .tolerance = tolerance};
   const std::array strays{0.0, tolerance, 2.0 * tolerance};
+  const std::int64_t since_sorted = now - courses.sorted_at();
+  const std::size_t begin = slice.begin, own = slice.end - slice.begin;
   Lanes pairs{};
   for (std::size_t block = 0; block < which.size(); block += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t pair = which[std::min(block + lane, which.size() - 1)];
+    for (std::size_t lane = 0; lane < std::min(lanes, which.size() - block); ++lane) {
+      const std::uint32_t pair = which[block + lane];
       const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
       pairs.first[lane] = i;
       pairs.second[lane] = j;
-      pairs.steps_first[lane] = courses.steps(i, now);
-      pairs.steps_second[lane] = courses.steps(j, now);
+      pairs.steps_first[lane] = since_sorted - courses.since(i);
+      pairs.steps_second[lane] = since_sorted - courses.since(j);
       // Whether a foreign grain is deflected is for its own slice to know.
-      const bool second_may_stray = !slice.owns(j) || courses.deflected(j);
+      const bool second_may_stray = j - begin >= own || courses.deflected(j);
       pairs.stray[lane] = strays[(courses.deflected(i) ? 1U : 0U) + (second_may_stray ? 1U : 0U)];
     }
     foresee_lanes(pairs, paths, kinematics, &result.free_steps[block], &result.exact[block]);
