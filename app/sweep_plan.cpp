@@ -22,8 +22,7 @@ using scenarios::ImpactCurve;
 using scenarios::Problem;
 
 Problem problem_of(const io::Settings& settings) {
-  Problem problem = scenarios::named(settings.scenario()).prepare(settings);
-  return problem;
+  return scenarios::named(settings.scenario()).prepare(settings);
 }
 
 /// What costs time, in a unit that fits the scenario: particle-steps, or impacts.

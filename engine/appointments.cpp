@@ -30,15 +30,19 @@ void Appointments::start_over() {
 /// Finds the candidates of each grain. The pairs are ordered by their first grain: only where a
 /// grain is the second, or near a wall, a list is needed.
 void Appointments::link() {
+  const std::uint32_t n_pairs = pair_count();
+  const std::size_t begin = slice_.begin, own = slice_.end - slice_.begin;
+  const auto number = [&](std::uint32_t slot) {
+    return slot - begin < own ? slot - begin : border_.number(slot);
+  };
   const auto for_each_link = [&](auto visit) {
-    for (std::uint32_t p = 0; p < pair_count(); ++p)
-      visit(border_.number(slice_.pairs.second[p]), p);
-    std::uint32_t candidate = pair_count();
-    for (const NearWall& near : slice_.near_walls) visit(border_.number(near.slot), candidate++);
+    for (std::uint32_t p = 0; p < n_pairs; ++p) visit(number(slice_.pairs.second[p]), p);
+    std::uint32_t candidate = n_pairs;
+    for (const NearWall& near : slice_.near_walls) visit(near.slot - begin, candidate++);
   };
   first_pair_.assign(border_.numbered() + 1, 0);
   first_link_.assign(border_.numbered() + 1, 0);
-  for (const std::uint32_t slot : slice_.pairs.first) ++first_pair_[border_.number(slot) + 1];
+  for (const std::uint32_t slot : slice_.pairs.first) ++first_pair_[slot - begin + 1];
   for_each_link([&](std::size_t grain, std::uint32_t) { ++first_link_[grain + 1]; });
   for (std::size_t i = 1; i < first_link_.size(); ++i) {
     first_pair_[i] += first_pair_[i - 1];
@@ -129,7 +133,7 @@ double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) 
   const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
   const Grains& g = state_.grains;
   const Box& box = state_.box;
-  const double stray = courses_.place(near.slot) == Courses::flying ? 0.0 : tolerance_;
+  const double stray = courses_.deflected(near.slot) ? tolerance_ : 0.0;
   const double reach = (g.radius[near.slot] + wall.radius) * generous + stray;
   const double ux = box.metres_x(g.ux[near.slot]);
   const double x = box.metres_x(courses_.x(near.slot, now)) - wall.line;

@@ -46,8 +46,7 @@ bool Border::is_foreign(std::uint32_t slot) const {
   return std::binary_search(foreign().begin(), foreign().end(), slot);
 }
 
-std::size_t Border::number(std::uint32_t slot) const {
-  if (owns(slot)) return slot - slice_.begin;
+std::size_t Border::number_of_foreign(std::uint32_t slot) const {
   const auto rank = std::lower_bound(foreign().begin(), foreign().end(), slot) - foreign().begin();
   return slice_.end - slice_.begin + static_cast<std::size_t>(rank);
 }

@@ -53,7 +53,7 @@ public:
          std::size_t index)
       : slice_(slice), courses_(courses), announcements_(announcements), index_(index) {}
 
-  bool owns(std::uint32_t slot) const { return slot - slice_.begin < slice_.end - slice_.begin; }
+  bool owns(std::uint32_t slot) const { return slice_.owns(slot); }
 
   /// After the candidates have been listed: which slots are foreign here.
   void list_foreign();
@@ -63,7 +63,9 @@ public:
   const std::vector<std::uint32_t>& foreign() const { return mine().foreign; }
   bool is_foreign(std::uint32_t slot) const;
   /// Numbers the slots of the slice, 0 ..., and after them those that are foreign here.
-  std::size_t number(std::uint32_t slot) const;
+  std::size_t number(std::uint32_t slot) const {
+    return owns(slot) ? slot - slice_.begin : number_of_foreign(slot);
+  }
   std::size_t numbered() const { return slice_.end - slice_.begin + foreign().size(); }
 
   /// Of a foreign grain in `step`, that of the announcement or the next; `fallen` is the fall in
@@ -83,6 +85,8 @@ public:
   }
 
 private:
+  std::size_t number_of_foreign(std::uint32_t slot) const;
+
   const Slice& slice_;
   const Courses& courses_;
   std::vector<Announcement>& announcements_;

@@ -254,8 +254,8 @@ std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice,
   const std::uint32_t a = slot_of_[static_cast<std::size_t>(contact.name.grain)];
   if (contact.name.wall != no_wall) return near_wall_in(slice, a, contact.name.wall);
   const std::uint32_t b = slot_of_[static_cast<std::size_t>(contact.name.partner)];
-  const auto found = slice.has(a) ? pair_in(slice, a, b) : std::nullopt;
-  return !found && slice.has(b) ? pair_in(slice, b, a) : found;
+  const auto found = slice.owns(a) ? pair_in(slice, a, b) : std::nullopt;
+  return !found && slice.owns(b) ? pair_in(slice, b, a) : found;
 }
 
 /// Goes on with those of the contacts that belong to `mine`.

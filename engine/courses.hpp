@@ -43,6 +43,8 @@ public:
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
   Fixed fall() const { return fall_; }                   ///< gravity per step^2, quanta
 
+  /// When the course was set, in steps after sorted_at().
+  std::int32_t since(std::uint32_t slot) const { return since_[slot]; }
   /// Where the grain is in `step` if it keeps to its course.
   Fixed x(std::uint32_t slot, std::int64_t step) const {
     return wrapped_sum(grains_.x[slot], wrapped_product(steps(slot, step), grains_.ux[slot]));
@@ -75,11 +77,8 @@ public:
 
   /// Where the deflected grain stands, or `flying`.
   std::int32_t place(std::uint32_t slot) const { return place_[slot]; }
+  bool deflected(std::uint32_t slot) const { return place_[slot] != flying; }
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
-
-  /// For loops over many grains; by slot.
-  const std::int32_t* since() const { return since_.data(); }  ///< steps after sorted_at()
-  const std::int32_t* places() const { return place_.data(); }
 
 private:
   std::int64_t steps(std::uint32_t slot, std::int64_t step) const {

@@ -148,6 +148,18 @@ void FlightRegion::move(std::int64_t step) {
   deflected_.move(units_.fallen);
 }
 
+inline FlightRegion::Position FlightRegion::position(std::uint32_t slot, std::int64_t step) const {
+  const Courses& courses = airspace_.courses;
+  const std::int32_t place = courses.place(slot);
+  return place == Courses::flying ? Position{courses.x(slot, step), courses.y(slot, step)}
+                                  : Position{deflected_.x(place), deflected_.y(place)};
+}
+
+FlightRegion::Position FlightRegion::foreign_position(std::uint32_t slot, std::int64_t step) const {
+  const Motion m = border_.foreign_motion(slot, step, units_.fallen);
+  return {m.x, m.y};
+}
+
 /// Looks at the candidates that are due: which contacts begin?
 void FlightRegion::keep_appointments(std::int64_t step) {
   appointments_.keep(
@@ -158,7 +170,8 @@ void FlightRegion::keep_appointments(std::int64_t step) {
 void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
   const Grains& g = airspace_.state.grains;
   const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
-  const Position a = position(i, step), b = position(j, step);
+  const Position a = position(i, step);
+  const Position b = border_.owns(j) ? position(j, step) : foreign_position(j, step);
   if (!overlapping(wrapped_difference(b.x, a.x), wrapped_difference(b.y, a.y),
                    g.radius[i] + g.radius[j], units_)) {
     appointments_.reconsider_pair(pair);
@@ -273,7 +286,7 @@ void FlightRegion::take_up(LiveContacts& contacts, std::size_t contact, std::int
 /// The appointments that counted on its keeping to the course are made anew.
 DeflectedGrains::Place FlightRegion::deflect(std::uint32_t slot, std::int64_t step) {
   Courses& courses = airspace_.courses;
-  if (courses.place(slot) == Courses::flying) {
+  if (!courses.deflected(slot)) {
     const DeflectedGrains::Place place = deflected_.take(slot, courses.motion(slot, step));
     courses.set_place(slot, static_cast<std::int32_t>(place));
     appointments_.reconsider_exact(slot);
@@ -329,16 +342,6 @@ void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step) {
   hold_until = std::min(hold_until, skin_guard_.hold_until(slot, step));
   border_.announce_course(slot);
   appointments_.reconsider(slot);
-}
-
-FlightRegion::Position FlightRegion::position(std::uint32_t slot, std::int64_t step) const {
-  if (!border_.owns(slot)) {
-    const Motion m = border_.foreign_motion(slot, step, units_.fallen);
-    return {m.x, m.y};
-  }
-  const std::int32_t place = airspace_.courses.place(slot);
-  if (place != Courses::flying) return {deflected_.x(place), deflected_.y(place)};
-  return {airspace_.courses.x(slot, step), airspace_.courses.y(slot, step)};
 }
 
 }  // namespace riesel

@@ -76,6 +76,7 @@ private:
     Fixed x, y;
   };
   Position position(std::uint32_t slot, std::int64_t step) const;
+  Position foreign_position(std::uint32_t slot, std::int64_t step) const;
 
   Airspace& airspace_;
   Slice& slice_;

@@ -33,26 +33,31 @@ constexpr double few_steps = 4.0;
 /// Arrays by slot.
 struct Paths {
   const Fixed *x, *y, *ux, *uy;
-  const std::int32_t *since, *place;
   const double* radius;
+};
+
+/// Some pairs: slots, steps since the courses were set, and how far the two may be from them
+/// together (m).
+struct Lanes {
+  using Integers = std::array<std::int64_t, lanes>;
+
+  alignas(cache_line) Integers first, second, steps_first, steps_second;
+  std::array<double, lanes> stray;
 };
 
 struct Kinematics {
   double metre_x, metre_y;
   Fixed fall;
-  std::int64_t now, since_sorted;
+  std::int64_t now;
   double tolerance;
-  std::int64_t own_begin, own_end;  // slots
 };
 
-RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::int64_t* second,
-                                        Paths c, Kinematics k, std::int64_t* free_steps,
-                                        std::int64_t* exact) {
+RIESEL_VECTOR_KERNEL void foresee_lanes(const Lanes& pairs, Paths c, Kinematics k,
+                                        std::int64_t* free_steps, std::int64_t* exact) {
 #pragma omp simd
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::int64_t i = first[lane], j = second[lane];
-    const std::int64_t steps_i = k.since_sorted - c.since[i];
-    const std::int64_t steps_j = k.since_sorted - c.since[j];
+    const std::int64_t i = pairs.first[lane], j = pairs.second[lane];
+    const std::int64_t steps_i = pairs.steps_first[lane], steps_j = pairs.steps_second[lane];
     const Fixed fallen_i = wrapped_product(sum_of_steps(k.now - steps_i, k.now), k.fall);
     const Fixed fallen_j = wrapped_product(sum_of_steps(k.now - steps_j, k.now), k.fall);
     const Fixed x_i = wrapped_sum(c.x[i], wrapped_product(steps_i, c.ux[i]));
@@ -65,12 +70,7 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const std::int64_t* first, const std::in
     const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * k.metre_x;
     const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * k.metre_y;
     const double reach = (c.radius[i] + c.radius[j]) * generous;
-    const double stray_i = c.place[i] == Courses::flying ? 0.0 : k.tolerance;
-    // Where a foreign grain stands is for its own slice to change: nobody looks.
-    const bool foreign = j < k.own_begin || j >= k.own_end;
-    const double own_stray_j = c.place[foreign ? i : j] == Courses::flying ? 0.0 : k.tolerance;
-    const double stray_j = foreign ? k.tolerance : own_stray_j;
-    const double stray = stray_i + stray_j;
+    const double stray = pairs.stray[lane];
     const double patient = first_touch(x, y, ux, uy, reach + 2.0 * k.tolerance);
     const double closer = first_touch(x, y, ux, uy, reach + stray);
     free_steps[lane] = Forecast::whole_steps((patient >= few_steps ? patient : closer) * cautious);
@@ -93,26 +93,29 @@ void foresee(const Slice& slice, const std::vector<std::uint32_t>& which, const 
                     .y = g.y.data(),
                     .ux = g.ux.data(),
                     .uy = g.uy.data(),
-                    .since = courses.since(),
-                    .place = courses.places(),
                     .radius = g.radius.data()};
   const Kinematics kinematics{.metre_x = state.box.quantum_x(),
                               .metre_y = state.box.quantum_y(),
                               .fall = courses.fall(),
                               .now = now,
-                              .since_sorted = now - courses.sorted_at(),
-                              .tolerance = tolerance,
-                              .own_begin = static_cast<std::int64_t>(slice.begin),
-                              .own_end = static_cast<std::int64_t>(slice.end)};
-  alignas(cache_line) std::array<std::int64_t, lanes> first{}, second{};
+                              .tolerance = tolerance};
+  const std::array strays{0.0, tolerance, 2.0 * tolerance};
+  const std::int64_t since_sorted = now - courses.sorted_at();
+  const std::size_t begin = slice.begin, own = slice.end - slice.begin;
+  Lanes pairs{};
   for (std::size_t block = 0; block < which.size(); block += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t k = std::min(block + lane, which.size() - 1);  // the last one is repeated
-      first[lane] = slice.pairs.first[which[k]];
-      second[lane] = slice.pairs.second[which[k]];
+    for (std::size_t lane = 0; lane < std::min(lanes, which.size() - block); ++lane) {
+      const std::uint32_t pair = which[block + lane];
+      const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
+      pairs.first[lane] = i;
+      pairs.second[lane] = j;
+      pairs.steps_first[lane] = since_sorted - courses.since(i);
+      pairs.steps_second[lane] = since_sorted - courses.since(j);
+      // Whether a foreign grain is deflected is for its own slice to know.
+      const bool second_may_stray = j - begin >= own || courses.deflected(j);
+      pairs.stray[lane] = strays[(courses.deflected(i) ? 1U : 0U) + (second_may_stray ? 1U : 0U)];
     }
-    foresee_lanes(first.data(), second.data(), paths, kinematics, &result.free_steps[block],
-                  &result.exact[block]);
+    foresee_lanes(pairs, paths, kinematics, &result.free_steps[block], &result.exact[block]);
   }
 }
 

@@ -17,7 +17,7 @@ void give_away_kicks(Slice& mine) {
   mine.given_away.clear();
   for_each_kick(mine, [&](std::int64_t place, Fixed x, Fixed y) {
     const auto slot = static_cast<std::uint32_t>(place);
-    if (!mine.has(slot)) mine.given_away.push_back({slot, x, y});
+    if (!mine.owns(slot)) mine.given_away.push_back({slot, x, y});
   });
 }
 
@@ -25,7 +25,7 @@ void receive_kicks(Grains& grains, const std::vector<Slice>& givers, Slice& mine
   for (const Kick& old : mine.received) grains.kick_x[old.slot] = grains.kick_y[old.slot] = 0;
   mine.received.clear();
   const auto receive = [&](const Kick& kick) {
-    if (!mine.has(kick.slot)) return;
+    if (!mine.owns(kick.slot)) return;
     grains.kick_x[kick.slot] = wrapped_sum(grains.kick_x[kick.slot], kick.x);
     grains.kick_y[kick.slot] = wrapped_sum(grains.kick_y[kick.slot], kick.y);
     mine.received.push_back(kick);

@@ -90,7 +90,7 @@ struct alignas(cache_line) Slice {
   std::optional<ContactName> trouble;  ///< a contact whose force is no usable number
   std::optional<std::int32_t> lost;    ///< id of a grain that has left the representable space
 
-  bool has(std::uint32_t slot) const { return begin <= slot && slot < end; }
+  bool owns(std::uint32_t slot) const { return slot - begin < end - begin; }
 };
 
 }  // namespace riesel

@@ -107,7 +107,8 @@ TEST_CASE("random systems of all kinds go both ways alike") {
   for (std::uint64_t seed = 200; seed < 260; ++seed) {
     CAPTURE(seed);
     Dice dice(seed);
-    State state = empty_box(dice.between(4e-3, 15e-3), dice.between(4e-3, 20e-3));
+    const double length = dice.between(4e-3, 20e-3), width = dice.between(4e-3, 15e-3);
+    State state = empty_box(width, length);
     state.gravity = dice.between(-20.0, 20.0);
     state.time_step = dice.between(0.3e-6, 3e-6);
     add_walls(state, 1 + dice.below(30));
