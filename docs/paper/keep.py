@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The small table of a campaign of tubes that is kept in the repository.
 
-    docs/paper/keep.py sweeps/fig6 docs/paper/fig6.csv
+    docs/paper/keep.py sweeps/fig6_map docs/paper/fig6_map.csv
 
 A row per run that is done. It has what the sweep's own table lacks: sigma_vx and sigma_vy, the walls as they are (the spacing
 is adjusted to the length), and five equal windows of the run, so that a fall that has not ended can be seen from the
@@ -17,8 +17,7 @@ import h5py
 import numpy as np
 
 from results import Missing, rows_of
-
-WINDOWS = 5
+from tube import WINDOWS
 
 
 def mean_and_error(samples):
@@ -52,6 +51,10 @@ def windows_of(series, mass, grains, gravity):
     return columns
 
 
+def finding(summary, name):
+    return next(f["value"] for f in summary["validity"]["findings"] if f["name"] == name)
+
+
 def row_of(sweep, row):
     directory = sweep / "points" / row["point"]
     summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
@@ -75,7 +78,8 @@ def row_of(sweep, row):
              "visit_dv_y": visits["dv_y"]["value"], "visit_dv_y_error": visits["dv_y"]["error"],
              "visit_dv_x": visits["dv_x"]["value"], "visit_contacts": visits["contacts"]["value"], "entry_rate": visits["entry_rate"]["value"],
              "entry_slip": visits["entry_slip"]["value"], "verdict": summary["validity"]["verdict"],
-             "brake_failure": summary["validity"]["brake_failure_fraction"], "commit": summary["commit"][:7]}
+             "brake_failure": summary["validity"]["brake_failure_fraction"],
+             "steps_per_contact": finding(summary, "steps_per_contact"), "commit": summary["commit"][:7]}
     return kept | windows_of(series, mass, grains, gravity)
 
 

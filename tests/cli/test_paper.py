@@ -9,7 +9,7 @@ DOCS = SHIPPED.parent / "docs"
 # file: number of its points
 POINTS = {
     "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_map": 60, "fig6_fast": 6,
-    "fig6_curves": 6, "fig6_slow": 51, "fig6_sizes": 30, "fig6_fall": 3, "fig6_checks": 3, "fig6_hysteresis": 51,
+    "fig6_curves": 4, "fig6_slow": 51, "fig6_sizes": 30, "fig6_fall": 3, "fig6_checks": 3, "fig6_hysteresis": 51,
 }
 
 
@@ -50,7 +50,8 @@ class Paper(CommandTest):
                 self.assert_quoted(figure)
 
     def test_the_states_predicted_for_fig_6_are_those_of_the_manual(self):
-        self.assert_done(self.riesel("sweep", SHIPPED / "paper/fig6_curves.yaml"))
+        sweep = self.riesel("sweep", SHIPPED / "paper/fig6_curves.yaml")
+        self.assertEqual(sweep.returncode, 0, sweep)  # on a slow machine it tells its progress
         self.assert_quoted("fig6_balance")
 
     def test_a_missing_result_is_told(self):
