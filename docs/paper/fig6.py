@@ -20,7 +20,18 @@ def fig6_map(tables, out, plt):
     print_table("Fig. 6, spacing of the wall grains, 2000 N/m",
                 ("spacing (mm)", "start", *(f"e_N = {e_n:g}" for e_n in e_ns)),
                 [(*place, *(cells[e_n] for e_n in e_ns)) for place, cells in rows.items()])
+    print_end(runs_of(tables / "fig6_end.csv"))
     save(draw_map(plt, runs), out / "fig6_map.svg")
+
+
+def print_end(runs):
+    """Slow starts around the end of the slow branch: a row per e_N, a column per seed."""
+    cells = {(run.e_n, run.seed): state_cell(run) for run in runs}
+    seeds = sorted({run.seed for run in runs})
+    print_table("Fig. 6, end of the slow branch, 2000 N/m, spacing 1.2 mm",
+                ("e_N", *(f"seed {seed:g}" for seed in seeds)),
+                [(e_n, *(cells.get((e_n, seed), "not run") for seed in seeds))
+                 for e_n in sorted({run.e_n for run in runs})])
 
 
 def draw_map(plt, runs):
@@ -44,7 +55,8 @@ def fast_row(run):
         seen = [run.with_error(name) for name in ("velocity", "share", "sigma_vx")]
     else:
         seen = [f"{getattr(run, f'{name}_5'):.3g} at the end" for name in ("velocity", "share", "sigma_vx")]
-    return (run.e_n, run.start, run.time, run.state.replace("_", " "), *seen, run.brake_failure, run.steps_per_contact, run.verdict)
+    return (run.e_n, run.start, run.time, run.state.replace("_", " "), *seen, run.brake_failure,
+            run.steps_per_contact, run.verdict)
 
 
 def fig6_fast(tables, out, plt):

@@ -1,7 +1,7 @@
 """The argument behind Fig. 6: where single impacts on the wall balance gravity, eq. (9), beside the measured states.
 
-g = n_dot dv_y needs of each visit to the wall the loss g / n_dot. The curve of single impacts (Fig. 5) at the grains' v_x says
-at which v_y they lose that much: a state is stable where the curve rises through it.
+g = n_dot dv_y needs of each visit to the wall the loss g / n_dot. The curve of single impacts (Fig. 5) at the
+grains' v_x says at which v_y they lose that much: a state is stable where the curve rises through it.
 """
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator

@@ -3,9 +3,9 @@
 
     docs/paper/keep.py sweeps/fig6_map docs/paper/fig6_map.csv
 
-A row per run that is done. It has what the sweep's own table lacks: sigma_vx and sigma_vy, the walls as they are (the spacing
-is adjusted to the length), and five equal windows of the run, so that a fall that has not ended can be seen from the
-table: mean velocity, the wall's share of the weight, sigma_vx and rate of visits to the walls in each.
+A row per run that is done. It has what the sweep's own table lacks: sigma_vx and sigma_vy, the walls as they are (the
+spacing is adjusted to the length), and five equal windows of the run, so that a fall that has not ended can be seen
+from the table: mean velocity, the wall's share of the weight, sigma_vx and rate of visits to the walls in each.
 """
 import argparse
 import csv
@@ -66,7 +66,8 @@ def row_of(sweep, row):
         mass, walls = file["final/mass"][:].sum(), walls_of(file)
     late = series["time"] >= summary["transient_end"]
     kept = {"k_n": row["contact.stiffness"], "e_n": row["contact.restitution"], **walls,
-            "branch": row.get("branch", ""), "start": row.get("start.axial_velocity", ""), "leg": row.get("leg", ""), "seed": row["seed"], "grains": grains,
+            "branch": row.get("branch", ""), "start": row.get("start.axial_velocity", ""),
+            "leg": row.get("leg", ""), "seed": row["seed"], "grains": grains,
             "time": summary["time"], "state": summary["state"], "velocity": flow["value"],
             "velocity_error": flow["error"], "independent_samples": summary["independent_samples"],
             "transient_end": summary["transient_end"]}
@@ -76,7 +77,8 @@ def row_of(sweep, row):
              "contact_rate": balance["n_dot"],
              "visit_rate": np.ptp(series["wall_visits"][late]) / (grains * np.ptp(series["time"][late])),
              "visit_dv_y": visits["dv_y"]["value"], "visit_dv_y_error": visits["dv_y"]["error"],
-             "visit_dv_x": visits["dv_x"]["value"], "visit_contacts": visits["contacts"]["value"], "entry_rate": visits["entry_rate"]["value"],
+             "visit_dv_x": visits["dv_x"]["value"], "visit_contacts": visits["contacts"]["value"],
+             "entry_rate": visits["entry_rate"]["value"],
              "entry_slip": visits["entry_slip"]["value"], "verdict": summary["validity"]["verdict"],
              "brake_failure": summary["validity"]["brake_failure_fraction"],
              "steps_per_contact": finding(summary, "steps_per_contact"), "commit": summary["commit"][:7]}

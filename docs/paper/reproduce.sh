@@ -13,7 +13,7 @@ Usage: docs/paper/reproduce.sh FIGURE...
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (a minute)
   fig6_short   tube, one seed, 3 s (a quarter to half an hour on two cores)
-  fig6_map     tube, spacing of the wall grains (a quarter of an hour)
+  fig6_map     tube, spacing of the wall grains, end of the slow branch (a quarter of an hour)
   fig6_fast    tube, starts near the fast branch (minutes)
   fig6_balance predicted states from single impacts (seconds; reads the tables of the two before)
 
@@ -39,7 +39,8 @@ reproduce() {
       sweep fig6_short
       cp sweeps/fig6_short/sweep.csv docs/paper/fig6_short.csv
       ;;
-    fig6_map | fig6_fast) campaign "$1" ;;
+    fig6_map) for name in fig6_map fig6_end; do campaign "$name"; done ;;
+    fig6_fast) campaign fig6_fast ;;
     fig6_balance) sweep fig6_curves ;;
     *)
       usage >&2
