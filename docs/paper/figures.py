@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Numbers and pictures of the paper's figures from the results of riesel sweep.
 
-    docs/paper/figures.py fig3 fig4_5 fig6_short     # prints tables, draws docs/paper/FIGURE.svg
+    docs/paper/figures.py fig3 fig4_5 fig6_map ...     # prints tables, draws docs/paper/FIGURE.svg
 
-Curves of impacts are read from the sweeps (--sweeps, default sweeps/), the states of the tube from the kept table
-docs/paper/fig6_short.csv. docs/paper/reproduce.sh makes the sweeps first. docs/paper.md quotes the tables as they are
+Curves of impacts are read from the sweeps (--sweeps, default sweeps/), the states of the tube from the kept tables
+docs/paper/fig6_*.csv. docs/paper/reproduce.sh makes the sweeps first. docs/paper.md quotes the tables as they are
 printed.
 """
 import argparse
@@ -13,9 +13,11 @@ from pathlib import Path
 
 import matplotlib
 
+from fig6 import fig6_fast, fig6_map
+from fig6_balance import fig6_balance
+from fig6_short import fig6_short
 from impacts import fig3, fig4_5
 from results import Missing
-from tube import fig6_short
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -24,16 +26,21 @@ HERE = Path(__file__).resolve().parent
 
 
 def main():
+    sweeps, out = Path("sweeps"), HERE
+    figures = {"fig3": lambda: fig3(sweeps, out, plt),
+               "fig4_5": lambda: fig4_5(sweeps, out, plt),
+               "fig6_short": lambda: fig6_short(HERE / "fig6_short.csv", out, plt),
+               "fig6_map": lambda: fig6_map(HERE, out, plt),
+               "fig6_fast": lambda: fig6_fast(HERE, out, plt),
+               "fig6_balance": lambda: fig6_balance(sweeps, HERE, out, plt)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("figures", metavar="FIGURE", nargs="+", choices=("fig3", "fig4_5", "fig6_short"))
-    parser.add_argument("--sweeps", metavar="FOLDER", type=Path, default=Path("sweeps"))
-    parser.add_argument("--out", metavar="FOLDER", type=Path, default=HERE, help="for the pictures")
+    parser.add_argument("figures", metavar="FIGURE", nargs="+", choices=figures)
+    parser.add_argument("--sweeps", metavar="FOLDER", type=Path, default=sweeps)
+    parser.add_argument("--out", metavar="FOLDER", type=Path, default=out, help="for the pictures")
     arguments = parser.parse_args()
 
+    sweeps, out = arguments.sweeps, arguments.out
     matplotlib.rcParams["svg.hashsalt"] = "riesel"  # the same file each time
-    figures = {"fig3": lambda: fig3(arguments.sweeps, arguments.out, plt),
-               "fig4_5": lambda: fig4_5(arguments.sweeps, arguments.out, plt),
-               "fig6_short": lambda: fig6_short(HERE / "fig6_short.csv", arguments.out, plt)}
     for name in arguments.figures:
         figures[name]()
 

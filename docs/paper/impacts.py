@@ -17,6 +17,7 @@ class Curve(NamedTuple):
     v_x: float
     v_y: np.ndarray
     dv_y: np.ndarray
+    dv_x: np.ndarray
     contacts: np.ndarray
     left_out: int  # impacts that went through the wall or stuck to it, and are in no mean
 
@@ -35,7 +36,7 @@ def curves_of(sweep):
         for v_x in dict.fromkeys(point["v_x"] for point in points):
             of_this = [point for point in points if point["v_x"] == v_x]
             columns = {name: np.array([point[name] for point in of_this], dtype=float)  # null: not a number
-                       for name in ("v_y", "dv_y", "contacts")}
+                       for name in ("v_y", "dv_y", "dv_x", "contacts")}
             curves.append(Curve(row, v_x, **columns, left_out=sum(p["passed"] + p["stuck"] for p in of_this)))
     return curves
 

@@ -13,6 +13,9 @@ Usage: docs/paper/reproduce.sh FIGURE...
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (a minute)
   fig6_short   tube, one seed, 3 s (a quarter to half an hour on two cores)
+  fig6_map     tube, spacing of the wall grains, end of the slow branch (a quarter of an hour)
+  fig6_fast    tube, starts near the fast branch (minutes)
+  fig6_balance predicted states from single impacts (seconds; reads the tables of the two before)
 
 The program is \$RIESEL, or else $riesel (./setup.sh build).
 END
@@ -22,7 +25,12 @@ sweep() {
   "$riesel" sweep "scenarios/paper/$1.yaml"
 }
 
-# The table of a long campaign is kept; curves of impacts are quick to make again.
+# The tables of long campaigns are kept; curves of impacts are quick to make again.
+campaign() {
+  sweep "$1"
+  /usr/bin/python3 -B docs/paper/keep.py "sweeps/$1" "docs/paper/$1.csv"
+}
+
 reproduce() {
   case $1 in
     fig3) for name in fig3 fig3_time_step fig3_laws; do sweep "$name"; done ;;
@@ -31,6 +39,9 @@ reproduce() {
       sweep fig6_short
       cp sweeps/fig6_short/sweep.csv docs/paper/fig6_short.csv
       ;;
+    fig6_map) for name in fig6_map fig6_end; do campaign "$name"; done ;;
+    fig6_fast) campaign fig6_fast ;;
+    fig6_balance) sweep fig6_curves ;;
     *)
       usage >&2
       exit 2
