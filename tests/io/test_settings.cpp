@@ -254,6 +254,7 @@ TEST_CASE("tables that contradict themselves are mistakes of the program") {
   };
   CHECK_NOTHROW(verified({.key = "a.b", .doc = "Good."}));
   CHECK_THROWS_AS(verified({.key = "a.b", .doc = "No full stop"}), std::logic_error);
+  CHECK_THROWS_AS(verified({.key = "a.b.c.d", .doc = "Deep."}), std::logic_error);
   CHECK_THROWS_AS(verified({.key = "seed", .doc = "Twice."}), std::logic_error);
   CHECK_THROWS_AS(verified({.key = "a", .fallback = "1", .required = true, .doc = "Both."}),
                   std::logic_error);
