@@ -39,6 +39,7 @@ public:
   FlightRegion(Airspace& airspace, std::size_t index);
   FlightRegion(const FlightRegion&) = delete;
   FlightRegion& operator=(const FlightRegion&) = delete;
+  ~FlightRegion() = default;
 
   /// To be called by all threads of a team, each for its region; see Flights.
   bool take_off(std::int64_t step);
