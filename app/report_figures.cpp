@@ -46,6 +46,30 @@ io::Svg draw_series(const io::Series& time, const io::Series& series, const Seri
   return plot.svg();
 }
 
+io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::string>& names,
+                      const std::string& label) {
+  std::vector<double> extent;
+  std::vector<std::pair<std::string, io::Look>> legend;
+  for (const std::string& name : names) {
+    const io::ProfileWithErrors& profile = profiles.named(name);
+    legend.emplace_back(name, io::look_of(legend.size()));
+    for (std::size_t i = 0; i < profile.values.size(); ++i)
+      for (const double sign : {-1.0, 0.0, 1.0})
+        extent.push_back(profile.values[i] + sign * profile.errors[i]);
+  }
+  io::Plot plot(width, 300.0, label + " across the tube",
+                {.label = "x (m)", .range = io::range_of(profiles.x)},
+                {.label = label, .range = io::range_of(extent)});
+  for (const auto& [name, look] : legend) {
+    const io::ProfileWithErrors& profile = profiles.named(name);
+    plot.curve(profiles.x, profile.values, {.stroke = look.colour, .stroke_width = 1.0});
+    for (std::size_t i = 0; i < profile.values.size(); ++i)
+      plot.measured(profiles.x[i], profile.values[i], profile.errors[i], look, true);
+  }
+  plot.legend("", legend, true);
+  return plot.svg();
+}
+
 std::vector<EnergyPart> parts_of(const io::FlowSummary::Energy& e) {
   return {{"kinetic, at the start", e.initial, true},
           {"work of gravity", e.gravity_work, true},

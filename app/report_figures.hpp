@@ -1,4 +1,5 @@
-// Figures of a report but the state (state_figure.hpp): series and the budget of energy.
+// Figures of a flow's report but the state (state_figure.hpp): series, profiles, the budget of
+// energy, visits to walls.
 #pragma once
 
 #include "io/run_reader.hpp"
@@ -22,6 +23,10 @@ struct SeriesMarks {
 
 /// `time` is as long as `series`.
 io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks);
+
+/// Profiles across the tube that share an axis, which is labelled `label`.
+io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::string>& names,
+                      const std::string& label);
 
 /// A part of the budget of energy.
 struct EnergyPart {

@@ -35,6 +35,7 @@ public:
     tell_result();
     show_state();
     show_series();
+    show_profiles();
     show_energy();
     show_walls();
     draft_.add_origin(summary().run, record_->run.history, record_->effective_settings);
@@ -134,6 +135,25 @@ private:
         "Grey: the transient, up to t = {:.4g} s, which is left out of all means. Where there are "
         "more rows than pixels, each column shows its first, lowest, highest and last value.",
         s.transient_end));
+  }
+
+  void show_profiles() {
+    page().heading("Across the tube");
+    const auto add = [&](const std::string& file, const std::string& label,
+                         const std::vector<std::string>& names) {
+      draft_.add_figure(file, draw_profiles(record_->run.profiles, names, label),
+                        fmt::format("{} in strips along the tube, means after the transient with "
+                                    "68 % error bars.",
+                                    label));
+    };
+    add("area_fraction", "Area fraction", {"area_fraction"});
+    add("velocity", "Mean axial velocity (m/s)", {"mean_axial_velocity"});
+    add("temperature", "Granular temperature (m^2/s^2)", {"temperature_x", "temperature_y"});
+    add("stress", "Stress (N/m)", {"stress_xx", "stress_yy", "stress_xy"});
+    page().paragraph(
+        "Stresses are positive in compression; in a steady state stress_xx is the same everywhere, "
+        "and stress_xy carries the weight of the grains to the walls. The bars know nothing of a "
+        "drift: of a flow that is not steady these are means over what was seen.");
   }
 
   void show_energy() {

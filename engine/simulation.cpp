@@ -125,7 +125,7 @@ std::string partners(const ContactName& name) {
 }  // namespace
 
 int useful_threads(std::size_t grains) {
-  constexpr std::size_t grains_per_thread = 5000;  // fewer do not pay for the barriers of a step
+  constexpr std::size_t grains_per_thread = 2000;  // fewer do not pay for the barriers of a step
   const auto most = static_cast<std::size_t>(omp_get_max_threads());
   return static_cast<int>(std::clamp<std::size_t>(grains / grains_per_thread, 1, most));
 }

@@ -25,6 +25,11 @@ constexpr auto told_of_provenance = {
     "cpu",          "host",      "slurm_job_id", "hdf5_version", "yaml_cpp_version",
     "eigen_version"};
 
+/// The parts of the stress by what carries them are left to who asks for them.
+constexpr auto told_of_profiles = {"area_fraction", "mean_axial_velocity", "temperature_x",
+                                   "temperature_y", "stress_xx",           "stress_xy",
+                                   "stress_yy"};
+
 void require(bool is_so, const std::string& flaw) {
   if (!is_so) throw Hdf5Error(flaw);
 }
@@ -123,6 +128,23 @@ std::vector<Series> read_series(const Hdf5Group& group, std::size_t most_bytes) 
   return series;
 }
 
+Profiles read_profiles(const Hdf5Group& group, std::size_t most_bytes) {
+  Profiles profiles{.x = read_numbers(group, "x", most_bytes), .quantities = {}};
+  for (const char* name : told_of_profiles) {
+    const auto data = group.data(name);
+    profiles.quantities.push_back(
+        {.column = {.name = name,
+                    .unit = data.text_attribute("unit"),
+                    .doc = data.text_attribute("doc")},
+         .values = read_numbers(group, name, most_bytes),
+         .errors = read_numbers(group, std::string(name) + "_error", most_bytes)});
+    const auto& read = profiles.quantities.back();
+    require(read.values.size() == profiles.x.size() && read.errors.size() == profiles.x.size(),
+            fmt::format("the profile {} has another number of strips than the others", name));
+  }
+  return profiles;
+}
+
 Provenance read_provenance(const Hdf5Group& group, std::size_t most_bytes) {
   Provenance provenance;
   for (const char* name : told_of_provenance)
@@ -143,8 +165,10 @@ RunHistory read_history(const Hdf5Group& root, std::size_t most_bytes) {
 RunContents read_contents(const Hdf5Group& root, std::size_t most_bytes) {
   RunHistory history = read_history(root, most_bytes);
   require(root.has("final"), "it holds no final state");
+  require(root.has("profiles"), "it holds no profiles");
   return {.final_state = read_final_state(root.group("final"), most_bytes),
           .series = read_series(root.group("series"), most_bytes),
+          .profiles = read_profiles(root.group("profiles"), most_bytes),
           .history = std::move(history)};
 }
 
@@ -166,6 +190,13 @@ const Series& RunContents::series_of(const std::string& name) const {
   const auto found = std::ranges::find_if(
       series, [&](const Series& candidate) { return candidate.column.name == name; });
   if (found == series.end()) throw std::out_of_range("there is no series " + name);
+  return *found;
+}
+
+const ProfileWithErrors& Profiles::named(const std::string& name) const {
+  const auto found = std::ranges::find_if(
+      quantities, [&](const auto& candidate) { return candidate.column.name == name; });
+  if (found == quantities.end()) throw std::out_of_range("there is no profile " + name);
   return *found;
 }
 

@@ -30,6 +30,21 @@ struct Series {
   std::vector<double> values;
 };
 
+/// A quantity across the tube, by strip; not a number where it is not known.
+struct ProfileWithErrors {
+  Column column;
+  std::vector<double> values, errors;
+};
+
+/// /profiles
+struct Profiles {
+  std::vector<double> x;  ///< m, middles of the strips
+  std::vector<ProfileWithErrors> quantities;
+
+  /// Throws std::out_of_range for a name that is not there.
+  const ProfileWithErrors& named(const std::string& name) const;
+};
+
 /// What tells by whom and how a run was made.
 struct RunHistory {
   Provenance start;
@@ -39,6 +54,7 @@ struct RunHistory {
 struct RunContents {
   FinalState final_state;
   std::vector<Series> series;  ///< all of the same length
+  Profiles profiles;           ///< all of the same length
   RunHistory history;
 
   /// Throws std::out_of_range for a name that is not there.

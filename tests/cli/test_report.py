@@ -10,7 +10,8 @@ import h5py
 from report_files import SVG, Report
 from riesel_command import SHIPPED, bytes_of_files
 
-FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits"}
+FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits",
+           "area_fraction", "velocity", "temperature", "stress"}
 
 
 class FinishedRun(Report):
@@ -92,6 +93,15 @@ class FinishedRun(Report):
                 self.assertAlmostEqual(moved, scale * (here - first), delta=0.2)
         fills = [disc.get("fill") for disc in discs]
         self.assertEqual((fills[speed.argmin()], fills[speed.argmax()]), ("#241c5c", "#fae860"))
+
+    def test_profiles_are_drawn_as_they_stand_in_the_file(self):
+        with h5py.File(self.out / "run.h5") as run:
+            known = {name: sum(value == value for value in run[f"profiles/{name}"])
+                     for name in ("area_fraction", "mean_axial_velocity")}
+        self.assertGreater(known["area_fraction"], 5)
+        for name, figure in (("area_fraction", "area_fraction"), ("mean_axial_velocity", "velocity")):
+            discs = sum(1 for _ in self.figure(self.out, figure).iter(f"{SVG}circle"))
+            self.assertEqual(discs, known[name] + 1)  # and one in the legend
 
     def test_visits_are_drawn_as_a_histogram(self):
         """Bars as high as the counts, in their order."""

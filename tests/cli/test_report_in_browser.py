@@ -74,7 +74,7 @@ class InBrowser(Report):
         sweep = maker.home / "sweep"
         for directory in (run, impacts, sweep):
             maker.assert_done(maker.riesel("report", directory))
-        cls.pages = {run / "report.html": 7, impacts / "report.html": 4, sweep / "report.html": 1}
+        cls.pages = {run / "report.html": 11, impacts / "report.html": 4, sweep / "report.html": 1}
         cls.browser = browser.Browser()
         cls.addClassCleanup(cls.browser.close)
 

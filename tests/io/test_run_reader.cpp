@@ -4,6 +4,7 @@
 #include "io/file_error.hpp"
 #include "tests/io/file_fixture.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 using namespace riesel;
@@ -15,11 +16,27 @@ namespace {
 const std::vector<Column> columns = {{"time", "s", "Time since the start."},
                                      {"velocity", "m/s", "Mean axial velocity."}};
 
+const Strips strips{.width = 1e-3, .length = 0.1, .count = 2};
+
+/// Of each the value 1 in the first strip, and in the second nothing that is known.
+std::vector<TubeProfile> profiles() {
+  std::vector<TubeProfile> all;
+  for (const char* name : {"area_fraction", "mean_axial_velocity", "temperature_x", "temperature_y",
+                           "stress_xx", "stress_xy", "stress_yy"})
+    all.push_back(
+        {.name = name,
+         .unit = "unit",
+         .meaning = "Meaning.",
+         .zones = {{.value = 1.0, .error = 0.1}, {.value = std::nan(""), .error = std::nan("")}}});
+  return all;
+}
+
 RunFile write_run(const fs::path& path, const State& state) {
   auto file = RunFile::create(
       path, {{"date", "today"}, {"command", "riesel run"}, {"settings", "a: 1"}}, columns);
   for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0 / (i + 1)});
   file.write_final_state(state);
+  file.write_profiles(strips, profiles(), 0.1);
   file.flush();
   return file;
 }
@@ -61,6 +78,13 @@ TEST_CASE("What was written to a run file is read back") {
   CHECK(run.series_of("velocity").column.doc == "Mean axial velocity.");
   CHECK(run.series_of("velocity").values == std::vector{-1.0, -1.0 / 2, -1.0 / 3});
   CHECK_THROWS_AS(run.series_of("speed"), std::out_of_range);
+  CHECK(run.profiles.x == std::vector{0.5e-3, 1.5e-3});
+  const ProfileWithErrors& stress = run.profiles.named("stress_xy");
+  CHECK(stress.column.unit == "unit");
+  CHECK(stress.values.front() == 1.0);
+  CHECK(stress.errors.front() == 0.1);
+  CHECK(std::isnan(stress.values.back()));
+  CHECK_THROWS_AS(run.profiles.named("density"), std::out_of_range);
   CHECK(run.history.start == Provenance{{"date", "today"}, {"command", "riesel run"}});
   CHECK(run.history.resumes.empty());
 }
@@ -72,6 +96,7 @@ TEST_CASE("Each resume of a run is told of") {
   for (const std::string day : {"tomorrow", "later"}) {
     auto file = RunFile::reopen(path, {{"date", day}}, columns, 3);
     file.write_final_state(special_state());
+    file.write_profiles(strips, profiles(), 0.1);
     file.flush();
   }
   const auto run = read_run_file(path);
