@@ -112,16 +112,17 @@ TEST_CASE("random systems of all kinds go both ways alike") {
     state.gravity = dice.between(-20.0, 20.0);
     state.time_step = dice.between(0.3e-6, 3e-6);
     add_walls(state, 1 + dice.below(30));
+    // One draw after the other: arguments of one call are evaluated in an order of the compiler's.
+    const Throw where{.left = 0.0,
+                      .right = state.box.width,
+                      .low = 0.0,
+                      .high = state.box.length,
+                      .speed = std::pow(10.0, dice.between(-1.0, 1.0)),
+                      .common_vy = dice.between(-20.0, 20.0),
+                      .polydispersity = 0.2};
     const double room = state.box.width * state.box.length / (radius * radius);
-    throw_grains(state, static_cast<std::size_t>(dice.between(0.01, 0.07) * room),
-                 {.left = 0.0,
-                  .right = state.box.width,
-                  .low = 0.0,
-                  .high = state.box.length,
-                  .speed = std::pow(10.0, dice.between(-1.0, 1.0)),
-                  .common_vy = dice.between(-20.0, 20.0),
-                  .polydispersity = 0.2},
-                 dice);
+    const auto count = static_cast<std::size_t>(dice.between(0.01, 0.07) * room);
+    throw_grains(state, count, where, dice);
     // Teams take time on a busy machine: only some.
     same_both_ways(state, 1000, seed % 5 == 0 ? 2 + static_cast<int>(seed / 5 % 3) : 1);
   }
