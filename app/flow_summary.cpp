@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,11 +35,6 @@ double critical_velocity(const State& state, const ContactModel& model, double s
   const double t_col = collision_time(model.normal, mass, speed);
   const double reach = 0.5 * mean_diameter(state.grains) + state.walls.front().radius;
   return chord_of_impact(reach, speed, t_col) / t_col;
-}
-
-double mean_from(const std::vector<double>& series, std::size_t first) {
-  const auto begin = series.begin() + static_cast<std::ptrdiff_t>(first);
-  return std::accumulate(begin, series.end(), 0.0) / static_cast<double>(series.end() - begin);
 }
 
 /// Of one series after the transient.
@@ -156,16 +150,15 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
                            .error = velocity.size() > 1 ? steady.error : unknown};
   s.independent_samples = steady.independent_samples;
   const CumulativeSeries series(file, steady.transient_end, interval);
-  if (steady.transient_end < velocity.size()) {
-    s.transient_end = file.series("time")[steady.transient_end];
-    s.granular_temperature = mean_from(file.series("granular_temperature"), steady.transient_end);
-    s.validity.v_crit =
-        critical_velocity(state, model, mean_from(file.series("sigma_vx"), steady.transient_end));
-  }
   s.fluctuations = {.sigma_vx = mean_of(file, "sigma_vx", steady.transient_end),
                     .sigma_vy = mean_of(file, "sigma_vy", steady.transient_end),
                     .granular_temperature =
                         mean_of(file, "granular_temperature", steady.transient_end)};
+  if (steady.transient_end < velocity.size()) {
+    s.transient_end = file.series("time")[steady.transient_end];
+    s.granular_temperature = s.fluctuations.granular_temperature.value;
+    s.validity.v_crit = critical_velocity(state, model, s.fluctuations.sigma_vx.value);
+  }
   for (std::size_t n = 1; n <= density_waves; ++n)
     s.structure_factor[n - 1] =
         mean_of(file, "structure_factor_" + std::to_string(n), steady.transient_end);

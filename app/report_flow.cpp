@@ -8,15 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 namespace riesel::app {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string what_validity_means(Validity validity) {
   if (validity == Validity::valid)
@@ -117,7 +114,7 @@ private:
     };
     const std::vector<std::pair<std::string, std::optional<io::Measured>>> shown = {
         {"mean_vy", mean(s.mean_axial_velocity)},
-        {"granular_temperature", mean({.value = s.granular_temperature, .error = unknown})},
+        {"granular_temperature", mean(s.fluctuations.granular_temperature)},
         {"contacts", std::nullopt},
         {"max_overlap", std::nullopt}};
     page().heading("Series");

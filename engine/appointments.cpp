@@ -31,12 +31,9 @@ void Appointments::start_over() {
 /// grain is the second, or near a wall, a list is needed.
 void Appointments::link() {
   const std::uint32_t n_pairs = pair_count();
-  const std::size_t begin = slice_.begin, own = slice_.end - slice_.begin;
-  const auto number = [&](std::uint32_t slot) {
-    return slot - begin < own ? slot - begin : border_.number(slot);
-  };
+  const std::size_t begin = slice_.begin;
   const auto for_each_link = [&](auto visit) {
-    for (std::uint32_t p = 0; p < n_pairs; ++p) visit(number(slice_.pairs.second[p]), p);
+    for (std::uint32_t p = 0; p < n_pairs; ++p) visit(border_.number(slice_.pairs.second[p]), p);
     std::uint32_t candidate = n_pairs;
     for (const NearWall& near : slice_.near_walls) visit(near.slot - begin, candidate++);
   };

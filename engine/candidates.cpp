@@ -277,47 +277,26 @@ std::size_t Candidates::kept() const {
                          [](std::size_t sum, const Slice& slice) { return sum + slice.kept; });
 }
 
-/// m, sum of the radii.
-double Candidates::reach(const State& state, const ContactName& name) const {
-  const auto radius = [&](std::int32_t id) {
-    return state.grains.radius[slot_of_[static_cast<std::size_t>(id)]];
-  };
-  return radius(name.grain)
-         + (name.wall == no_wall ? radius(name.partner)
-                                 : state.walls[static_cast<std::size_t>(name.wall)].radius);
-}
-
-/// With the loss that becomes known in the step in which the bodies are apart.
-Contact Candidates::completed(const State& state, Contact contact) const {
-  const StepUnits units(state);
-  const Bodies all = bodies(state.grains);
-  const auto slot = [&](std::int32_t id) { return slot_of_[static_cast<std::size_t>(id)]; };
-  const auto [wall, grain, partner] = contact.name;
-  RelativeMotion motion{};
-  if (wall == no_wall) {
-    motion = relative_motion(all, slot(grain), slot(partner));
-  } else {
-    const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
-    motion = relative_motion(all, slot(grain), state.box.fixed_x(lattice.line),
-                             lattice.place(partner), units);
-  }
-  contact.friction_loss += loss_by_friction(contact.friction_x, contact.friction_y,
-                                            encounter(motion, 0.0, 0.0, units), units.dt);
-  return contact;
-}
-
 /// A contact whose bodies are no candidates any more has ended: the grain is so fast that it left
 /// in a single step.
 void Candidates::end_lost_contacts(const State& state) {
   std::size_t lasting = 0;
   for (const Slice& slice : slices_) lasting += slice.lasting.size();
   if (kept() == lasting) return;
+  const StepUnits units(state);
+  const auto is_lost = [&](const Contact& contact) {
+    return std::none_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
+      return candidate_in(slice, contact).has_value();
+    });
+  };
   for (Slice& owner : slices_)
-    for (const Contact& contact : owner.lasting)
-      if (std::none_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
-            return candidate_in(slice, contact).has_value();
-          }))
-        owner.tally.end(completed(state, contact), reach(state, contact.name));
+    for (Contact& contact : owner.lasting) {
+      if (!is_lost(contact)) continue;
+      const Encounter e = encounter(contact.name, state, slot_of_, units);
+      contact.friction_loss +=
+          loss_by_friction(contact.friction_x, contact.friction_y, e, units.dt);
+      owner.tally.end(contact, e.reach);
+    }
 }
 
 }  // namespace riesel

@@ -73,8 +73,6 @@ private:
   std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
   void keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const;
   std::size_t kept() const;
-  double reach(const State& state, const ContactName& name) const;
-  Contact completed(const State& state, Contact contact) const;
   void end_lost_contacts(const State& state);
 
   double skin_;  // m

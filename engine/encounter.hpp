@@ -96,6 +96,29 @@ relative_motion(const Bodies& b, std::int64_t i, Fixed line, Fixed y, const Step
           .reduced_mass = reduced_mass};
 }
 
+/// Of the two bodies of a contact, seen from the free grain that names it; slots[id] is where a
+/// grain stands in the store.
+template <class Slots>
+Encounter encounter(const ContactName& name, const State& state, const Slots& slots,
+                    const StepUnits& units) {
+  const Grains& g = state.grains;
+  const auto slot = [&](std::int32_t id) {
+    return static_cast<std::size_t>(slots[static_cast<std::size_t>(id)]);
+  };
+  const std::size_t i = slot(name.grain);
+  const auto first = static_cast<std::int64_t>(i);
+  if (name.wall == no_wall) {
+    const std::size_t j = slot(name.partner);
+    return encounter(relative_motion(bodies(g), first, static_cast<std::int64_t>(j)),
+                     g.radius[i] + g.radius[j], g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j]),
+                     units);
+  }
+  const WallLattice& wall = state.walls[static_cast<std::size_t>(name.wall)];
+  const RelativeMotion motion = relative_motion(bodies(g), first, state.box.fixed_x(wall.line),
+                                                wall.place(name.partner), units);
+  return encounter(motion, g.radius[i] + wall.radius, g.mass[i], units);
+}
+
 /// Whether two bodies, the second at (x, y) from the first, touch: the one test that decides about
 /// the beginning and the end of a contact.
 [[gnu::always_inline]] inline bool overlapping(Fixed x, Fixed y, double reach,

@@ -248,12 +248,12 @@ void FlightRegion::correct_courses(std::int64_t step) {
 void FlightRegion::announce(std::int64_t step) {
   Announcement& mine = border_.mine();
   mine.step = step;
-  mine.trouble = slice_.trouble || slice_.lost;
+  mine.trouble = slice_.failed();
   for (BorderGrain& grain : mine.border) {
-    const std::int32_t place = airspace_.courses.place(grain.slot);
-    grain.deflected = place != Courses::flying;
+    grain.deflected = airspace_.courses.deflected(grain.slot);
     if (grain.deflected)
-      grain.motion = deflected_.motion(static_cast<DeflectedGrains::Place>(place));
+      grain.motion = deflected_.motion(
+          static_cast<DeflectedGrains::Place>(airspace_.courses.place(grain.slot)));
   }
 }
 

@@ -81,8 +81,8 @@ int team_size(int wanted) {
 }
 
 /// What to try first. In units of what plain stepping takes for a grain without contacts, a contact
-/// takes plain
-/// stepping 7.5 and flights 10, and flights take next to nothing for a grain: docs/performance.md.
+/// takes plain stepping 7.5 and flights 10, and flights take next to nothing for a grain:
+/// docs/performance.md.
 bool flights_look_faster(const State& state) {
   const auto contacts = static_cast<double>(state.contacts.size());
   const auto grains = static_cast<double>(state.grains.size());

@@ -96,6 +96,13 @@ GrainView::GrainView(const State& state)
       to_vx_(state.box.quantum_x() / state.time_step),
       to_vy_(state.box.quantum_y() / state.time_step) {}
 
+std::vector<std::size_t> slots_by_id(const Grains& grains) {
+  std::vector<std::size_t> slots(grains.size());
+  for (std::size_t slot = 0; slot < grains.size(); ++slot)
+    slots[static_cast<std::size_t>(grains.id[slot])] = slot;
+  return slots;
+}
+
 Grain grain_at(const State& state, std::size_t slot) { return GrainView(state)[slot]; }
 
 double mean_diameter(const Grains& grains) {

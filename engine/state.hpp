@@ -100,6 +100,9 @@ private:
   double to_vx_, to_vy_;  // m/s per quantum per step
 };
 
+/// The slots of the grains in the order of their ids.
+std::vector<std::size_t> slots_by_id(const Grains& grains);
+
 /// One grain of GrainView.
 Grain grain_at(const State& state, std::size_t slot);
 

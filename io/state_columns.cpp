@@ -2,14 +2,6 @@
 
 namespace riesel::io {
 
-std::vector<std::size_t> slots_by_id(const Grains& grains) {
-  std::vector<std::size_t> slots(grains.size());
-  for (std::size_t slot = 0; slot < grains.size(); ++slot) {
-    slots[static_cast<std::size_t>(grains.id[slot])] = slot;
-  }
-  return slots;
-}
-
 void write_column(Hdf5Group& group, const std::string& name, const std::string& unit,
                   const std::vector<ExactSum>& sums) {
   std::vector<std::int64_t> halves;

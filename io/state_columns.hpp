@@ -14,9 +14,6 @@
 
 namespace riesel::io {
 
-/// The slots of the grains in the order of their ids.
-std::vector<std::size_t> slots_by_id(const Grains& grains);
-
 /// Writes numbers with their unit, `components` of them in a row.
 template <Hdf5Number T>
 Hdf5Data write_column(Hdf5Group& group, const std::string& name, const std::string& unit,

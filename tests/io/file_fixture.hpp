@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/state.hpp"
+#include "io/run_file.hpp"
 #include "tests/catch.hpp"
 
 #include <sys/wait.h>
@@ -87,6 +88,10 @@ int in_other_process(Action action) {
   REQUIRE(waitpid(child, &status, 0) == child);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
+
+/// Of a series with two columns.
+inline const std::vector<riesel::io::Column> columns = {
+    {"time", "s", "Time since the start."}, {"velocity", "m/s", "Mean axial velocity."}};
 
 /// The message of the Error that action() throws; empty if it throws none.
 template <class Error, class Action>

@@ -14,8 +14,6 @@ using namespace file_fixture;
 
 namespace {
 
-const std::vector<Column> columns = {{"time", "s", "Time since the start."},
-                                     {"velocity", "m/s", "Mean axial velocity."}};
 const Provenance provenance = {{"host", "here"}, {"source", std::string(100'000, 'y')}};
 
 /// Rows first ... last - 1 of a series with two columns.

@@ -13,9 +13,6 @@ using namespace file_fixture;
 
 namespace {
 
-const std::vector<Column> columns = {{"time", "s", "Time since the start."},
-                                     {"velocity", "m/s", "Mean axial velocity."}};
-
 const Strips strips{.width = 1e-3, .length = 0.1, .count = 2};
 
 /// Of each the value 1 in the first strip, and in the second nothing that is known.
