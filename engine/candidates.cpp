@@ -114,6 +114,7 @@ bool Candidates::look_again(State& state, CoarsePositions& coarse, Slice& mine, 
   sort_anew(state, mine, step);
   std::copy(&when_sorted_.x[mine.begin], &when_sorted_.x[mine.end], &coarse.x[mine.begin]);
   std::copy(&when_sorted_.y[mine.begin], &when_sorted_.y[mine.end], &coarse.y[mine.begin]);
+#pragma omp barrier
   mine.profile.done_build();
   return true;
 }
