@@ -21,12 +21,6 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-double total_mass(const Grains& grains) {
-  ExactSum sum;  // the slots have no fixed order
-  for (const double mass : grains.mass) sum.add(mass);
-  return sum.value();
-}
-
 /// m/s, above which a grain that meets the wall with the typical random velocity passes a wall
 /// grain sooner than the contact can push it away: chord over t_col.
 double critical_velocity(const State& state, const ContactModel& model, double sigma_vx) {
@@ -77,6 +71,12 @@ io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& st
           .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
           .n_dot_dv_y = scaled(series.rate("wall_impulse_y"), -1.0 / mass),
           .gravity = state.gravity};
+}
+
+io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state) {
+  return {.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
+          .right = scaled(series.rate("right_wall_impulse_y"), -1.0),
+          .weight = total_mass(state.grains) * state.gravity};
 }
 
 io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const VisitTally& tally) {
@@ -165,6 +165,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, static_cast<std::int64_t>(steady.transient_end));
   s.balance = balance(series, state);
+  s.braking_force = braking_force(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.validity.verdict = judge(evidence(series, state, s.validity.v_crit));
   s.validity.friction_failure_fraction =

@@ -18,6 +18,12 @@ void print_balance(const io::FlowSummary::Balance& b) {
              factors, b.n_dot_dv_y.value, b.n_dot_dv_y.error, b.gravity);
 }
 
+void print_braking(const io::FlowSummary::BrakingForce& f) {
+  fmt::print("  {:<22}left {:.4g} +- {:.2g} N, right {:.4g} +- {:.2g} N, weight {:.4g} N\n",
+             "braking by the walls", f.left.value, f.left.error, f.right.value, f.right.error,
+             f.weight);
+}
+
 void print_visits(const io::FlowSummary::WallVisits& v) {
   if (v.visits == 0.0) {
     fmt::print("  {:<22}none after the transient\n", "visit to a wall");
@@ -63,6 +69,7 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   fmt::print("  {:<22}{:.4g} +- {:.2g} m^2/s^2\n", "granular temperature", temperature.value,
              temperature.error);
   print_balance(s.balance);
+  print_braking(s.braking_force);
   print_visits(s.wall_visits);
   fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
              s.energy.residual / (s.energy.initial + s.energy.gravity_work));

@@ -72,6 +72,10 @@ Json balance(const FlowSummary::Balance& b) {
            {{"n_dot", b.n_dot.error}, {"dv_y", b.dv_y.error}, {"n_dot_dv_y", b.n_dot_dv_y.error}}}};
 }
 
+Json braking_force(const FlowSummary::BrakingForce& f) {
+  return {{"left", measured(f.left)}, {"right", measured(f.right)}, {"weight", f.weight}};
+}
+
 /// A threshold that no value passes stands as null.
 Json findings(const std::vector<Finding>& findings) {
   Json list = Json::array();
@@ -119,6 +123,7 @@ std::string to_json(const FlowSummary& s) {
   json["structure_factor"] = structure_factor(s.structure_factor);
   json["profiles"] = {{"core", zone(s.core)}, {"wall_layers", zone(s.wall_layers)}};
   json["balance"] = balance(s.balance);
+  json["braking_force"] = braking_force(s.braking_force);
   json["energy"] = {
       {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},
       {"elastic", s.energy.elastic},         {"gravity_work", s.energy.gravity_work},

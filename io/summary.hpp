@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct RunSummary {
 
 /// Not a number stands as null in the file.
 using Measured = Estimate;
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Means are over the samples after the transient.
 struct FlowSummary {
@@ -69,6 +72,13 @@ struct FlowSummary {
     Measured n_dot_dv_y;   ///< m/s^2
     double gravity = 0.0;  ///< m/s^2
   } balance;
+
+  /// What each wall carries: the mean force on the grains against gravity. In a steady state both
+  /// together carry the weight.
+  struct BrakingForce {
+    Measured left{unknown, unknown}, right{unknown, unknown};  ///< N
+    double weight = unknown;                                   ///< N, of all grains
+  } braking_force;
 
   /// J; since the start, but kinetic and elastic energy are those at the end.
   struct Energy {

@@ -47,6 +47,15 @@ FlowSummary::Balance read_balance(const Json& json) {
           .gravity = number(json, "gravity")};
 }
 
+/// Not in files of riesel 0.3.0 and before.
+FlowSummary::BrakingForce read_braking_force(const Json& summary) {
+  const auto found = summary.find("braking_force");
+  if (found == summary.end()) return {};
+  return {.left = measured(found->at("left")),
+          .right = measured(found->at("right")),
+          .weight = number(*found, "weight")};
+}
+
 FlowSummary::Energy read_energy(const Json& json) {
   return {.initial = number(json, "initial"),
           .kinetic = number(json, "kinetic"),
@@ -151,6 +160,7 @@ FlowSummary read_flow(const Json& json) {
           .core = read_zone(json.at("profiles").at("core")),
           .wall_layers = read_zone(json.at("profiles").at("wall_layers")),
           .balance = read_balance(json.at("balance")),
+          .braking_force = read_braking_force(json),
           .energy = read_energy(json.at("energy")),
           .wall_visits = read_wall_visits(json.at("wall_visits")),
           .validity = {.verdict = read_verdict(validity),

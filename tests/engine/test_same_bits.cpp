@@ -23,7 +23,7 @@ auto all_of(const Contact& c) {
 
 auto all_of(const ContactTally& t) {
   return std::tie(t.begun, t.ended, t.max_overlap, t.duration, t.slip_path, t.normal_loss,
-                  t.friction_loss, t.impulse_y, t.impulse_y_times_step, t.durations);
+                  t.friction_loss, t.impulse_y, t.impulse_y_times_step, t.durations, t.overlaps);
 }
 
 auto all_of(const BrakeTally& t) {
@@ -32,7 +32,8 @@ auto all_of(const BrakeTally& t) {
 }
 
 auto all_of(const VisitTally& t) {
-  return std::tie(t.of_contacts, t.contacts, t.dv_y, t.dv_x, t.entry_rate, t.entry_slip);
+  return std::tie(t.of_contacts, t.contacts, t.dv_y, t.dv_x, t.entry_rate, t.entry_slip,
+                  t.entry_rates, t.entry_slips);
 }
 
 auto all_of(const WallVisit& v) {
@@ -54,6 +55,7 @@ bool same(const State& a, const State& b) {
          && same(a.contacts, b.contacts) && same(a.open_visits, b.open_visits)
          && all_of(a.tally.grains) == all_of(b.tally.grains)
          && all_of(a.tally.walls) == all_of(b.tally.walls)
+         && a.tally.impulses.y == b.tally.impulses.y
          && all_of(a.tally.brakes) == all_of(b.tally.brakes)
          && all_of(a.tally.visits) == all_of(b.tally.visits) && a.tally.ended_at_walls.empty()
          && b.tally.ended_at_walls.empty() && a.origin.energy == b.origin.energy
