@@ -21,14 +21,17 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// m/s, above which a grain that meets the wall with the typical random velocity passes a wall
-/// grain sooner than the contact can push it away: chord over t_col.
-double critical_velocity(const State& state, const ContactModel& model, double sigma_vx) {
+/// What a grain of the mean mass and size does that meets others and the wall with the typical
+/// random velocity: t_col, and the velocity above which it passes a wall grain sooner than the
+/// contact can push it away, chord over t_col.
+void tell_typical_contacts(const State& state, const ContactModel& model, double sigma_vx,
+                           io::FlowSummary::Validity& validity) {
   const double mass = total_mass(state.grains) / static_cast<double>(state.grains.size());
   const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
-  const double t_col = collision_time(model.normal, mass, speed);
   const double reach = 0.5 * mean_diameter(state.grains) + state.walls.front().radius;
-  return chord_of_impact(reach, speed, t_col) / t_col;
+  validity.t_col_grains = collision_time(model.normal, 0.5 * mass, speed);
+  validity.t_col_walls = collision_time(model.normal, mass, speed);
+  validity.v_crit = chord_of_impact(reach, speed, validity.t_col_walls) / validity.t_col_walls;
 }
 
 /// Of one series after the transient.
@@ -157,7 +160,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   if (steady.transient_end < velocity.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = s.fluctuations.granular_temperature.value;
-    s.validity.v_crit = critical_velocity(state, model, s.fluctuations.sigma_vx.value);
+    tell_typical_contacts(state, model, s.fluctuations.sigma_vx.value, s.validity);
   }
   for (std::size_t n = 1; n <= density_waves; ++n)
     s.structure_factor[n - 1] =

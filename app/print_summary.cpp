@@ -34,11 +34,6 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
              v.visits);
 }
 
-std::string explanation_of_end(const io::FlowSummary& s) {
-  if (s.ended_by == "precision") return "the mean is known as well as was asked for";
-  return "the time was up before the mean was known as well as was asked for";
-}
-
 /// The verdict, and the findings that are the reason for it.
 void print_validity(const ValidityVerdict& v) {
   fmt::print("  {:<22}{}\n", "validity", name(v.verdict));
@@ -64,7 +59,7 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   fmt::print("  {:<22}{:.5g} +- {:.2g} m/s (after {:.3g} s)\n", "mean axial velocity",
              s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
   fmt::print("  {:<22}{}: {}\n", "state", s.state, explanation(s.state));
-  if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s));
+  if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
   const io::Measured& temperature = s.fluctuations.granular_temperature;
   fmt::print("  {:<22}{:.4g} +- {:.2g} m^2/s^2\n", "granular temperature", temperature.value,
              temperature.error);

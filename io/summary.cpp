@@ -103,6 +103,7 @@ Json validity(const FlowSummary& s) {
           {"friction_failure_fraction", s.validity.friction_failure_fraction},
           {"contacts_per_wall_visit", s.wall_visits.contacts.value},
           {"v_crit", s.validity.v_crit},
+          {"t_col", {{"grains", s.validity.t_col_grains}, {"walls", s.validity.t_col_walls}}},
           {"findings", findings(v.findings)}};
 }
 

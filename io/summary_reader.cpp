@@ -127,6 +127,11 @@ ValidityVerdict read_verdict(const Json& json) {
   return verdict;
 }
 
+/// Not in files of riesel 0.3.0 and before.
+double read_t_col(const Json& validity, const char* of) {
+  return validity.contains("t_col") ? number(validity.at("t_col"), of) : unknown;
+}
+
 CurveSummary read_curve(const Json& json) {
   CurveSummary summary{.run = read_run(json), .curve = {}};
   for (const auto& point : json.at("curve"))
@@ -165,6 +170,8 @@ FlowSummary read_flow(const Json& json) {
           .wall_visits = read_wall_visits(json.at("wall_visits")),
           .validity = {.verdict = read_verdict(validity),
                        .v_crit = number(validity, "v_crit"),
+                       .t_col_grains = read_t_col(validity, "grains"),
+                       .t_col_walls = read_t_col(validity, "walls"),
                        .friction_failure_fraction = number(validity, "friction_failure_fraction")}};
 }
 

@@ -69,6 +69,8 @@ FlowSummary special_summary() {
                                   .pulling_fraction = std::nan(""),
                                   .steps_per_contact = 12.0}),
                 .v_crit = 2.2,
+                .t_col_grains = 5e-5 / 3.0,
+                .t_col_walls = std::nan(""),
                 .friction_failure_fraction = 0.125};
   return s;
 }
