@@ -59,6 +59,7 @@ struct Schedule {
 /// What a run that goes on has behind it.
 struct Past {
   std::string source;  // the user's settings file, verbatim
+  bool had_other_settings = false;  // a shorter duration, for instance
   std::int64_t rows = 0;
   double wall_seconds = 0.0;
   TimeBlocks profiles = {}, histograms = {};
@@ -87,6 +88,7 @@ public:
     start_ = last_checkpoint_ = Clock::now();
     try {
       if (file_.rows() == 0) begin();
+      if (past_.had_other_settings) keep_settings();
       while (!is_over() && interrupting_signal() == 0) advance();
     } catch (const RunFailure& failure) {
       return fail(failure);
@@ -112,6 +114,13 @@ private:
   /// The first row and a checkpoint: from here on nothing is lost.
   void begin() {
     add_row();
+    save();
+  }
+
+  /// In both generations of the checkpoint: whichever is taken after a kill, the run goes on to what
+  /// was asked for last.
+  void keep_settings() {
+    save();
     save();
   }
 
@@ -270,6 +279,7 @@ int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory di
 int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDirectory directory,
                 const Arguments& arguments, bool profile) {
   const Past past{.source = checkpoint.source,
+                  .had_other_settings = checkpoint.settings != settings.effective_yaml(),
                   .rows = checkpoint.rows,
                   .wall_seconds = checkpoint.wall_seconds,
                   .profiles = std::move(checkpoint.profiles),
