@@ -168,6 +168,9 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, static_cast<std::int64_t>(steady.transient_end));
   s.balance = balance(series, state);
+  // Each contact is one of two grains.
+  s.grain_contact_rate =
+      scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
   s.braking_force = braking_force(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.validity.verdict = judge(evidence(series, state, s.validity.v_crit));

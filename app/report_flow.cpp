@@ -183,6 +183,7 @@ private:
          {"axial velocity lost per wall contact", with_error(b.dv_y, "m/s")},
          {"their product, equal to gravity in a steady state", with_error(b.n_dot_dv_y, "m/s^2")},
          {"gravity", number(b.gravity) + " m/s^2"},
+         {"contacts with other grains per grain", with_error(summary().grain_contact_rate, "1/s")},
          {"braking force of the left wall", with_error(summary().braking_force.left, "N")},
          {"braking force of the right wall", with_error(summary().braking_force.right, "N")},
          {"weight of all grains, carried by both in a steady state",

@@ -58,7 +58,7 @@ struct Schedule {
 
 /// What a run that goes on has behind it.
 struct Past {
-  std::string source;  // the user's settings file, verbatim
+  std::string source;               // the user's settings file, verbatim
   bool had_other_settings = false;  // a shorter duration, for instance
   std::int64_t rows = 0;
   double wall_seconds = 0.0;
@@ -117,8 +117,8 @@ private:
     save();
   }
 
-  /// In both generations of the checkpoint: whichever is taken after a kill, the run goes on to what
-  /// was asked for last.
+  /// In both generations of the checkpoint: whichever is taken after a kill, the run goes on to
+  /// what was asked for last.
   void keep_settings() {
     save();
     save();

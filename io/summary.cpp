@@ -124,6 +124,7 @@ std::string to_json(const FlowSummary& s) {
   json["structure_factor"] = structure_factor(s.structure_factor);
   json["profiles"] = {{"core", zone(s.core)}, {"wall_layers", zone(s.wall_layers)}};
   json["balance"] = balance(s.balance);
+  json["grain_contact_rate"] = measured(s.grain_contact_rate);
   json["braking_force"] = braking_force(s.braking_force);
   json["energy"] = {
       {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},

@@ -73,6 +73,8 @@ struct FlowSummary {
     double gravity = 0.0;  ///< m/s^2
   } balance;
 
+  Measured grain_contact_rate{unknown, unknown};  ///< 1/s, contacts with other grains per grain
+
   /// What each wall carries: the mean force on the grains against gravity. In a steady state both
   /// together carry the weight.
   struct BrakingForce {

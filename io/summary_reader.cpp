@@ -47,7 +47,13 @@ FlowSummary::Balance read_balance(const Json& json) {
           .gravity = number(json, "gravity")};
 }
 
-/// Not in files of riesel 0.3.0 and before.
+// Some values are not in files of riesel 0.3.0 and before.
+
+Measured read_grain_contact_rate(const Json& summary) {
+  const auto found = summary.find("grain_contact_rate");
+  return found == summary.end() ? Measured{unknown, unknown} : measured(*found);
+}
+
 FlowSummary::BrakingForce read_braking_force(const Json& summary) {
   const auto found = summary.find("braking_force");
   if (found == summary.end()) return {};
@@ -127,7 +133,6 @@ ValidityVerdict read_verdict(const Json& json) {
   return verdict;
 }
 
-/// Not in files of riesel 0.3.0 and before.
 double read_t_col(const Json& validity, const char* of) {
   return validity.contains("t_col") ? number(validity.at("t_col"), of) : unknown;
 }
@@ -165,6 +170,7 @@ FlowSummary read_flow(const Json& json) {
           .core = read_zone(json.at("profiles").at("core")),
           .wall_layers = read_zone(json.at("profiles").at("wall_layers")),
           .balance = read_balance(json.at("balance")),
+          .grain_contact_rate = read_grain_contact_rate(json),
           .braking_force = read_braking_force(json),
           .energy = read_energy(json.at("energy")),
           .wall_visits = read_wall_visits(json.at("wall_visits")),

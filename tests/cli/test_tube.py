@@ -8,7 +8,7 @@ from riesel_command import FAILED, SMALL_TUBE, CommandTest, data_of
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
                  "wall_visits", "validity", "fluctuations", "structure_factor", "profiles",
-                 "braking_force"}
+                 "braking_force", "grain_contact_rate"}
 NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
                 "mean_axial_velocity": {"value", "error"},
                 "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},
@@ -191,6 +191,9 @@ class Tube(CommandTest):
             self.assertGreater(force, 0.0)
             self.assertGreater(braking[wall]["error"], 0.0)
         self.assertNotEqual(braking["left"]["value"], braking["right"]["value"])
+        begun = np.ptp(series["grain_contacts"][after]) / np.ptp(series["time"][after])
+        self.assertAlmostEqual(
+            summary["grain_contact_rate"]["value"] * summary["grains"] / 2.0 / begun, 1.0, delta=1e-6)
         both = series["left_wall_impulse_y"] + series["right_wall_impulse_y"]
         np.testing.assert_allclose(both, series["wall_impulse_y"], rtol=1e-12, atol=1e-20)
         balance = summary["balance"]["n_dot_dv_y"] / summary["balance"]["gravity"]
