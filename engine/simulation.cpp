@@ -52,6 +52,7 @@ State ready(State state) {
   require(state.box.width > 0.0 && state.box.length > 0.0, "the box must have a size");
   require(state.time_step > 0.0, "the time step must be positive");
   require(std::isfinite(state.gravity), "gravity must be finite");
+  require(state.walls.size() <= WallImpulses::most_walls, "there are too many walls");
   for (const WallLattice& wall : state.walls)
     require(wall.count > 0 && wall.radius > 0.0, "a wall must have grains");
   check_grains(state.grains);

@@ -52,6 +52,7 @@ inline bool same(const State& a, const State& b) {
          && same(a.contacts, b.contacts) && same(a.open_visits, b.open_visits)
          && all_of(a.tally.grains) == all_of(b.tally.grains)
          && all_of(a.tally.walls) == all_of(b.tally.walls)
+         && a.tally.impulses.y == b.tally.impulses.y
          && all_of(a.tally.brakes) == all_of(b.tally.brakes)
          && all_of(a.tally.visits) == all_of(b.tally.visits) && a.tally.ended_at_walls.empty()
          && b.tally.ended_at_walls.empty() && a.origin.energy == b.origin.energy
