@@ -96,6 +96,7 @@ Observables observe(const State& state) {
   o.energies.gravity_work = work_of_gravity(state, sums.mass.value(), at_walls);
   o.energies.normal_loss = among_grains.normal_loss.value() + at_walls.normal_loss.value();
   o.energies.friction_loss = among_grains.friction_loss.value() + at_walls.friction_loss.value();
+  o.energies.won = among_grains.energy_won.value() + at_walls.energy_won.value();
   o.energies.residual = state.origin.energy + o.energies.gravity_work - o.energies.kinetic
                         - o.energies.elastic - o.energies.normal_loss - o.energies.friction_loss;
   o.contacts = static_cast<double>(state.contacts.size()) / n;
@@ -107,6 +108,29 @@ Observables observe(const State& state) {
   o.outside = static_cast<double>(sums.outside);
   o.structure_factor = axial_structure_factor(state.grains);
   return o;
+}
+
+double max_overlap_ratio(const State& state) {
+  const auto& radii = state.grains.radius;
+  const double smallest = *std::min_element(radii.begin(), radii.end());
+  double smallest_at_wall = smallest;
+  for (const WallLattice& wall : state.walls)
+    smallest_at_wall = std::min(smallest_at_wall, wall.radius);
+  const auto largest = [&](const ContactTally& ended, bool of_walls) {
+    double overlap = ended.max_overlap;
+    for (const Contact& contact : state.contacts)
+      if ((contact.name.wall != no_wall) == of_walls)
+        overlap = std::max(overlap, contact.max_overlap);
+    return overlap;
+  };
+  return std::max(largest(state.tally.grains, false) / smallest,
+                  largest(state.tally.walls, true) / smallest_at_wall);
+}
+
+double energy_error_ratio(const State& state, const Energies& energies) {
+  const double error = std::abs(energies.residual) + energies.won;
+  if (error == 0.0) return 0.0;
+  return error / (state.origin.energy + std::abs(energies.gravity_work));
 }
 
 }  // namespace riesel
