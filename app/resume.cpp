@@ -66,7 +66,7 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
                         ? options.checkpoint
                         : std::filesystem::absolute(options.checkpoint).parent_path();
   return resume_flow(settings, std::move(found.checkpoint), RunDirectory::reopen(home, settings),
-                     arguments, options.profile);
+                     arguments, options.flow);
 }
 
 }  // namespace riesel::app

@@ -8,6 +8,7 @@
 #include "app/progress.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
+#include "app/walltime.hpp"
 #include "engine/simulation.hpp"
 #include "engine/stopping_rule.hpp"
 #include "engine/tube_profiles.hpp"
@@ -66,10 +67,11 @@ struct Past {
 class FlowRun {
 public:
   FlowRun(io::Settings settings, const ContactModel& model, State state, RunDirectory directory,
-          const Arguments& arguments, Past past, bool profile)
+          const Arguments& arguments, Past past, const FlowOptions& options)
       : settings_(std::move(settings)),
         past_(std::move(past)),
         directory_(std::move(directory)),
+        max_walltime_(options.max_walltime),
         schedule_(settings_, scenarios::run_length(settings_), state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
@@ -77,21 +79,20 @@ public:
         strips_(Strips::of(simulation_.state())),
         profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
         first_step_(simulation_.state().step) {
-    if (profile) simulation_.start_profile();
+    if (options.profile) simulation_.start_profile();
   }
 
   int run() {
-    catch_interrupts();
     start_ = last_checkpoint_ = Clock::now();
     try {
       if (file_.rows() == 0) begin();
-      while (!is_over() && interrupting_signal() == 0) advance();
+      while (!is_over() && !is_interrupted()) advance();
     } catch (const RunFailure& failure) {
       return fail(failure);
     }
     progress_.finish();
     save();
-    return interrupting_signal() != 0 ? tell_interruption() : tell_result();
+    return is_over() ? tell_result() : tell_interruption();
   }
 
 private:
@@ -132,6 +133,16 @@ private:
     return static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step;
   }
 
+  bool is_interrupted() const { return interrupting_signal() != 0 || is_out_of_time(); }
+
+  /// With a reserve for what comes before the end: a piece of the way, and what it takes to save.
+  bool is_out_of_time() const {
+    constexpr double reserve = 2.0;
+    return max_walltime_
+           && seconds_since_start_of_program() + reserve * (longest_piece_ + longest_save_)
+                  > *max_walltime_;
+  }
+
   std::string ended_by() const {
     if (!schedule_.relative_error) return "duration";
     return simulation_.state().step < schedule_.last_step ? "precision" : "at_most";
@@ -148,6 +159,7 @@ private:
     const auto start = Clock::now();
     simulation_.advance(std::min(goal - state.step, patience));
     times_.stepping += seconds_since(start);
+    longest_piece_ = std::max(longest_piece_, seconds_since(start));
     if (state.step % schedule_.steps_per_row == 0) add_row();
     if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
@@ -171,6 +183,7 @@ private:
   /// The series first: the checkpoint counts its rows.
   void save() {
     const auto start = Clock::now();
+    directory_.require_in_place();
     file_.write_final_state(simulation_.state());
     file_.flush();
     io::write_checkpoint(directory_.file(io::checkpoint_name),
@@ -182,6 +195,7 @@ private:
                           .profiles = profiles_});
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
+    longest_save_ = std::max(longest_save_, seconds_since(start));
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -219,9 +233,11 @@ private:
   }
 
   int tell_interruption() const {
-    fmt::print(stderr, "interrupted at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
+    const bool by_signal = interrupting_signal() != 0;
+    fmt::print(stderr, "{} at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
+               by_signal ? "interrupted" : "out of time (--max-walltime)",
                simulation_.state().time(), directory_.path().string());
-    return 128 + interrupting_signal();
+    return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
   }
 
   /// Keeps what there is: the state may tell why.
@@ -237,6 +253,7 @@ private:
   const io::Settings settings_;
   const Past past_;
   RunDirectory directory_;
+  const std::optional<double> max_walltime_;  // s
   const Schedule schedule_;
   const int threads_;
   Simulation simulation_;
@@ -247,27 +264,31 @@ private:
   Progress progress_;
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
+  double longest_piece_ = 0.0,
+         longest_save_ = 0.0;  // s, of stepping between two looks at the clock
   RunTimes times_;
 };
 
 }  // namespace
 
 int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory directory,
-             const Arguments& arguments, bool profile) {
+             const Arguments& arguments, const FlowOptions& options) {
+  catch_interrupts();
   const Past nothing{.source = settings.source_text()};
   return FlowRun(settings, flow.model, std::move(flow.state), std::move(directory), arguments,
-                 nothing, profile)
+                 nothing, options)
       .run();
 }
 
 int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDirectory directory,
-                const Arguments& arguments, bool profile) {
+                const Arguments& arguments, const FlowOptions& options) {
+  catch_interrupts();
   const Past past{.source = checkpoint.source,
                   .rows = checkpoint.rows,
                   .wall_seconds = checkpoint.wall_seconds,
                   .profiles = std::move(checkpoint.profiles)};
   return FlowRun(settings, scenarios::contact_model(settings), std::move(checkpoint.state),
-                 std::move(directory), arguments, past, profile)
+                 std::move(directory), arguments, past, options)
       .run();
 }
 

@@ -9,8 +9,8 @@
 
 namespace riesel::io {
 
-// A fuzzer should not have to guess checksums, which who forges a file makes right: it takes all for
-// right.
+// A fuzzer should not have to guess checksums, which who forges a file makes right: it takes all
+// for right.
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 inline constexpr bool checksums_are_forged = true;
 #else

@@ -1,32 +1,24 @@
 // Any bytes as checkpoint.h5 and as run.h5: read, or refused with a FileError.
 //
 // The first byte of the input says what the rest is: the content of a file, or changes to that of a
-// good one, each a place (2 bytes), what to do there (1 byte) and a word (8 bytes). So a fuzzer needs
-// not find out what HDF5 is, and what it finds is short. The length is made right, as who forges a
-// file would do; the fuzzer's readers take checksums for right.
-#include "engine/simulation.hpp"
-#include "engine/tube_profiles.hpp"
+// good one, each a place (2 bytes), what to do there (1 byte) and a word (8 bytes). So a fuzzer
+// needs not find out what HDF5 is, and what it finds is short. The length is made right, as who
+// forges a file would do; the fuzzer's readers take checksums for right.
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/run_reader.hpp"
 #include "io/seal.hpp"
-#include "io/settings.hpp"
-#include "scenarios/scenario.hpp"
-#include "tests/fuzz/memory_file.hpp"
+#include "tests/memory_file.hpp"
+#include "tests/small_files.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <functional>
-#include <iterator>
+#include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
-#include <variant>
 #include <vector>
 
 using namespace riesel;
@@ -37,60 +29,10 @@ namespace fs = std::filesystem;
 using Content = std::vector<char>;
 using Input = std::span<const std::uint8_t>;
 
-const std::vector<io::Column> columns = {{"time", "s", "t"}, {"velocity", "m/s", "v"}};
-
-/// A few grains in a tube, with contacts and visits.
-State state_of_a_tube() {
-  const auto settings = io::Settings::from_text(
-      "scenario: periodic_tube\n"
-      "contact: {stiffness: 2000 N/m, restitution: 0.9}\n"
-      "grains: {area_fraction: 0.4}\n"
-      "tube: {width: 4 mm, length: 5 mm}\n"
-      "start: {random_velocity: 2 m/s}\n"
-      "run: {duration: 5 ms}\n",
-      "tube.yaml", scenarios::settings_tables());
-  auto flow = std::get<scenarios::Flow>(scenarios::named(settings.scenario()).prepare(settings));
-  Simulation simulation(std::move(flow.state), flow.model, 1);
-  do simulation.advance(100);
-  while (simulation.state().contacts.size() < 2 || simulation.state().open_visits.empty());
-  return simulation.state();
-}
-
-/// What `write` puts behind the seal of the file at the path it is given.
-Content content_of(const std::function<void(const fs::path&)>& write) {
-  auto directory = (fs::temp_directory_path() / "riesel-fuzz-XXXXXX").string();
-  if (mkdtemp(directory.data()) == nullptr) std::abort();
-  const auto path = fs::path(directory) / "file.h5";
-  write(path);
-  std::ifstream file(path, std::ios::binary);
-  const Content all{std::istreambuf_iterator<char>(file), {}};
-  fs::remove_all(directory);
+/// What stands behind the seal.
+Content content_of(void (*write)(const fs::path&)) {
+  const auto all = small_file(write);
   return {all.begin() + io::seal_size, all.end()};
-}
-
-Content good_checkpoint(const State& state) {
-  return content_of([&](const fs::path& path) {
-    io::write_checkpoint(path, {.state = state,
-                                .settings = "scenario: periodic_tube\n",
-                                .source = "# mine\n",
-                                .rows = 2,
-                                .wall_seconds = 0.1,
-                                .profiles = TimeBlocks(1, 3, 2, {1.0, 2.0})});
-  });
-}
-
-Content good_run_file(const State& state) {
-  return content_of([&](const fs::path& path) {
-    auto file = io::RunFile::create(path, {{"date", "today"}, {"settings", "a: 1"}}, columns);
-    for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0});
-    file.write_final_state(state);
-    std::vector<TubeProfile> profiles;
-    for (const char* name : {"area_fraction", "mean_axial_velocity", "temperature_x",
-                             "temperature_y", "stress_xx", "stress_xy", "stress_yy"})
-      profiles.push_back({.name = name, .unit = "1", .meaning = "m", .zones = {{}, {}}});
-    file.write_profiles({.width = 1e-3, .length = 0.1, .count = 2}, profiles, 0.1);
-    file.flush();
-  });
 }
 
 /// Where the changes go: words that are not zero, as most are unused.
@@ -164,9 +106,9 @@ Content changed(const Good& good, Input changes) {
 Content sealed(const Content& content, const std::string& kind) {
   constexpr std::size_t place_of_length = 40;
   const std::string title = "riesel " + kind + "\n";
-  Content image(io::seal_size);
+  Content image(io::seal_size + content.size());
   std::copy(title.begin(), title.end(), image.begin());
-  image.insert(image.end(), content.begin(), content.end());
+  std::copy(content.begin(), content.end(), image.begin() + io::seal_size);
   put(image, io::seal_size + place_of_length, image.size(), 8);
   return image;
 }
@@ -186,8 +128,8 @@ Kind kind_of(Input input) {
 }
 
 Content content_from(Input input) {
-  static const State state = state_of_a_tube();
-  static const Good checkpoint(good_checkpoint(state)), run(good_run_file(state));
+  static const Good checkpoint(content_of(write_small_checkpoint)),
+      run(content_of(write_small_run_file));
   const Input rest = input.subspan(input.empty() ? 0 : 1);
   switch (kind_of(input)) {
   case Kind::checkpoint:
@@ -220,7 +162,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (kind != Kind::checkpoint) {
     const MemoryFile file(sealed(content, io::run_file_kind));
     attempt([&] { io::read_run_file(file.path()); });
-    attempt([&] { io::RunFile::reopen(file.path(), {{"date", "later"}}, columns, 2); });
+    attempt([&] { io::RunFile::reopen(file.path(), {{"date", "later"}}, small_columns, 2); });
   }
   return 0;
 }

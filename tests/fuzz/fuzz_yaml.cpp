@@ -30,7 +30,7 @@ void read_as_settings(const std::string& text) {
 
 /// Small sweeps only: the number of points is limited elsewhere, and each takes its time.
 bool is_small(const io::SweepFile& sweep) {
-  constexpr std::size_t most_points = 64;
+  constexpr std::size_t most_points = 16;
   std::size_t points = 1;
   const auto multiply = [&](std::size_t count) { points *= count > 0 ? count : 1; };
   for (const auto& axis : sweep.axes) {
