@@ -45,7 +45,9 @@ Hdf5Type read_type(const Bytes& body) {
     if (body.text().starts_with(encoding)) return type;
   constexpr std::uint64_t text_of_fixed_length = 0x13;
   require(body.number(0, 1) == text_of_fixed_length, "it has a type that is never written");
-  return {.kind = Hdf5Type::Kind::text, .size = body.number(4, 4)};
+  const auto size = body.number(4, 4);
+  require(size > 0, "it is a text without length");
+  return {.kind = Hdf5Type::Kind::text, .size = size};
 }
 
 std::vector<std::uint64_t> read_extent(const Bytes& body) {
