@@ -1,5 +1,6 @@
 #include "tests/small_files.hpp"
 
+#include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
 #include "engine/tube_profiles.hpp"
 #include "io/checkpoint.hpp"
@@ -46,7 +47,8 @@ void write_small_checkpoint(const fs::path& path) {
                               .source = "# mine\n",
                               .rows = 2,
                               .wall_seconds = 0.1,
-                              .profiles = TimeBlocks(1, 3, 2, {1.0, 2.0})});
+                              .profiles = TimeBlocks(1, 3, 2, {1.0, 2.0}),
+                              .histograms = HistogramBlocks().blocks()});
 }
 
 void write_small_run_file(const fs::path& path) {
@@ -58,6 +60,16 @@ void write_small_run_file(const fs::path& path) {
                            "stress_xx", "stress_xy", "stress_yy"})
     profiles.push_back({.name = name, .unit = "1", .meaning = "m", .zones = {{}, {}}});
   file.write_profiles({.width = 1e-3, .length = 0.1, .count = 2}, profiles, 0.1);
+  std::vector<HistogramTable> histograms;
+  for (const char* name : {"grain_contact_duration", "wall_contact_duration",
+                           "grain_contact_overlap", "wall_contact_overlap"})
+    histograms.push_back({.name = name,
+                          .unit = "1",
+                          .meaning = "m",
+                          .lower_edges = {1.0, 2.0},
+                          .counts = {1, 0},
+                          .rates = {{}, {}}});
+  file.write_histograms(histograms, 0.1);
   file.flush();
 }
 
