@@ -105,7 +105,7 @@ TEST_CASE("A summary that does not fit is refused with a reason") {
   const ScratchDirectory directory;
   const auto path = directory / summary_name;
   const auto text = to_json(special_summary());
-  CHECK(complaint(path).find("cannot be read") != std::string::npos);
+  CHECK(complaint(path).find("cannot be opened") != std::string::npos);
   for (const auto& damaged :
        {std::string(), std::string("[]"), text.substr(0, text.size() / 2),
         with(text, "\"gravity_work\"", "\"work\""),
