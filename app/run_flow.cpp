@@ -3,6 +3,7 @@
 #include "app/exit_status.hpp"
 #include "app/flow_summary.hpp"
 #include "app/interrupt.hpp"
+#include "app/limit_watch.hpp"
 #include "app/print_profile.hpp"
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
@@ -14,9 +15,11 @@
 #include "engine/stopping_rule.hpp"
 #include "engine/tube_profiles.hpp"
 #include "io/durable_file.hpp"
+#include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_length.hpp"
+#include "scenarios/run_limits.hpp"
 
 #include <fmt/core.h>
 
@@ -77,6 +80,7 @@ public:
         schedule_(settings_, scenarios::run_length(settings_), state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
+        limits_(scenarios::run_limits(settings_)),
         file_(open(arguments)),
         strips_(Strips::of(simulation_.state())),
         profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
@@ -190,6 +194,25 @@ private:
           "{:.0f} grains have gone through a wall at t = {:.6g} s: the contacts are too soft for "
           "these velocities; raise contact.stiffness",
           last_.outside, last_.time));
+    heed_limits();
+  }
+
+  void heed_limits() {
+    for (const std::string& message : limits_.newly_exceeded(simulation_.state(), last_)) {
+      if (limits_.stops()) throw RunFailure(message);
+      progress_.finish();
+      fmt::print(stderr, "riesel: {}\n", message);
+    }
+  }
+
+  io::Checkpoint checkpoint() const {
+    return {.state = simulation_.state(),
+            .settings = settings_.effective_yaml(),
+            .source = past_.source,
+            .rows = file_.rows(),
+            .wall_seconds = wall_seconds(),
+            .profiles = profiles_,
+            .histograms = histograms_.blocks()};
   }
 
   /// The series first: the checkpoint counts its rows.
@@ -198,14 +221,7 @@ private:
     directory_.require_in_place();
     file_.write_final_state(simulation_.state());
     file_.flush();
-    io::write_checkpoint(directory_.file(io::checkpoint_name),
-                         {.state = simulation_.state(),
-                          .settings = settings_.effective_yaml(),
-                          .source = past_.source,
-                          .rows = file_.rows(),
-                          .wall_seconds = wall_seconds(),
-                          .profiles = profiles_,
-                          .histograms = histograms_.blocks()});
+    io::write_checkpoint(directory_.file(io::checkpoint_name), checkpoint());
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
     longest_save_ = std::max(longest_save_, seconds_since(start));
@@ -261,8 +277,20 @@ private:
     file_.write_final_state(simulation_.state());
     file_.flush();
     fmt::print(stderr, "riesel: the run failed: {}\nthe state of that moment is in {}\n",
-               failure.what(), directory_.file(io::run_file_name).string());
+               failure.what(), directory_.file(keep_for_post_mortem()).string());
     return exit_failed;
+  }
+
+  /// The name of the file that holds the state. A state with numbers that are none is no
+  /// checkpoint.
+  std::string keep_for_post_mortem() const {
+    constexpr auto post_mortem_name = "post_mortem.h5";
+    try {
+      io::write_checkpoint(directory_.file(post_mortem_name), checkpoint());
+      return post_mortem_name;
+    } catch (const io::FileError&) {
+      return io::run_file_name;
+    }
   }
 
   const io::Settings settings_;
@@ -272,6 +300,7 @@ private:
   const Schedule schedule_;
   const int threads_;
   Simulation simulation_;
+  LimitWatch limits_;
   io::RunFile file_;
   const Strips strips_;
   TimeBlocks profiles_;

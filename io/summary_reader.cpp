@@ -119,7 +119,7 @@ Validity validity(const Json& json) {
 Finding read_finding(const Json& json) {
   const std::string name = json.at("name");
   const double value = number(json, "value");
-  const auto known = judge({value, value, value, value, value, value}).findings;
+  const auto known = judge({value, value, value, value, value, value, value}).findings;
   const auto found = std::ranges::find(known, name, &Finding::name);
   if (found == known.end()) throw std::runtime_error("there is no finding " + name);
   return {.name = found->name,
