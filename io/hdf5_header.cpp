@@ -90,11 +90,8 @@ std::pair<std::string, Hdf5Attribute> read_attribute(const Bytes& body) {
   const std::uint64_t name_at = 8, type_at = name_at + padded(name_size),
                       extent_at = type_at + padded(type_size),
                       value_at = extent_at + padded(extent_size);
-  std::string name(body.part(name_at, name_size).text());
-  name.resize(std::string_view(name).find_first_of('\0') == std::string_view::npos
-                  ? name.size()
-                  : name.find_first_of('\0'));
-  return {std::move(name),
+  const auto name = body.part(name_at, name_size).text();
+  return {std::string(name.substr(0, name.find('\0'))),
           {.type = read_type(body.part(type_at, type_size)),
            .extent = read_extent(body.part(extent_at, extent_size)),
            .value = body.from(value_at)}};

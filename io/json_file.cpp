@@ -43,8 +43,9 @@ bool is_too_deep(const std::vector<char>& bytes) {
 
 Json read_json(const std::filesystem::path& path, const std::string& remedy) {
   const auto bytes = read_bytes(path, remedy);
-  if (is_too_deep(bytes)) return Json(Json::value_t::discarded);
-  return Json::parse(bytes, nullptr, false);
+  Json json(Json::value_t::discarded);
+  if (!is_too_deep(bytes)) json = Json::parse(bytes, nullptr, false);
+  return json;
 }
 
 }  // namespace riesel::io

@@ -188,13 +188,13 @@ std::string StoredGroup::text(const std::string& name) const {
   });
 }
 
-StoredGroup stored_hdf5(std::vector<char> all, std::size_t user_block) {
-  auto bytes = std::make_shared<StoredBytes>(StoredBytes{.all = std::move(all), .content = {}});
+StoredGroup stored_hdf5(std::vector<char> bytes, std::size_t user_block) {
+  auto file = std::make_shared<StoredBytes>(StoredBytes{.all = std::move(bytes), .content = {}});
   const auto root = attempt("open the file", [&] {
-    bytes->content = Bytes(bytes->all).from(user_block);
-    return find_root(*bytes, user_block);
+    file->content = Bytes(file->all).from(user_block);
+    return find_root(*file, user_block);
   });
-  return {std::move(bytes), root, "/"};
+  return {std::move(file), root, "/"};
 }
 
 #define RIESEL_INSTANTIATE(T)                                                                      \
