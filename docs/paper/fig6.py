@@ -66,7 +66,7 @@ class FastState:
 
 
 def fast_states(tables):
-    runs = [run for name in ("fig6_fast", "fig6_stiff") for run in runs_of(tables / f"{name}.csv")]
+    runs = [run for name in ("fig6_fast", "fig6_above", "fig6_stiff") for run in runs_of(tables / f"{name}.csv")]
     return [FastState(*place, of_this) for place, of_this in grouped(runs, "k_n", "e_n")]
 
 

@@ -12,6 +12,7 @@ Usage: docs/paper/reproduce.sh FIGURE...
 
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (a minute)
+  fig6_short   tube of 100 mm, one seed, 3 s (a quarter to half an hour on two cores)
   fig6         tube, slow starts of three stiffnesses, three seeds (half an hour on two cores), and the next one
   fig6_fast    tube, starts from below and above the fast states; time step, attraction (a quarter of an hour)
   fig6_thresholds  end of the slow branch over spacing, width and length, three seeds; hysteresis (half an hour)
@@ -39,8 +40,12 @@ reproduce() {
   case $1 in
     fig3) for name in fig3 fig3_time_step fig3_laws; do sweep "$name"; done ;;
     fig4_5) sweep fig4_5 ;;
-    fig6) campaigns fig6_slow fig6_fast fig6_stiff ;;
-    fig6_fast) campaigns fig6_fast fig6_stiff fig6_checks ;;
+    fig6_short)
+      sweep fig6_short
+      cp sweeps/fig6_short/sweep.csv docs/paper/fig6_short.csv
+      ;;
+    fig6) campaigns fig6_slow fig6_fast fig6_above fig6_stiff ;;
+    fig6_fast) campaigns fig6_fast fig6_above fig6_stiff fig6_checks ;;
     fig6_thresholds) campaigns fig6_slow fig6_spacing fig6_narrow fig6_length fig6_choices fig6_clipped
       campaigns fig6_hysteresis ;;
     fig6_map) campaigns fig6_map ;;
