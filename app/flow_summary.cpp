@@ -21,20 +21,17 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-double total_mass(const Grains& grains) {
-  ExactSum sum;  // the slots have no fixed order
-  for (const double mass : grains.mass) sum.add(mass);
-  return sum.value();
-}
-
-/// m/s, above which a grain that meets the wall with the typical random velocity passes a wall
-/// grain sooner than the contact can push it away: chord over t_col.
-double critical_velocity(const State& state, const ContactModel& model, double sigma_vx) {
+/// What a grain of the mean mass and size does that meets others and the wall with the typical
+/// random velocity: t_col, and the velocity above which it passes a wall grain sooner than the
+/// contact can push it away, chord over t_col.
+void tell_typical_contacts(const State& state, const ContactModel& model, double sigma_vx,
+                           io::FlowSummary::Validity& validity) {
   const double mass = total_mass(state.grains) / static_cast<double>(state.grains.size());
   const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
-  const double t_col = collision_time(model.normal, mass, speed);
   const double reach = 0.5 * mean_diameter(state.grains) + state.walls.front().radius;
-  return chord_of_impact(reach, speed, t_col) / t_col;
+  validity.t_col_grains = collision_time(model.normal, 0.5 * mass, speed);
+  validity.t_col_walls = collision_time(model.normal, mass, speed);
+  validity.v_crit = chord_of_impact(reach, speed, validity.t_col_walls) / validity.t_col_walls;
 }
 
 /// Of one series after the transient.
@@ -77,6 +74,12 @@ io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& st
           .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
           .n_dot_dv_y = scaled(series.rate("wall_impulse_y"), -1.0 / mass),
           .gravity = state.gravity};
+}
+
+io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state) {
+  return {.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
+          .right = scaled(series.rate("right_wall_impulse_y"), -1.0),
+          .weight = total_mass(state.grains) * state.gravity};
 }
 
 io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const VisitTally& tally) {
@@ -157,7 +160,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   if (steady.transient_end < velocity.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = s.fluctuations.granular_temperature.value;
-    s.validity.v_crit = critical_velocity(state, model, s.fluctuations.sigma_vx.value);
+    tell_typical_contacts(state, model, s.fluctuations.sigma_vx.value, s.validity);
   }
   for (std::size_t n = 1; n <= density_waves; ++n)
     s.structure_factor[n - 1] =
@@ -165,6 +168,10 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, static_cast<std::int64_t>(steady.transient_end));
   s.balance = balance(series, state);
+  // Each contact is one of two grains.
+  s.grain_contact_rate =
+      scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
+  s.braking_force = braking_force(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.validity.verdict = judge(evidence(series, state, s.validity.v_crit));
   s.validity.friction_failure_fraction =

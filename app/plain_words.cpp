@@ -15,6 +15,12 @@ std::string explanation(const std::string& state) {
   return "too few independent samples for a steady mean";
 }
 
+std::string explanation_of_end(const std::string& ended_by) {
+  if (ended_by == "duration") return "its duration was over";
+  if (ended_by == "precision") return "the mean is known as well as was asked for";
+  return "the time was up before the mean was known as well as was asked for";
+}
+
 std::string explanation(const Finding& f) {
   if (std::isnan(f.value)) return fmt::format("{}: {}; {}", f.name, f.meaning, f.remedy);
   const double threshold = f.verdict == Validity::unphysical ? f.unphysical : f.suspect;

@@ -12,6 +12,9 @@ namespace riesel::app {
 /// What it means that a flow is "steady", "accelerating", "drifting" or "too_short".
 std::string explanation(const std::string& state);
 
+/// Why a run came to its end: "duration", "precision" or "at_most".
+std::string explanation_of_end(const std::string& ended_by);
+
 /// What speaks against a run: the value, the threshold it passed, what it means and what helps.
 std::string explanation(const Finding& finding);
 

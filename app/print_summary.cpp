@@ -18,6 +18,12 @@ void print_balance(const io::FlowSummary::Balance& b) {
              factors, b.n_dot_dv_y.value, b.n_dot_dv_y.error, b.gravity);
 }
 
+void print_braking(const io::FlowSummary::BrakingForce& f) {
+  fmt::print("  {:<22}left {:.4g} +- {:.2g} N, right {:.4g} +- {:.2g} N, weight {:.4g} N\n",
+             "braking by the walls", f.left.value, f.left.error, f.right.value, f.right.error,
+             f.weight);
+}
+
 void print_visits(const io::FlowSummary::WallVisits& v) {
   if (v.visits == 0.0) {
     fmt::print("  {:<22}none after the transient\n", "visit to a wall");
@@ -26,11 +32,6 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
   fmt::print("  {:<22}{:.3g} +- {:.1g} contacts, {:.3g} +- {:.1g} m/s lost ({:.0f} visits)\n",
              "visit to a wall", v.contacts.value, v.contacts.error, v.dv_y.value, v.dv_y.error,
              v.visits);
-}
-
-std::string explanation_of_end(const io::FlowSummary& s) {
-  if (s.ended_by == "precision") return "the mean is known as well as was asked for";
-  return "the time was up before the mean was known as well as was asked for";
 }
 
 /// The verdict, and the findings that are the reason for it.
@@ -58,11 +59,12 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   fmt::print("  {:<22}{:.5g} +- {:.2g} m/s (after {:.3g} s)\n", "mean axial velocity",
              s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
   fmt::print("  {:<22}{}: {}\n", "state", s.state, explanation(s.state));
-  if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s));
+  if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
   const io::Measured& temperature = s.fluctuations.granular_temperature;
   fmt::print("  {:<22}{:.4g} +- {:.2g} m^2/s^2\n", "granular temperature", temperature.value,
              temperature.error);
   print_balance(s.balance);
+  print_braking(s.braking_force);
   print_visits(s.wall_visits);
   fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
              s.energy.residual / (s.energy.initial + s.energy.gravity_work));

@@ -102,6 +102,17 @@ Report report_of_sweep(const fs::path& directory) {
   return make_report(record);
 }
 
+/// Those of an earlier report that this one does not have.
+void remove_other_figures(const Report& report, const fs::path& figures) {
+  for (const auto& entry : fs::directory_iterator(figures)) {
+    const bool is_figure = entry.is_regular_file() && entry.path().extension() == ".svg";
+    if (is_figure
+        && std::ranges::find(report.figures, entry.path().stem().string(), &ReportFigure::name)
+               == report.figures.end())
+      fs::remove(entry.path());
+  }
+}
+
 /// The page last: where it is, its figures are, too.
 void write(const Report& report, const fs::path& directory) {
   const fs::path figures = directory / figures_name;
@@ -110,6 +121,7 @@ void write(const Report& report, const fs::path& directory) {
   if (error) throw io::system_failure(figures, "cannot be made", error.value());
   for (const ReportFigure& figure : report.figures)
     io::write_durably(figures / (figure.name + ".svg"), figure.svg.file());
+  remove_other_figures(report, figures);
   io::write_durably(directory / page_name, report.page);
 }
 

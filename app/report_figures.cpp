@@ -29,20 +29,23 @@ io::Interval range_with(std::vector<double> values, const std::optional<io::Meas
 
 }  // namespace
 
+void mark_transient(double end, io::Plot& plot) {
+  if (end <= 0.0) return;
+  plot.area({plot.x().range.low, end}, plot.y().range, {.fill = pale_grey});
+  plot.moment(end, "end of the transient", {.stroke = grey, .dashes = "4 3"});
+}
+
 io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks) {
   io::Plot plot(width, 250.0, series.column.doc,
                 {.label = label_of(time.column), .range = io::range_of(time.values)},
                 {.label = label_of(series.column), .range = range_with(series.values, marks.mean)});
-  const io::Interval before{plot.x().range.low, marks.transient_end};
   const io::Interval after{marks.transient_end, plot.x().range.high};
-  if (marks.transient_end > 0.0) plot.area(before, plot.y().range, {.fill = pale_grey});
+  mark_transient(marks.transient_end, plot);
   if (marks.mean && std::isfinite(marks.mean->error))
     plot.area(after, {marks.mean->value - marks.mean->error, marks.mean->value + marks.mean->error},
               {.fill = pale_orange});
   plot.curve(time.values, series.values, {.stroke = blue, .stroke_width = 1.2});
   if (marks.mean) plot.level(after, marks.mean->value, {.stroke = orange, .stroke_width = 1.5});
-  if (marks.transient_end > 0.0)
-    plot.moment(marks.transient_end, "end of the transient", {.stroke = grey, .dashes = "4 3"});
   return plot.svg();
 }
 

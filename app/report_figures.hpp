@@ -2,6 +2,7 @@
 // energy, visits to walls.
 #pragma once
 
+#include "io/plot.hpp"
 #include "io/run_reader.hpp"
 #include "io/summary.hpp"
 #include "io/svg.hpp"
@@ -20,6 +21,9 @@ struct SeriesMarks {
   std::optional<io::Measured> mean;  ///< of what comes after it; without a band if the error is
                                      ///< not known
 };
+
+/// Shades what lies before `end` (s), on an axis of time.
+void mark_transient(double end, io::Plot& plot);
 
 /// `time` is as long as `series`.
 io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks);

@@ -1,6 +1,7 @@
 #include "app/report_flow.hpp"
 
 #include "app/plain_words.hpp"
+#include "app/report_contacts.hpp"
 #include "app/report_figures.hpp"
 #include "app/state_figure.hpp"
 
@@ -35,6 +36,7 @@ public:
     show_profiles();
     show_energy();
     show_walls();
+    show_contacts(record_->run, summary(), draft_);
     draft_.add_origin(summary().run, record_->run.history, record_->effective_settings);
     return draft_.report();
   }
@@ -45,8 +47,9 @@ private:
 
   void tell_result() {
     const auto& s = summary();
-    page().paragraph(
-        fmt::format("{} grains, {:.6g} s in {} steps.", s.run.grains, s.time, s.run.steps));
+    page().paragraph(fmt::format("{} grains, {:.6g} s in {} steps. The run ended ({}): {}.",
+                                 s.run.grains, s.time, s.run.steps, s.ended_by,
+                                 explanation_of_end(s.ended_by)));
     const bool is_steady = s.state == "steady";
     page().paragraph(
         fmt::format(
@@ -180,11 +183,21 @@ private:
          {"axial velocity lost per wall contact", with_error(b.dv_y, "m/s")},
          {"their product, equal to gravity in a steady state", with_error(b.n_dot_dv_y, "m/s^2")},
          {"gravity", number(b.gravity) + " m/s^2"},
+         {"contacts with other grains per grain", with_error(summary().grain_contact_rate, "1/s")},
+         {"braking force of the left wall", with_error(summary().braking_force.left, "N")},
+         {"braking force of the right wall", with_error(summary().braking_force.right, "N")},
+         {"weight of all grains, carried by both in a steady state",
+          number(summary().braking_force.weight) + " N"},
          {"visits to a wall", number(v.visits, "{:.0f}")},
          {"contacts per visit", with_error(v.contacts, "")},
          {"axial velocity lost per visit", with_error(v.dv_y, "m/s")},
          {"velocity above which a wall contact is cut short, v_crit",
           number(summary().validity.v_crit) + " m/s"}});
+    draft_.add_figure(
+        "braking", draw_braking(record_->run, summary()),
+        "Axial force of each wall on the grains, positive where it brakes, in means over parts of "
+        "the time. Dashed: half of the weight of all grains, which each wall carries in a steady "
+        "state.");
     draft_.add_figure("visits", draw_visits(v.of_contacts),
                       "Contacts per visit to a wall, of all visits that have ended since the "
                       "start. Many contacts with short passages are the brake failure of the "

@@ -8,6 +8,7 @@
 #include "app/progress.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
+#include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
 #include "engine/stopping_rule.hpp"
 #include "engine/tube_profiles.hpp"
@@ -57,10 +58,11 @@ struct Schedule {
 
 /// What a run that goes on has behind it.
 struct Past {
-  std::string source;  // the user's settings file, verbatim
+  std::string source;               // the user's settings file, verbatim
+  bool had_other_settings = false;  // a shorter duration, for instance
   std::int64_t rows = 0;
   double wall_seconds = 0.0;
-  TimeBlocks profiles = {};
+  TimeBlocks profiles = {}, histograms = {};
 };
 
 class FlowRun {
@@ -76,6 +78,7 @@ public:
         file_(open(arguments)),
         strips_(Strips::of(simulation_.state())),
         profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
+        histograms_(past_.rows == 0 ? HistogramBlocks() : HistogramBlocks(past_.histograms)),
         first_step_(simulation_.state().step) {
     if (profile) simulation_.start_profile();
   }
@@ -85,6 +88,7 @@ public:
     start_ = last_checkpoint_ = Clock::now();
     try {
       if (file_.rows() == 0) begin();
+      if (past_.had_other_settings) keep_settings();
       while (!is_over() && interrupting_signal() == 0) advance();
     } catch (const RunFailure& failure) {
       return fail(failure);
@@ -110,6 +114,13 @@ private:
   /// The first row and a checkpoint: from here on nothing is lost.
   void begin() {
     add_row();
+    save();
+  }
+
+  /// In both generations of the checkpoint: whichever is taken after a kill, the run goes on to
+  /// what was asked for last.
+  void keep_settings() {
+    save();
     save();
   }
 
@@ -159,6 +170,7 @@ private:
     last_ = observe(simulation_.state());
     profiles_.add(
         sum_over_strips(strips_, simulation_.state(), simulation_.model(), last_.mean_vy));
+    histograms_.add(simulation_.state().tally);
     times_.measuring += seconds_since(start);
     file_.append(series_row(last_, simulation_.state().tally));
     if (last_.outside > 0.0)
@@ -179,7 +191,8 @@ private:
                           .source = past_.source,
                           .rows = file_.rows(),
                           .wall_seconds = wall_seconds(),
-                          .profiles = profiles_});
+                          .profiles = profiles_,
+                          .histograms = histograms_.blocks()});
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
   }
@@ -209,7 +222,9 @@ private:
     const std::int64_t first = std::llround(s.transient_end / interval());  // sample after that
     file_.write_profiles(strips_, tube_profiles(profiles_, strips_, each_strip(strips_), first),
                          s.transient_end);
-    file_.write_histograms(simulation_.state().tally);
+    file_.write_histograms(
+        histogram_tables(simulation_.state().tally, histograms_.blocks(), first, interval()),
+        s.transient_end);
     file_.flush();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));
     print_summary(s, directory_.path());
@@ -243,6 +258,7 @@ private:
   io::RunFile file_;
   const Strips strips_;
   TimeBlocks profiles_;
+  HistogramBlocks histograms_;
   Observables last_;
   Progress progress_;
   const std::int64_t first_step_;
@@ -263,9 +279,11 @@ int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory di
 int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDirectory directory,
                 const Arguments& arguments, bool profile) {
   const Past past{.source = checkpoint.source,
+                  .had_other_settings = checkpoint.settings != settings.effective_yaml(),
                   .rows = checkpoint.rows,
                   .wall_seconds = checkpoint.wall_seconds,
-                  .profiles = std::move(checkpoint.profiles)};
+                  .profiles = std::move(checkpoint.profiles),
+                  .histograms = std::move(checkpoint.histograms)};
   return FlowRun(settings, scenarios::contact_model(settings), std::move(checkpoint.state),
                  std::move(directory), arguments, past, profile)
       .run();

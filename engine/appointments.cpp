@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace riesel {
 
@@ -20,8 +21,7 @@ constexpr double forever = std::numeric_limits<double>::infinity();
 void Appointments::start_over() {
   const std::size_t candidates = slice_.pairs.size() + slice_.near_walls.size();
   calendar_.clear();
-  due_.assign(candidates, never);
-  exact_.assign(candidates, 0);
+  due_.assign(candidates, {Appointment::never, false});
   pairs_.clear();
   near_walls_.clear();
   link();
@@ -45,6 +45,7 @@ void Appointments::link() {
     first_pair_[i] += first_pair_[i - 1];
     first_link_[i] += first_link_[i - 1];
   }
+  links_.clear();  // which makes the next line take no more than it needs
   links_.resize(first_link_.back());
   // Each link goes to the end of what is left of its grain's part.
   for_each_link([&](std::size_t grain, std::uint32_t candidate) {
@@ -74,7 +75,7 @@ void Appointments::reconsider(std::uint32_t slot) {
 
 void Appointments::reconsider_exact(std::uint32_t slot) {
   for_each_candidate_of(slot, [&](std::uint32_t candidate) {
-    if (exact_[candidate] != 0) reconsider_candidate(candidate);
+    if (due_[candidate].exact()) reconsider_candidate(candidate);
   });
 }
 
@@ -90,19 +91,20 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
 
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
-  const std::int64_t latest = std::max(hold_until, earliest);
-  foresee(slice_, pairs_, state_, courses_, now, tolerance_, forecast_);
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const std::uint32_t pair = pairs_[k];
-    if (slice_.pairs.reach2[pair] < 0.0F) continue;  // in contact
-    exact_[pair] = static_cast<std::uint8_t>(forecast_.exact[k]);
-    enter(pair, now, std::max(earliest, now + forecast_.free_steps[k]), latest);
+  const Period period{.now = now, .earliest = earliest, .latest = std::max(hold_until, earliest)};
+  for (std::size_t begin = 0; begin < pairs_.size(); begin += appointments_at_a_time) {
+    const auto some = std::span(pairs_).subspan(
+        begin, std::min<std::size_t>(appointments_at_a_time, pairs_.size() - begin));
+    foresee(slice_, some, state_, courses_, now, tolerance_, forecast_);
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      const std::uint32_t pair = some[k];
+      if (slice_.pairs.reach2[pair] < 0.0F) continue;  // in contact
+      enter(pair, forecast_.free_steps[k], forecast_.exact[k] != 0, period);
+    }
   }
   for (const std::uint32_t near_wall : near_walls_) {
     const double steps = free_steps_at_wall(slice_.near_walls[near_wall], now);
-    exact_[pair_count() + near_wall] = 1;
-    enter(pair_count() + near_wall, now, std::max(earliest, now + Forecast::whole_steps(steps)),
-          latest);
+    enter(pair_count() + near_wall, Forecast::whole_steps(steps), true, period);
   }
   pairs_.clear();
   near_walls_.clear();
@@ -110,16 +112,17 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
 
 /// A step farther away than the calendar knows is moved closer: then the candidate is looked at
 /// once in between.
-void Appointments::enter(std::uint32_t candidate, std::int64_t now, std::int64_t due,
-                         std::int64_t latest) {
-  if (due > latest) {
-    due_[candidate] = never;
+void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool exact,
+                         const Period& period) {
+  const std::int64_t due = std::max(period.earliest, period.now + free_steps);
+  if (due > period.latest) {
+    due_[candidate] = {Appointment::never, exact};
     return;
   }
-  const std::int64_t next = std::min(due, now + Calendar::horizon - 1);
-  if (due_[candidate] == since_sorted(next)) return;
-  due_[candidate] = since_sorted(next);
-  calendar_.enter(candidate, next);
+  const std::int64_t next = std::min(due, period.now + Calendar::horizon - 1);
+  const bool entered = due_[candidate].is_for(since_sorted(next));
+  due_[candidate] = {since_sorted(next), exact};
+  if (!entered) calendar_.enter(candidate, next);
 }
 
 /// Steps that a grain can do on its course, and within its tolerance, before it can touch a wall

@@ -19,6 +19,23 @@
 
 namespace riesel {
 
+/// The step in which a candidate is due, and whether only as long as nobody is deflected: one word,
+/// as there are many.
+class Appointment {
+public:
+  static constexpr std::int32_t never = -1;
+
+  /// `step` is counted since the candidates were listed, less than 2^30, or `never`.
+  Appointment(std::int32_t step, bool exact) : word_(2 * step + (exact ? 1 : 0)) {}
+
+  bool is_for(std::int32_t step) const { return word_ >> 1 == step; }
+  bool exact() const { return (word_ & 1) != 0; }
+  void cancel() { *this = {never, exact()}; }
+
+private:
+  std::int32_t word_;
+};
+
 class Appointments {
 public:
   /// Deflected grains may be off their courses by `tolerance` (m). Keeps references.
@@ -49,8 +66,8 @@ public:
     const auto& today = calendar_.due_in(step);
     const std::int32_t now = since_sorted(step);
     for (const std::uint32_t candidate : today) {
-      if (due_[candidate] != now) continue;  // it has another appointment since
-      due_[candidate] = never;
+      if (!due_[candidate].is_for(now)) continue;  // it has another appointment since
+      due_[candidate].cancel();
       if (candidate < pair_count())
         look_at_pair(candidate);
       else
@@ -59,13 +76,14 @@ public:
   }
 
 private:
-  static constexpr std::int32_t never = -1;
-
   void link();
   template <class Visit>
   void for_each_candidate_of(std::uint32_t slot, Visit visit) const;
   void reconsider_candidate(std::uint32_t candidate);
-  void enter(std::uint32_t candidate, std::int64_t now, std::int64_t due, std::int64_t latest);
+  struct Period {
+    std::int64_t now, earliest, latest;  // steps
+  };
+  void enter(std::uint32_t candidate, std::int64_t free_steps, bool exact, const Period& period);
   double free_steps_at_wall(const NearWall& near, std::int64_t now) const;
 
   /// Candidates are numbered: the pairs first, then the grains near walls.
@@ -81,8 +99,7 @@ private:
   const double tolerance_;
 
   Calendar calendar_;
-  std::vector<std::int32_t> due_;    // of the appointment, since_sorted(), or `never`
-  std::vector<std::uint8_t> exact_;  // appointments without tolerance
+  std::vector<Appointment> due_;  // of each candidate
   // The candidates of a slot of the slice: pairs from first_pair_ on, and links_ from first_link_
   // on.
   std::vector<std::uint32_t> first_pair_, first_link_, links_;

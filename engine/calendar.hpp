@@ -1,7 +1,13 @@
 // Appointments by the step in which they are due: a ring of buckets.
+//
+// A bucket is a chain of sheets from a common stock: together they take no more memory than the
+// most appointments that have stood in the calendar at one time, however they move around the ring.
 #pragma once
 
+#include "engine/aligned.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,25 +22,65 @@ public:
   Calendar() : buckets_(horizon) {}
 
   /// now < due < now + horizon
-  void enter(std::uint32_t appointment, std::int64_t due) { bucket(due).push_back(appointment); }
+  void enter(std::uint32_t appointment, std::int64_t due) {
+    Bucket& to = bucket(due);
+    const std::uint32_t on_last = to.count % Sheet::room;
+    if (on_last == 0) to.last = new_sheet(to.last);
+    sheets_[to.last].appointments[on_last] = appointment;
+    ++to.count;
+  }
 
   /// The appointments of this step, which leave the calendar.
   const std::vector<std::uint32_t>& due_in(std::int64_t step) {
+    Bucket& from = bucket(step);
     today_.clear();
-    today_.swap(bucket(step));
+    while (from.count > 0) {
+      const Sheet& sheet = sheets_[from.last];
+      const std::uint32_t on_it = (from.count - 1) % Sheet::room + 1;
+      today_.insert(today_.end(), sheet.appointments.begin(), sheet.appointments.begin() + on_it);
+      from.count -= on_it;
+      unused_.push_back(from.last);
+      from.last = sheet.before;
+    }
     return today_;
   }
 
   void clear() {
-    for (auto& bucket : buckets_) bucket.clear();
+    std::fill(buckets_.begin(), buckets_.end(), Bucket{});
+    sheets_.clear();
+    unused_.clear();
   }
 
 private:
-  std::vector<std::uint32_t>& bucket(std::int64_t step) {
+  struct alignas(cache_line) Sheet {
+    static constexpr std::uint32_t room = 15;  // so that it is one cache line
+
+    std::array<std::uint32_t, room> appointments;
+    std::uint32_t before;  // the sheet filled before this one
+  };
+  struct Bucket {
+    std::uint32_t count = 0;  // of appointments: all sheets but the last are full
+    std::uint32_t last = 0;   // sheet, if there are any
+  };
+
+  Bucket& bucket(std::int64_t step) {
     return buckets_[static_cast<std::size_t>(step) % static_cast<std::size_t>(horizon)];
   }
 
-  std::vector<std::vector<std::uint32_t>> buckets_;
+  std::uint32_t new_sheet(std::uint32_t before) {
+    if (unused_.empty()) {
+      unused_.push_back(static_cast<std::uint32_t>(sheets_.size()));
+      sheets_.emplace_back();
+    }
+    const std::uint32_t sheet = unused_.back();
+    unused_.pop_back();
+    sheets_[sheet].before = before;
+    return sheet;
+  }
+
+  std::vector<Bucket> buckets_;
+  AlignedVector<Sheet> sheets_;
+  std::vector<std::uint32_t> unused_;  // sheets
   std::vector<std::uint32_t> today_;
 };
 

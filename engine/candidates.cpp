@@ -99,10 +99,11 @@ bool Candidates::spend_step(Slice& mine) const {
   return mine.budget >= 0.0;
 }
 
-bool Candidates::look_again(State& state, Slice& mine, std::int64_t step) {
+bool Candidates::look_again(State& state, CoarsePositions& coarse, Slice& mine, std::int64_t step) {
   mine.profile.begin_build();
 #pragma omp barrier
-  measure_motion(state, mine, step);
+  measure_displacements(coarse, mine, step);
+  measure_speeds(state, mine);
 #pragma omp barrier
   const double left = 0.5 * skin_ - largest(slices_, &Slice::farthest);
   if (left > smallest_useful_budget * 0.5 * skin_) {
@@ -111,12 +112,14 @@ bool Candidates::look_again(State& state, Slice& mine, std::int64_t step) {
     return false;
   }
   sort_anew(state, mine, step);
+  std::copy(&when_sorted_.x[mine.begin], &when_sorted_.x[mine.end], &coarse.x[mine.begin]);
+  std::copy(&when_sorted_.y[mine.begin], &when_sorted_.y[mine.end], &coarse.y[mine.begin]);
+#pragma omp barrier
   mine.profile.done_build();
   return true;
 }
 
 void Candidates::sort_anew(State& state, Slice& mine, std::int64_t step) {
-  mine.lasting.clear();
   for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
 #pragma omp barrier  // all grains are at this step
   renew(state, mine, step);
@@ -125,6 +128,7 @@ void Candidates::sort_anew(State& state, Slice& mine, std::int64_t step) {
 #pragma omp barrier
 #pragma omp single
   end_lost_contacts(state);
+  mine.lasting = {};  // between sortings the memory serves others
 }
 
 void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
@@ -132,8 +136,8 @@ void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
 #pragma omp single
   start_over(state, step);
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    coarse_.x[i] = coarse_when_sorted_.x[i] = upper_half(state.grains.x[i]);
-    coarse_.y[i] = coarse_when_sorted_.y[i] = upper_half(state.grains.y[i]);
+    when_sorted_.x[i] = upper_half(state.grains.x[i]);
+    when_sorted_.y[i] = upper_half(state.grains.y[i]);
   }
 #pragma omp barrier
   list_pairs(state, mine);
@@ -141,7 +145,7 @@ void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
   list_received(state.grains, mine);
   for (std::size_t slot = mine.begin; slot < mine.end; ++slot)
     slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
-  measure_motion(state, mine, step);
+  measure_speeds(state, mine);
   mine.budget = 0.5 * skin_;
 #pragma omp barrier
 }
@@ -150,9 +154,7 @@ void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
 /// displacement.
 void Candidates::start_over(const State& state, std::int64_t step) {
   const Grains& grains = state.grains;
-  for (auto* positions : {&coarse_, &coarse_when_sorted_}) {
-    positions->resize(grains.size());
-  }
+  when_sorted_.resize(grains.size());
   slot_of_.resize(grains.size());
   for (std::size_t s = 0; s < slices_.size(); ++s) {
     slices_[s].begin = grains.size() * s / slices_.size();
@@ -174,10 +176,10 @@ void Candidates::list_pairs(const State& state, Slice& mine) {
   mine.pairs.clear();
   for (std::size_t begin = mine.begin; begin < mine.end; begin += slots_at_a_time) {
     const SlotRange slots{begin, std::min(begin + slots_at_a_time, mine.end)};
-    find_close(cells_, slots, coarse_, units_, farthest2, mine.close);
+    find_close(cells_, slots, when_sorted_, units_, farthest2, mine.close);
     for (const auto& [i, j] : mine.close) {
       const double reach = grains.radius[i] + grains.radius[j];
-      if (coarse_.squared_distance(i, j, units_) < units_.generous_square(reach + skin_))
+      if (when_sorted_.squared_distance(i, j, units_) < units_.generous_square(reach + skin_))
         mine.pairs.add(i, j, units_.generous_square(reach));
     }
     // Room for the rest without doubling again and again.
@@ -221,22 +223,27 @@ double Candidates::squared_speed(const State& state, std::size_t slot) const {
                                                    wrapped_sum(uy, g.kick_y[slot])));
 }
 
-void Candidates::measure_motion(const State& state, Slice& mine, std::int64_t step) const {
+void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& mine,
+                                       std::int64_t step) const {
   const std::int64_t steps = step - sorted_at_;
   const std::int32_t drift = upper_half(wrapped_sum(
       wrapped_product(steps, drift_y_), wrapped_product(sum_of_steps(sorted_at_, step), fall_)));
   float farthest2 = 0.0F;
-  mine.fastest2 = 0.0;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    const std::int32_t y = coarse_difference(coarse_.y[i], coarse_when_sorted_.y[i]);
+    const std::int32_t y = coarse_difference(coarse.y[i], when_sorted_.y[i]);
     const float dx =
-        static_cast<float>(coarse_difference(coarse_.x[i], coarse_when_sorted_.x[i])) * units_.x;
+        static_cast<float>(coarse_difference(coarse.x[i], when_sorted_.x[i])) * units_.x;
     const float dy = static_cast<float>(coarse_difference(y, drift)) * units_.y;
     farthest2 = std::max(farthest2, dx * dx + dy * dy);
-    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, i));
   }
   const double resolution = 2.0 * (static_cast<double>(units_.x) + static_cast<double>(units_.y));
   mine.farthest = std::sqrt(static_cast<double>(farthest2)) * (1.0 + 1e-6) + resolution;
+}
+
+void Candidates::measure_speeds(const State& state, Slice& mine) const {
+  mine.fastest2 = 0.0;
+  for (std::size_t slot = mine.begin; slot < mine.end; ++slot)
+    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, slot));
 }
 
 std::vector<Contact> Candidates::contacts() const {

@@ -32,7 +32,6 @@ public:
 
   std::vector<Slice>& slices() { return slices_; }
   const std::vector<Slice>& slices() const { return slices_; }
-  CoarsePositions& coarse() { return coarse_; }
   CoarseUnits units() const { return units_; }
 
   /// Spends one step's motion of the budget. True if the candidates hold for sure; else
@@ -40,19 +39,20 @@ public:
   /// barrier, get the same answer.
   bool spend_step(Slice& mine) const;
 
-  /// Looks at the true displacements, and sorts anew if they are too large: then true. The state
-  /// and the coarse positions must be those of step `step`. To be called by all threads of a team;
-  /// what it changes is complete when it returns.
-  bool look_again(State& state, Slice& mine, std::int64_t step);
+  /// Looks at the true displacements, and sorts anew if they are too large: then true. `state` and
+  /// `coarse`, the positions of its grains, must be those of step `step`. To be called by all
+  /// threads of a team; what it changes is complete when it returns.
+  bool look_again(State& state, CoarsePositions& coarse, Slice& mine, std::int64_t step);
 
-  /// Sorts and lists all candidates anew; else as look_again().
+  /// Sorts and lists all candidates anew; else as look_again(). The coarse positions are those of
+  /// when_sorted() then.
   void sort_anew(State& state, Slice& mine, std::int64_t step);
 
   /// The candidates hold while no grain has moved by half the skin from where it was when they were
   /// listed, relative to a common motion: free fall with a displacement per step of drift_y()
   /// (quanta) in the falling frame.
   double skin() const { return skin_; }  ///< m
-  const CoarsePositions& when_sorted() const { return coarse_when_sorted_; }
+  const CoarsePositions& when_sorted() const { return when_sorted_; }
   Fixed drift_y() const { return drift_y_; }
 
   /// The grains of `mine` that received kicks have new velocities: keeps the bound on the speeds.
@@ -67,7 +67,8 @@ private:
   void list_pairs(const State& state, Slice& mine);
   void list_near_walls(const State& state, Slice& mine) const;
   static void list_received(const Grains& grains, Slice& mine);
-  void measure_motion(const State& state, Slice& mine, std::int64_t step) const;
+  void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;
+  void measure_speeds(const State& state, Slice& mine) const;
   double squared_speed(const State& state, std::size_t slot) const;
 
   std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
@@ -79,8 +80,7 @@ private:
   double max_radius_;
   CoarseUnits units_;
   Cells cells_;
-  CoarsePositions coarse_;
-  CoarsePositions coarse_when_sorted_;
+  CoarsePositions when_sorted_;
   std::vector<Slice> slices_;
   std::vector<std::uint32_t> slot_of_;  // by id
 

@@ -1,7 +1,9 @@
 #include "engine/cells.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <type_traits>
 
 namespace riesel {
 
@@ -21,7 +23,7 @@ void Cells::sort(State& state, double range) {
 #pragma omp single
   lay_out(state, range);
 #pragma omp for schedule(static)
-  for (std::size_t i = 0; i < grains.size(); ++i) cell_of_old_slot_[i] = cell_at(grains, i);
+  for (std::size_t i = 0; i < grains.size(); ++i) scratch_[i] = cell_at(grains, i);
 #pragma omp single
   count();
   permute(grains);
@@ -35,10 +37,7 @@ void Cells::lay_out(const State& state, double range) {
   columns_ = static_cast<std::size_t>(std::max(1.0, extent * state.box.quantum_x() / range));
   rows_ = static_cast<std::size_t>(std::max(1.0, state.box.length / range));
   columns_per_quantum_ = static_cast<double>(columns_) / std::max(1.0, extent);
-  cell_of_old_slot_.resize(grains.size());
-  fixed_scratch_.resize(grains.size());
-  real_scratch_.resize(grains.size());
-  id_scratch_.resize(grains.size());
+  scratch_.resize(grains.size());
 }
 
 /// Never negative, and right even for grains that are about to be found lost.
@@ -55,16 +54,16 @@ std::uint32_t Cells::cell_at(const Grains& grains, std::size_t slot) const {
 
 /// Counting sort.
 void Cells::count() {
-  const std::size_t n = cell_of_old_slot_.size();
+  const std::size_t n = scratch_.size();
   start_.assign(columns_ * rows_ + 1, 0);
-  for (const std::uint32_t cell : cell_of_old_slot_) ++start_[cell + 1];
+  for (const std::uint64_t cell : scratch_) ++start_[cell + 1];
   for (std::size_t cell = 1; cell < start_.size(); ++cell) start_[cell] += start_[cell - 1];
 
   old_slot_.resize(n);
   cell_of_slot_.resize(n);
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t cell = cell_of_old_slot_[i];
+    const auto cell = static_cast<std::uint32_t>(scratch_[i]);
     const std::uint32_t slot = next[cell]++;
     old_slot_[slot] = static_cast<std::uint32_t>(i);
     cell_of_slot_[slot] = cell;
@@ -72,19 +71,21 @@ void Cells::count() {
 }
 
 template <class T>
-void Cells::permute(AlignedVector<T>& values, AlignedVector<T>& scratch) {
+void Cells::permute(AlignedVector<T>& values) {
+  using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
 #pragma omp for schedule(static)
-  for (std::size_t i = 0; i < values.size(); ++i) scratch[i] = values[old_slot_[i]];
-#pragma omp single
-  values.swap(scratch);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    scratch_[i] = std::bit_cast<Bits>(values[old_slot_[i]]);
+#pragma omp for schedule(static)
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = std::bit_cast<T>(static_cast<Bits>(scratch_[i]));
 }
 
 void Cells::permute(Grains& g) {
-  for (auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})
-    permute(*component, fixed_scratch_);
-  permute(g.radius, real_scratch_);
-  permute(g.mass, real_scratch_);
-  permute(g.id, id_scratch_);
+  for (auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) permute(*component);
+  permute(g.radius);
+  permute(g.mass);
+  permute(g.id);
 }
 
 }  // namespace riesel

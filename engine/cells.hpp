@@ -50,19 +50,17 @@ private:
   void count();
   void permute(Grains& grains);
   template <class T>
-  void permute(AlignedVector<T>& values, AlignedVector<T>& scratch);
+  void permute(AlignedVector<T>& values);
 
   std::size_t columns_ = 1, rows_ = 1;
   Fixed left_edge_ = 0;              // quanta of x
   double columns_per_quantum_ = 0.;  // of x
-  std::vector<std::uint32_t> cell_of_old_slot_, cell_of_slot_;
+  std::vector<std::uint32_t> cell_of_slot_;
   std::vector<std::uint32_t> start_;     // first slot of each cell, and one past the last
   std::vector<std::uint32_t> old_slot_;  // of each slot
 
-  // Room for the permutation, kept because sorting recurs.
-  AlignedVector<Fixed> fixed_scratch_;
-  AlignedVector<double> real_scratch_;
-  AlignedVector<std::int32_t> id_scratch_;
+  // Kept, as sorting recurs: the cells of old slots, then the bits of the values being permuted.
+  AlignedVector<std::uint64_t> scratch_;
 };
 
 }  // namespace riesel

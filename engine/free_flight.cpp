@@ -81,7 +81,7 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const Lanes& pairs, Paths c, Kinematics 
 
 }  // namespace
 
-void foresee(const Slice& slice, const std::vector<std::uint32_t>& which, const State& state,
+void foresee(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result) {
   const std::size_t room = (which.size() + lanes - 1) / lanes * lanes;
   if (result.free_steps.size() < room) {

@@ -10,7 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <span>
 
 namespace riesel {
 
@@ -38,7 +38,7 @@ struct Forecast {
 /// A deflected grain may be off its course by `tolerance` (m). Where there is time enough, all
 /// grains are granted as much, deflected or not, so that the answer outlives the beginning of
 /// contacts. A second grain that is not in the slice may be deflected without notice.
-void foresee(const Slice& slice, const std::vector<std::uint32_t>& which, const State& state,
+void foresee(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result);
 
 }  // namespace riesel

@@ -38,6 +38,14 @@ ContactTally all_contacts(const State& state, bool of_walls) {
   return sum;
 }
 
+/// With what the lasting contacts have given so far.
+WallImpulses all_impulses(const State& state) {
+  WallImpulses impulses = state.tally.impulses;
+  for (const Contact& contact : state.contacts)
+    if (contact.name.wall != no_wall) impulses.add(contact);
+  return impulses;
+}
+
 /// J. Contacts between grains do not change the momentum, so the way of the centre of mass follows
 /// from its start, from free fall, and from the impulses of the walls, of which one given at step s
 /// acts in n - s steps.
@@ -94,6 +102,7 @@ Observables observe(const State& state) {
   o.grain_contacts_begun = static_cast<double>(among_grains.begun);
   o.wall_contacts_begun = static_cast<double>(at_walls.begun);
   o.wall_impulse_y = at_walls.impulse_y.value();
+  std::ranges::transform(all_impulses(state).y, o.impulse_y_of_wall.begin(), &ExactSum::value);
   o.max_overlap = std::max(among_grains.max_overlap, at_walls.max_overlap);
   o.outside = static_cast<double>(sums.outside);
   o.structure_factor = axial_structure_factor(state.grains);

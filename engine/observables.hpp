@@ -29,8 +29,9 @@ struct Observables {
   double grain_contacts_begun = 0.0;  ///< cumulative count
   double wall_contacts_begun = 0.0;   ///< cumulative count
   double wall_impulse_y = 0.0;        ///< kg m/s, given to the grains by the walls, cumulative
-  double max_overlap = 0.0;           ///< m, over all contacts so far
-  double outside = 0.0;               ///< grains beyond a wall line: gone through the wall, now
+  std::array<double, WallImpulses::most_walls> impulse_y_of_wall{};  ///< its parts: left, right
+  double max_overlap = 0.0;  ///< m, over all contacts so far
+  double outside = 0.0;      ///< grains beyond a wall line: gone through the wall, now
   std::array<double, density_waves> structure_factor{};  ///< along y, of the longest waves
 };
 

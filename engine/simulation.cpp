@@ -52,6 +52,7 @@ State ready(State state) {
   require(state.box.width > 0.0 && state.box.length > 0.0, "the box must have a size");
   require(state.time_step > 0.0, "the time step must be positive");
   require(std::isfinite(state.gravity), "gravity must be finite");
+  require(state.walls.size() <= WallImpulses::most_walls, "there are too many walls");
   for (const WallLattice& wall : state.walls)
     require(wall.count > 0 && wall.radius > 0.0, "a wall must have grains");
   check_grains(state.grains);
@@ -155,8 +156,8 @@ void Simulation::step(Slice& mine, std::int64_t step) {
   drift(mine, step);
   barrier_->arrive_and_wait();
   profile.done(Profile::Phase::fly);
-  if (!candidates_->spend_step(mine)) candidates_->look_again(state_, mine, step);
-  find_overlapping(mine, state_, candidates_->coarse(), candidates_->units());
+  if (!candidates_->spend_step(mine)) candidates_->look_again(state_, coarse_, mine, step);
+  find_overlapping(mine, state_, coarse_, candidates_->units());
   profile.done(Profile::Phase::search);
   resolve_contacts(mine, state_, model_);
   give_away_kicks(mine);
@@ -204,12 +205,15 @@ void Simulation::prepare() {
   if (prepared_ == choice_.way()) return;
   prepared_ = choice_.way();
   flights_.reset();
+  coarse_ = {};
   const double skin = prepared_->by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
   candidates_ = std::make_unique<Candidates>(state_, prepared_->threads, skin);
-  if (prepared_->by_flights)
+  if (prepared_->by_flights) {
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
-  else
+  } else {
     barrier_ = std::make_unique<TeamBarrier>(prepared_->threads);
+    coarse_ = candidates_->when_sorted();
+  }
   candidates_->slices().front().profile = Profile(profile_.on());
 }
 
@@ -234,12 +238,11 @@ void Simulation::advance_by_flights(std::int64_t last) {
 /// Velocities take up the last kicks, positions move on to step `step`.
 void Simulation::drift(Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
-  CoarsePositions& coarse = candidates_->coarse();
   take_up_kicks(g, mine);
   const std::size_t count = mine.end - mine.begin;
-  fly(count, 0, &g.ux[mine.begin], &g.x[mine.begin], &coarse.x[mine.begin]);
+  fly(count, 0, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
   fly(count, wrapped_product(fall_, step), &g.uy[mine.begin], &g.y[mine.begin],
-      &coarse.y[mine.begin]);
+      &coarse_.y[mine.begin]);
 #pragma omp master
   state_.step = step;
 }

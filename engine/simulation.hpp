@@ -76,6 +76,7 @@ private:
   Profile profile_;
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<TeamBarrier> barrier_;  // of the threads of plain stepping
+  CoarsePositions coarse_;                // of all grains, for plain stepping
   const WallWatch wall_watch_;
   std::unique_ptr<Flights> flights_;  // while stepping by windows
 };

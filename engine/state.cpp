@@ -111,6 +111,12 @@ double mean_diameter(const Grains& grains) {
   return 2.0 * radii.value() / static_cast<double>(grains.size());
 }
 
+double total_mass(const Grains& grains) {
+  ExactSum sum;
+  for (const double mass : grains.mass) sum.add(mass);
+  return sum.value();
+}
+
 Grains ordered_by_id(const Grains& grains) {
   Grains ordered;
   ordered.resize(grains.size());
@@ -148,7 +154,7 @@ std::uint64_t state_hash(const State& state) {
   for (const Contact& contact : state.contacts) add(hash, contact);
   for (const WallVisit& visit : state.open_visits) add(hash, visit);
   add(hash, state.tally.grains);
-  add(hash, state.tally.walls);
+  add(hash, state.tally.walls);  // with the impulses of all walls together
   add(hash, state.tally.brakes);
   add(hash, state.tally.visits);
   return hash.value();

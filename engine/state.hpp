@@ -108,6 +108,8 @@ Grain grain_at(const State& state, std::size_t slot);
 
 /// m; the same bits for any order of the slots.
 double mean_diameter(const Grains& grains);
+/// kg; likewise.
+double total_mass(const Grains& grains);
 
 /// A copy in which the slots are ordered by id.
 Grains ordered_by_id(const Grains& grains);

@@ -28,18 +28,25 @@ void ContactTally::merge(const ContactTally& other) {
   overlaps.merge(other.overlaps);
 }
 
+void WallImpulses::merge(const WallImpulses& other) {
+  for (std::size_t wall = 0; wall < most_walls; ++wall) y[wall].add(other.y[wall]);
+}
+
 void Tally::end(const Contact& contact, double reach) {
   ContactTally& kind = of(contact.name);
   ++kind.ended;
   kind.add(contact);
   kind.durations.add(contact.duration());
   kind.overlaps.add(contact.max_overlap / reach);
-  if (contact.name.wall != no_wall) ended_at_walls.push_back(contact);
+  if (contact.name.wall == no_wall) return;
+  impulses.add(contact);
+  ended_at_walls.push_back(contact);
 }
 
 void Tally::merge(const Tally& other) {
   grains.merge(other.grains);
   walls.merge(other.walls);
+  impulses.merge(other.impulses);
   brakes.merge(other.brakes);
   visits.merge(other.visits);
   ended_at_walls.insert(ended_at_walls.end(), other.ended_at_walls.begin(),

@@ -10,6 +10,8 @@
 #include "engine/log_histogram.hpp"
 #include "engine/wall_visits.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -37,11 +39,23 @@ struct ContactTally {
   void merge(const ContactTally& other);
 };
 
+/// How the walls share what they gave to the grains. A tube has two walls: index 0 is the left one.
+struct WallImpulses {
+  static constexpr std::size_t most_walls = 2;
+  std::array<ExactSum, most_walls> y;  ///< kg m/s along y, by wall; together walls.impulse_y
+
+  void add(const Contact& contact) {
+    y[static_cast<std::size_t>(contact.name.wall)].add(contact.impulse_y);
+  }
+  void merge(const WallImpulses& other);
+};
+
 struct Tally {
-  ContactTally grains;  ///< free grain on free grain
-  ContactTally walls;   ///< free grain on wall grain
-  BrakeTally brakes;    ///< the same contacts as brakes
-  VisitTally visits;    ///< visits to walls that are over
+  ContactTally grains;    ///< free grain on free grain
+  ContactTally walls;     ///< free grain on wall grain
+  WallImpulses impulses;  ///< of these by wall
+  BrakeTally brakes;      ///< the same contacts as brakes
+  VisitTally visits;      ///< visits to walls that are over
   /// What is not yet in `brakes` and `visits`, in any order: WallWatch takes it up when an advance
   /// is over.
   std::vector<Contact> ended_at_walls;

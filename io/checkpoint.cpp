@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 4;
+constexpr std::int64_t format_version = 5;
 
 // --- one part of the checkpoint after the other, written and read ---
 
@@ -141,7 +141,7 @@ TimeBlocks read_blocks(const Hdf5Group& group, std::size_t most_bytes) {
             group.attribute<std::int64_t>("samples"),
             group.attribute<std::int64_t>("samples_per_block"), std::move(sums)};
   } catch (const std::invalid_argument& flaw) {
-    throw Hdf5Error(std::string("of the profiles, ") + flaw.what());
+    throw Hdf5Error(std::string("of the blocks of time, ") + flaw.what());
   }
 }
 
@@ -154,6 +154,7 @@ void write(Hdf5Group root, const Checkpoint& checkpoint) {
   root.write_text("settings", checkpoint.settings);
   root.write_text("source", checkpoint.source);
   write(root.create_group("profiles"), checkpoint.profiles);
+  write(root.create_group("histograms"), checkpoint.histograms);
   write(std::move(root), checkpoint.state);
 }
 
@@ -163,7 +164,8 @@ Checkpoint read_contents(const Hdf5Group& root, std::size_t most_bytes) {
           .source = root.read_text("source", most_bytes),
           .rows = root.attribute<std::int64_t>("rows"),
           .wall_seconds = root.attribute<double>("wall_seconds"),
-          .profiles = read_blocks(root.group("profiles"), most_bytes)};
+          .profiles = read_blocks(root.group("profiles"), most_bytes),
+          .histograms = read_blocks(root.group("histograms"), most_bytes)};
 }
 
 // --- what can be wrong with it ---
@@ -173,9 +175,9 @@ std::string flaw_of(const Checkpoint& checkpoint) {
   if (!(std::isfinite(checkpoint.wall_seconds) && checkpoint.wall_seconds >= 0.0)) {
     return "the time taken is negative";
   }
-  if (!std::ranges::all_of(checkpoint.profiles.sums(),
-                           [](double sum) { return std::isfinite(sum); }))
-    return "a sum of the profiles is not finite";
+  for (const TimeBlocks* blocks : {&checkpoint.profiles, &checkpoint.histograms})
+    if (!std::ranges::all_of(blocks->sums(), [](double sum) { return std::isfinite(sum); }))
+      return "a sum over a block of time is not finite";
   return riesel::io::flaw_of(checkpoint.state);
 }
 

@@ -20,11 +20,12 @@ namespace riesel::io {
 
 struct Checkpoint {
   State state;
-  std::string settings;       ///< the effective settings, YAML
-  std::string source;         ///< the user's settings file, verbatim
-  std::int64_t rows = 0;      ///< rows that the series of the run file had at that moment
-  double wall_seconds = 0.0;  ///< s, what the run has taken so far
-  TimeBlocks profiles = {};   ///< what the profiles across the tube are made of, so far
+  std::string settings;        ///< the effective settings, YAML
+  std::string source;          ///< the user's settings file, verbatim
+  std::int64_t rows = 0;       ///< rows that the series of the run file had at that moment
+  double wall_seconds = 0.0;   ///< s, what the run has taken so far
+  TimeBlocks profiles = {};    ///< what the profiles across the tube are made of, so far
+  TimeBlocks histograms = {};  ///< what ended between the rows, as HistogramBlocks count it
 };
 
 /// The name of the checkpoint in the directory of a run.

@@ -115,12 +115,13 @@ void Plot::level(Interval x, double y, const Style& style) {
   svg_.line(at(across.low, y), at(across.high, y), style);
 }
 
-void Plot::moment(double x, std::string_view label, const Style& style) {
+void Plot::moment(double x, std::string_view label, const Style& style, int row) {
   if (!contains(x_.range, x)) return;
-  svg_.line(at(x, y_.range.low), at(x, y_.range.high), style);
-  const bool to_the_left = x > 0.5 * (x_.range.low + x_.range.high);
-  const Point place = at(x, y_.range.high);
-  svg_.text({place.x + (to_the_left ? -5.0 : 5.0), place.y + 14.0}, label,
+  const Point top_end = at(x, y_.range.high);
+  const double begin = top_end.y + 14.0 * row;
+  svg_.line(at(x, y_.range.low), {top_end.x, begin}, style);
+  const bool to_the_left = part_of(x_, x) > 0.5;
+  svg_.text({top_end.x + (to_the_left ? -5.0 : 5.0), begin + 14.0}, label,
             {.fill = style.stroke, .anchor = to_the_left ? "end" : "start"});
 }
 
@@ -142,17 +143,19 @@ void Plot::draw_symbol(Point place, const Look& look, bool is_full) {
   }
 }
 
+void Plot::error_bar(double x, double y, double error, std::string_view colour) {
+  if (!std::isfinite(at(x, y).x) || !std::isfinite(at(x, y).y) || !std::isfinite(error)) return;
+  const Style thin{.stroke = colour, .stroke_width = 1.2};
+  const Interval bar = clipped({y - error, y + error}, y_.range);
+  const Point low = at(x, bar.low), high = at(x, bar.high);
+  svg_.line(low, high, thin);
+  for (const Point& end : {low, high}) svg_.line({end.x - 3.0, end.y}, {end.x + 3.0, end.y}, thin);
+}
+
 void Plot::measured(double x, double y, double error, const Look& look, bool is_full) {
   const Point place = at(x, y);
   if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
-  if (std::isfinite(error)) {
-    const Style thin{.stroke = look.colour, .stroke_width = 1.2};
-    const Interval bar = clipped({y - error, y + error}, y_.range);
-    const Point low = at(x, bar.low), high = at(x, bar.high);
-    svg_.line(low, high, thin);
-    for (const Point& end : {low, high})
-      svg_.line({end.x - 3.0, end.y}, {end.x + 3.0, end.y}, thin);
-  }
+  error_bar(x, y, error, look.colour);
   draw_symbol(place, look, is_full);
 }
 

@@ -45,8 +45,12 @@ public:
   /// What lies within the axes of a rectangle or a straight line.
   void area(Interval x, Interval y, const Style& style);
   void level(Interval x, double y, const Style& style);
-  void moment(double x, std::string_view label, const Style& style);
+  /// From the label down to the axis. Labels of neighbours stand in rows of their own, counted from
+  /// the top, those of larger x above: they point to where there is room, and cross no line.
+  void moment(double x, std::string_view label, const Style& style, int row = 0);
 
+  /// Nothing for what is not known.
+  void error_bar(double x, double y, double error, std::string_view colour);
   /// A value with its error, if that is known; full or open. Nothing for a value that is not known.
   void measured(double x, double y, double error, const Look& look, bool is_full);
   /// Beside a value: it still grows.

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 namespace riesel::io {
@@ -91,15 +90,21 @@ void write_profile(Hdf5Group& group, const TubeProfile& profile) {
       .set_attribute("doc", "68 % error of " + name + ".");
 }
 
-template <int lowest>
-void write_histogram(Hdf5Group& parent, const Column& column,
-                     const LogHistogram<lowest>& histogram) {
-  auto group = parent.create_group(column.name);
-  group.set_attribute("doc", column.doc);
-  std::vector<double> edges(histogram.bins);
-  for (std::size_t bin = 0; bin < edges.size(); ++bin) edges[bin] = histogram.lower_edge(bin);
-  write_column<double>(group, "lower_edge", column.unit, edges);
-  write_column<std::int64_t>(group, "count", "1", histogram.counts());
+void write_histogram(Hdf5Group& parent, const HistogramTable& histogram) {
+  auto group = parent.create_group(std::string(histogram.name));
+  group.set_attribute("doc", histogram.meaning);
+  std::vector<double> rates, errors;
+  for (const Estimate& rate : histogram.rates) {
+    rates.push_back(rate.value);
+    errors.push_back(rate.error);
+  }
+  write_column<double>(group, "lower_edge", std::string(histogram.unit), histogram.lower_edges);
+  write_column<std::int64_t>(group, "count", "1", histogram.counts)
+      .set_attribute("doc", "How many ended since the start.");
+  write_column<double>(group, "rate", "1/s", rates)
+      .set_attribute("doc", "How many ended per second after the transient.");
+  write_column<double>(group, "rate_error", "1/s", errors)
+      .set_attribute("doc", "68 % error of rate.");
 }
 
 void write_walls(Hdf5Group group, const State& state) {
@@ -248,27 +253,10 @@ void RunFile::write_profiles(const Strips& strips, const std::vector<TubeProfile
   for (const TubeProfile& profile : profiles) write_profile(group, profile);
 }
 
-void RunFile::write_histograms(const Tally& tally) {
+void RunFile::write_histograms(const std::vector<HistogramTable>& histograms, double since) {
   auto group = replace_group(contents_->root(), "histograms");
-  for (const auto& [kind, name, who] :
-       {std::tuple{&tally.grains, std::string("grain"), "between grains"},
-        std::tuple{&tally.walls, std::string("wall"), "of grains with walls"}}) {
-    write_histogram(
-        group, {name + "_contact_duration", "s", fmt::format("How long contacts {} last.", who)},
-        kind->durations);
-    write_histogram(
-        group,
-        {name + "_contact_overlap", "1",
-         fmt::format("Largest overlap of contacts {}, over the sum of the radii.", who)},
-        kind->overlaps);
-  }
-  write_histogram(
-      group,
-      {"wall_visit_entry_rate", "m/s", "Normal velocity at the beginning of visits to walls."},
-      tally.visits.entry_rates);
-  write_histogram(
-      group, {"wall_visit_entry_slip", "m/s", "Slip speed at the beginning of visits to walls."},
-      tally.visits.entry_slips);
+  group.set_attribute("since", since);
+  for (const HistogramTable& histogram : histograms) write_histogram(group, histogram);
 }
 
 void RunFile::write_validity(const ValidityVerdict& validity) {

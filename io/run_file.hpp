@@ -9,6 +9,7 @@
 // checkpoint, not with each row.
 #pragma once
 
+#include "engine/histogram_blocks.hpp"
 #include "engine/state.hpp"
 #include "engine/tube_profiles.hpp"
 #include "engine/validity.hpp"
@@ -71,9 +72,10 @@ public:
   /// each profile, of each_strip(), NAME and NAME_error. Of samples taken since `since` (s).
   void write_profiles(const Strips& strips, const std::vector<TubeProfile>& profiles, double since);
 
-  /// Replaces the histograms of contacts and visits that ended since the start in /histograms:
-  /// each a group with the lower edges of its bins and the counts.
-  void write_histograms(const Tally& tally);
+  /// Replaces the histograms of contacts and visits in /histograms: each a group with the lower
+  /// edges of its bins, the counts since the start, and the rates since `since` (s) with their
+  /// errors.
+  void write_histograms(const std::vector<HistogramTable>& histograms, double since);
 
   /// Replaces the verdict of validity in /validity: an attribute for it, and one for the value of
   /// each finding.

@@ -30,6 +30,9 @@ constexpr auto told_of_profiles = {"area_fraction", "mean_axial_velocity", "temp
                                    "temperature_y", "stress_xx",           "stress_xy",
                                    "stress_yy"};
 
+constexpr auto told_of_histograms = {"grain_contact_duration", "wall_contact_duration",
+                                     "grain_contact_overlap", "wall_contact_overlap"};
+
 void require(bool is_so, const std::string& flaw) {
   if (!is_so) throw Hdf5Error(flaw);
 }
@@ -145,6 +148,26 @@ Profiles read_profiles(const Hdf5Group& group, std::size_t most_bytes) {
   return profiles;
 }
 
+std::vector<HistogramWithErrors> read_histograms(const Hdf5Group& all, std::size_t most_bytes) {
+  std::vector<HistogramWithErrors> histograms;
+  for (const char* name : told_of_histograms) {
+    const auto group = all.group(name);
+    histograms.push_back({.column = {.name = name,
+                                     .unit = group.data("lower_edge").text_attribute("unit"),
+                                     .doc = group.text_attribute("doc")},
+                          .lower_edges = read_numbers(group, "lower_edge", most_bytes),
+                          .rates = read_numbers(group, "rate", most_bytes),
+                          .errors = read_numbers(group, "rate_error", most_bytes)});
+    const auto& read = histograms.back();
+    const auto& edges = read.lower_edges;
+    require(edges.size() > 1 && edges.size() == read.rates.size()
+                && edges.size() == read.errors.size() && edges.front() > 0.0
+                && std::ranges::is_sorted(edges),
+            fmt::format("the histogram {} has impossible bins", name));
+  }
+  return histograms;
+}
+
 Provenance read_provenance(const Hdf5Group& group, std::size_t most_bytes) {
   Provenance provenance;
   for (const char* name : told_of_provenance)
@@ -166,10 +189,20 @@ RunContents read_contents(const Hdf5Group& root, std::size_t most_bytes) {
   RunHistory history = read_history(root, most_bytes);
   require(root.has("final"), "it holds no final state");
   require(root.has("profiles"), "it holds no profiles");
+  require(root.has("histograms"), "it holds no histograms");
   return {.final_state = read_final_state(root.group("final"), most_bytes),
           .series = read_series(root.group("series"), most_bytes),
           .profiles = read_profiles(root.group("profiles"), most_bytes),
+          .histograms = read_histograms(root.group("histograms"), most_bytes),
           .history = std::move(history)};
+}
+
+template <class Named>
+const Named& find(const std::vector<Named>& all, const std::string& name, const char* kind) {
+  const auto found =
+      std::ranges::find_if(all, [&](const Named& one) { return one.column.name == name; });
+  if (found == all.end()) throw std::out_of_range(fmt::format("there is no {} {}", kind, name));
+  return *found;
 }
 
 /// What `read` makes of the root of the file and of its size.
@@ -187,17 +220,15 @@ auto read_file(const std::filesystem::path& path, Read read) {
 }  // namespace
 
 const Series& RunContents::series_of(const std::string& name) const {
-  const auto found = std::ranges::find_if(
-      series, [&](const Series& candidate) { return candidate.column.name == name; });
-  if (found == series.end()) throw std::out_of_range("there is no series " + name);
-  return *found;
+  return find(series, name, "series");
+}
+
+const HistogramWithErrors& RunContents::histogram_of(const std::string& name) const {
+  return find(histograms, name, "histogram");
 }
 
 const ProfileWithErrors& Profiles::named(const std::string& name) const {
-  const auto found = std::ranges::find_if(
-      quantities, [&](const auto& candidate) { return candidate.column.name == name; });
-  if (found == quantities.end()) throw std::out_of_range("there is no profile " + name);
-  return *found;
+  return find(quantities, name, "profile");
 }
 
 RunContents read_run_file(const std::filesystem::path& path) {

@@ -45,6 +45,13 @@ struct Profiles {
   const ProfileWithErrors& named(const std::string& name) const;
 };
 
+/// One of /histograms: how often contacts or visits ended after the transient, by bin.
+struct HistogramWithErrors {
+  Column column;                      ///< of what stands on the axis
+  std::vector<double> lower_edges;    ///< of the bins, positive and ascending
+  std::vector<double> rates, errors;  ///< 1/s; not a number where they are not known
+};
+
 /// What tells by whom and how a run was made.
 struct RunHistory {
   Provenance start;
@@ -55,10 +62,12 @@ struct RunContents {
   FinalState final_state;
   std::vector<Series> series;  ///< all of the same length
   Profiles profiles;           ///< all of the same length
+  std::vector<HistogramWithErrors> histograms;
   RunHistory history;
 
   /// Throws std::out_of_range for a name that is not there.
   const Series& series_of(const std::string& name) const;
+  const HistogramWithErrors& histogram_of(const std::string& name) const;
 };
 
 /// Throws FileError if the file cannot be read, is damaged, or is of something else than a flow.

@@ -128,6 +128,13 @@ void for_each_value(AnyTally& tally, Visit visit) {
   visit("overlaps", overlaps.counts());
 }
 
+template <MaybeConst<WallImpulses> AnyTally, class Visit>
+void for_each_value(AnyTally& tally, Visit visit) {
+  auto& [y] = tally;
+  visit("left_y", y[0]);
+  visit("right_y", y[1]);
+}
+
 template <MaybeConst<BrakeTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
   auto& [contacts, cut_short, braking, braking_cut_short, friction_loss, friction_loss_cut_short,
@@ -160,9 +167,10 @@ void for_each_value(AnyTally& tally, Visit visit) {
 /// Calls visit(name, tally) for each kind of tally. `ended_at_walls` is empty between two advances.
 template <MaybeConst<Tally> AnyTally, class Visit>
 void for_each_kind(AnyTally& tally, Visit visit) {
-  auto& [grains, walls, brakes, visits, ended_at_walls] = tally;
+  auto& [grains, walls, impulses, brakes, visits, ended_at_walls] = tally;
   visit("grains", grains);
   visit("walls", walls);
+  visit("impulses", impulses);
   visit("brakes", brakes);
   visit("visits", visits);
 }

@@ -72,6 +72,10 @@ Json balance(const FlowSummary::Balance& b) {
            {{"n_dot", b.n_dot.error}, {"dv_y", b.dv_y.error}, {"n_dot_dv_y", b.n_dot_dv_y.error}}}};
 }
 
+Json braking_force(const FlowSummary::BrakingForce& f) {
+  return {{"left", measured(f.left)}, {"right", measured(f.right)}, {"weight", f.weight}};
+}
+
 /// A threshold that no value passes stands as null.
 Json findings(const std::vector<Finding>& findings) {
   Json list = Json::array();
@@ -99,6 +103,7 @@ Json validity(const FlowSummary& s) {
           {"friction_failure_fraction", s.validity.friction_failure_fraction},
           {"contacts_per_wall_visit", s.wall_visits.contacts.value},
           {"v_crit", s.validity.v_crit},
+          {"t_col", {{"grains", s.validity.t_col_grains}, {"walls", s.validity.t_col_walls}}},
           {"findings", findings(v.findings)}};
 }
 
@@ -119,6 +124,8 @@ std::string to_json(const FlowSummary& s) {
   json["structure_factor"] = structure_factor(s.structure_factor);
   json["profiles"] = {{"core", zone(s.core)}, {"wall_layers", zone(s.wall_layers)}};
   json["balance"] = balance(s.balance);
+  json["grain_contact_rate"] = measured(s.grain_contact_rate);
+  json["braking_force"] = braking_force(s.braking_force);
   json["energy"] = {
       {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},
       {"elastic", s.energy.elastic},         {"gravity_work", s.energy.gravity_work},

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct RunSummary {
 
 /// Not a number stands as null in the file.
 using Measured = Estimate;
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Means are over the samples after the transient.
 struct FlowSummary {
@@ -70,6 +73,15 @@ struct FlowSummary {
     double gravity = 0.0;  ///< m/s^2
   } balance;
 
+  Measured grain_contact_rate{unknown, unknown};  ///< 1/s, contacts with other grains per grain
+
+  /// What each wall carries: the mean force on the grains against gravity. In a steady state both
+  /// together carry the weight.
+  struct BrakingForce {
+    Measured left{unknown, unknown}, right{unknown, unknown};  ///< N
+    double weight = unknown;                                   ///< N, of all grains
+  } braking_force;
+
   /// J; since the start, but kinetic and elastic energy are those at the end.
   struct Energy {
     double initial = 0.0, kinetic = 0.0, elastic = 0.0, gravity_work = 0.0, normal_loss = 0.0,
@@ -90,6 +102,7 @@ struct FlowSummary {
   struct Validity {
     ValidityVerdict verdict{};
     double v_crit = 0.0;  ///< m/s, above which a typical wall contact is cut short
+    double t_col_grains = unknown, t_col_walls = unknown;  ///< s, of typical contacts
     double friction_failure_fraction = 0.0;  ///< of the friction loss at walls, by those cut short
   } validity;
 };

@@ -47,6 +47,21 @@ FlowSummary::Balance read_balance(const Json& json) {
           .gravity = number(json, "gravity")};
 }
 
+// Some values are not in files of riesel 0.3.0 and before.
+
+Measured read_grain_contact_rate(const Json& summary) {
+  const auto found = summary.find("grain_contact_rate");
+  return found == summary.end() ? Measured{unknown, unknown} : measured(*found);
+}
+
+FlowSummary::BrakingForce read_braking_force(const Json& summary) {
+  const auto found = summary.find("braking_force");
+  if (found == summary.end()) return {};
+  return {.left = measured(found->at("left")),
+          .right = measured(found->at("right")),
+          .weight = number(*found, "weight")};
+}
+
 FlowSummary::Energy read_energy(const Json& json) {
   return {.initial = number(json, "initial"),
           .kinetic = number(json, "kinetic"),
@@ -118,6 +133,10 @@ ValidityVerdict read_verdict(const Json& json) {
   return verdict;
 }
 
+double read_t_col(const Json& validity, const char* of) {
+  return validity.contains("t_col") ? number(validity.at("t_col"), of) : unknown;
+}
+
 CurveSummary read_curve(const Json& json) {
   CurveSummary summary{.run = read_run(json), .curve = {}};
   for (const auto& point : json.at("curve"))
@@ -151,10 +170,14 @@ FlowSummary read_flow(const Json& json) {
           .core = read_zone(json.at("profiles").at("core")),
           .wall_layers = read_zone(json.at("profiles").at("wall_layers")),
           .balance = read_balance(json.at("balance")),
+          .grain_contact_rate = read_grain_contact_rate(json),
+          .braking_force = read_braking_force(json),
           .energy = read_energy(json.at("energy")),
           .wall_visits = read_wall_visits(json.at("wall_visits")),
           .validity = {.verdict = read_verdict(validity),
                        .v_crit = number(validity, "v_crit"),
+                       .t_col_grains = read_t_col(validity, "grains"),
+                       .t_col_walls = read_t_col(validity, "walls"),
                        .friction_failure_fraction = number(validity, "friction_failure_fraction")}};
 }
 

@@ -34,8 +34,8 @@ PairSearch::PairSearch(Original& engine)
                .second = engine.slice().pairs.second.data(),
                .reach2 = engine.slice().pairs.reach2.data(),
                .count = engine.slice().pairs.size(),
-               .x = engine.candidates().coarse().x.data(),
-               .y = engine.candidates().coarse().y.data(),
+               .x = engine.candidates().when_sorted().x.data(),
+               .y = engine.candidates().when_sorted().y.data(),
                .units = engine.candidates().units()},
       hits_(problem_.count) {}
 

@@ -17,7 +17,7 @@ public:
   Original(State state, const ContactModel& model);
 
   void find_pairs() {
-    find_overlapping(slice(), state_, candidates_.coarse(), candidates_.units());
+    find_overlapping(slice(), state_, candidates_.when_sorted(), candidates_.units());
   }
   void step_contacts() { slice().pair_contacts.step(bodies(state_.grains), units_, model_); }
 

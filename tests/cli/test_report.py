@@ -6,12 +6,15 @@ import re
 import shutil
 
 import h5py
+import numpy as np
 
 from report_files import SVG, Report
 from riesel_command import SHIPPED, bytes_of_files
 
 FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits",
-           "area_fraction", "velocity", "temperature", "stress"}
+           "area_fraction", "velocity", "temperature", "stress", "braking",
+           "grain_contact_duration", "grain_contact_overlap", "wall_contact_duration",
+           "wall_contact_overlap"}
 
 
 class FinishedRun(Report):
@@ -115,6 +118,73 @@ class FinishedRun(Report):
         places = [float(bar.get("x")) for bar in bars]
         self.assertEqual(places, sorted(places))
 
+    def bars_and_marks(self, name):
+        """Of a histogram: (x, width, height) of its bars, and {label: x} of its marks."""
+        root = self.figure(self.out, name)
+        bars = [tuple(float(bar.get(key)) for key in ("x", "width", "height"))
+                for bar in root.findall(f"{SVG}g[@class='bars']/{SVG}rect")]
+        marks = root.find(f"{SVG}g[@class='marks']")
+        places = [float(line.get("x1")) for line in marks.findall(f"{SVG}line")]
+        labels = [text.text for text in marks.findall(f"{SVG}text")]
+        return bars, dict(zip(labels, places))
+
+    def test_histograms_of_contacts_are_drawn_as_they_stand_in_the_file(self):
+        """A bar from edge to edge for each bin that is not empty, as high as the logarithm of its rate."""
+        for name in ("grain_contact_duration", "grain_contact_overlap", "wall_contact_overlap"):
+            with h5py.File(self.out / "run.h5") as run:
+                rates = run[f"histograms/{name}/rate"][()]
+                edges = np.log(run[f"histograms/{name}/lower_edge"][()])
+            filled = np.flatnonzero(rates > 0.0)
+            self.assertGreater(len(filled), 3, name)
+            x, width, height = np.array(self.bars_and_marks(name)[0]).T
+            self.assertEqual(len(x), len(filled), name)
+            for drawn, expected in ((x, edges[filled]), (x + width, edges[filled + 1]),
+                                    (height, np.log(rates[filled]))):
+                if np.ptp(expected) > 0.0:
+                    slope, offset = np.polyfit(expected, drawn, 1)
+                    self.assertGreater(slope, 0.0)
+                    np.testing.assert_allclose(drawn, slope * expected + offset, atol=0.05)
+
+    def test_t_col_and_the_thresholds_are_marked_where_they_are(self):
+        summary = self.summary(self.out)
+        t_col = summary["validity"]["t_col"]
+        step = summary["time"] / summary["steps"]
+        with h5py.File(self.out / "run.h5") as run:
+            radius, wall = run["final/radius"][()], run["final/walls/radius"][0]
+            edges = {name: run[f"histograms/{name}/lower_edge"][()] for name in run["histograms"]}
+            filled = {name: np.flatnonzero(run[f"histograms/{name}/rate"][()] > 0.0)
+                      for name in run["histograms"]}
+        limits = {"suspect": 0.2, "unphysical": 0.5}
+        of_grains, of_walls = radius.min() / (2 * radius.mean()), wall / (wall + radius.mean())
+        for name, expected in {
+                "grain_contact_duration": {"10 steps": 10 * step, "t_col": t_col["grains"]},
+                "wall_contact_duration": {"10 steps": 10 * step, "t_col": t_col["walls"],
+                                          "cut short below": 0.639 * t_col["walls"]},
+                "grain_contact_overlap": {key: of_grains * limits[key] for key in limits},
+                "wall_contact_overlap": {key: of_walls * limits[key] for key in limits}}.items():
+            bars, marks = self.bars_and_marks(name)
+            self.assertEqual(set(marks), set(expected), name)
+            known = np.log(edges[name][filled[name]])
+            values = np.concatenate([known, np.log(edges[name][filled[name] + 1])])
+            places = np.concatenate([[bar[0] for bar in bars], [bar[0] + bar[1] for bar in bars]])
+            slope, offset = np.polyfit(values, places, 1)
+            for label, value in expected.items():
+                self.assertAlmostEqual(marks[label], slope * np.log(value) + offset, delta=1.0,
+                                       msg=f"{name}: {label}")
+        self.assertAlmostEqual(t_col["walls"] / t_col["grains"], 2 ** 0.5, delta=0.02)
+
+    def test_the_braking_of_each_wall_is_told_and_drawn(self):
+        braking = self.summary(self.out)["braking_force"]
+        for wall in ("left", "right"):
+            force = braking[wall]
+            self.assertIn(f"braking force of the {wall} wall{force['value']:.4g} ± "
+                          f"{force['error']:.2g} N", self.page.text)
+        curves = self.figure(self.out, "braking").findall(f"{SVG}g[@class='curve']/{SVG}polyline")
+        self.assertEqual([len(curve.get("points").split()) for curve in curves], [5, 5])
+
+    def test_why_it_ended_is_told(self):
+        self.assertIn("The run ended (duration): its duration was over.", self.page.text)
+
     def test_the_figures_stand_alone_too(self):
         for name in FIGURES:
             root = self.figure(self.out, name)
@@ -167,6 +237,20 @@ class OtherRuns(Report):
         self.assertLess(abs(int(drawn) - (y < float(shown) * 1e-3).sum()), 3)  # its digits
         self.assertLess(int(drawn), int(grains))
         self.assertGreater(int(drawn), 1000)
+
+    def test_a_run_that_asked_for_precision_tells_why_it_ended(self):
+        out = self.run_small_tube("out", "--set", "run.duration=", "--set",
+                                  "run.until.relative_error=1 %", "--set", "run.until.at_most=0.2 ms")
+        self.assertIn("The run ended (at_most): the time was up", self.report_on(out).text)
+
+    def test_figures_of_an_earlier_report_do_not_stay(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.2 ms")
+        self.report_on(out)
+        (out / "figures/of_another_time.svg").write_text("<svg/>", encoding="utf-8")
+        (out / "figures/notes.txt").write_text("mine", encoding="utf-8")
+        self.report_on(out)
+        self.assertEqual({path.name for path in (out / "figures").iterdir()},
+                         {f"{name}.svg" for name in FIGURES} | {"notes.txt"})
 
     def test_a_resumed_run_tells_of_both_parts(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")

@@ -40,7 +40,7 @@ FIGURES = """
 
 # Of labels that belong to one axis or legend: those that run into each other.
 COLLISIONS = """
-[...document.querySelectorAll("g.axes, g.legend, g.colour_bar")].flatMap(group => {
+[...document.querySelectorAll("g.axes, g.legend, g.colour_bar, g.marks")].flatMap(group => {
   const places = [...group.querySelectorAll("text")].map(text =>
     ({text: text.textContent, box: text.getBoundingClientRect()}));
   return places.flatMap((a, i) => places.slice(i + 1).filter(b =>
@@ -74,7 +74,7 @@ class InBrowser(Report):
         sweep = maker.home / "sweep"
         for directory in (run, impacts, sweep):
             maker.assert_done(maker.riesel("report", directory))
-        cls.pages = {run / "report.html": 11, impacts / "report.html": 4, sweep / "report.html": 1}
+        cls.pages = {run / "report.html": 16, impacts / "report.html": 4, sweep / "report.html": 1}
         cls.browser = browser.Browser()
         cls.addClassCleanup(cls.browser.close)
 

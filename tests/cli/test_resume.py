@@ -2,8 +2,20 @@
 that it was."""
 
 import shutil
+import time
+
+import h5py
 
 from riesel_command import CommandTest, bytes_of_files
+
+
+def settings_of(checkpoint):
+    """As they stand in it, and nothing while it is being replaced."""
+    try:
+        with h5py.File(checkpoint, "r") as file:
+            return file["settings"][()].decode()
+    except OSError:
+        return ""
 
 
 class Resume(CommandTest):
@@ -20,6 +32,25 @@ class Resume(CommandTest):
                 for duration in [*durations[1:], "20 ms"]:
                     self.resume_to_end(short, "--set", f"run.duration={duration}")
                 self.assert_same_result(long, short)
+
+    def test_the_longer_duration_is_kept_from_the_start_on(self):
+        """In both generations of the checkpoint, so that it is not lost by a kill before the next."""
+        short = self.run_small_tube("short", "--set", "run.duration=1 ms")
+        checkpoints = [short / "checkpoint.h5", short / "checkpoint.h5.previous"]
+        process = self.start("resume", short, "--set", "run.duration=1000 s", "--set",
+                             "output.checkpoint_interval=1 h")
+        deadline = time.monotonic() + 30.0
+        while time.monotonic() < deadline:
+            time.sleep(0.01)
+            settings = [settings_of(checkpoint) for checkpoint in checkpoints]
+            if all("duration: 1000" in text for text in settings):
+                break
+        process.kill()
+        process.communicate()
+        self.assertEqual(settings, [(short / "effective.yaml").read_text(encoding="utf-8")] * 2)
+        self.resume_to_end(short, "--set", "run.duration=5 ms", "--set",
+                           "output.checkpoint_interval=60 s")
+        self.assert_same_result(self.run_small_tube("long"), short)
 
     def test_the_result_does_not_depend_on_the_threads_before_and_after(self):
         rows = ["--set", "output.interval=0.1 ms"]
@@ -136,9 +167,10 @@ class DamagedCheckpoint(CommandTest):
                 self.assert_same_result(as_it_was, directory)
 
     def test_the_generation_before_is_used_where_the_newest_is_gone(self):
+        """It knows of the longer duration that the run was resumed with."""
         as_it_was = shutil.copytree(self.out, self.home / "copy")
         self.newest.unlink()
-        result = self.riesel("resume", self.out, "--set", "run.duration=5 ms")
+        result = self.riesel("resume", self.out)
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("checkpoint.h5.previous", result.stderr)
         self.assert_same_result(as_it_was, self.out)
@@ -161,5 +193,5 @@ class DamagedCheckpoint(CommandTest):
 
     def test_the_generation_before_can_be_resumed_by_its_name(self):
         as_it_was = shutil.copytree(self.out, self.home / "copy")
-        self.resume_to_end(self.previous, "--set", "run.duration=5 ms")
+        self.resume_to_end(self.previous)
         self.assert_same_result(as_it_was, self.out)

@@ -7,10 +7,12 @@ from riesel_command import FAILED, SMALL_TUBE, CommandTest, data_of
 
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
-                 "wall_visits", "validity", "fluctuations", "structure_factor", "profiles"}
+                 "wall_visits", "validity", "fluctuations", "structure_factor", "profiles",
+                 "braking_force", "grain_contact_rate"}
 NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
                 "mean_axial_velocity": {"value", "error"},
                 "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},
+                "braking_force": {"left", "right", "weight"},
                 "energy": {"residual"},
                 "validity": {"verdict", "max_overlap_ratio", "brake_failure_fraction",
                              "contacts_per_wall_visit", "v_crit", "findings"}}
@@ -157,6 +159,46 @@ class Tube(CommandTest):
             visits = self.summary(self.out)["wall_visits"]["of_contacts_since_start"]
             self.assertEqual(counts["wall_visit_entry_rate"], sum(visits))
             self.assertEqual(counts["wall_visit_entry_slip"], sum(visits))
+
+    def test_the_rates_of_the_histograms_are_those_of_the_series(self):
+        """Of what came after the transient, with error bars."""
+        summary = self.summary(self.out)
+        with h5py.File(self.out / "run.h5", "r") as file:
+            histograms, series = file["histograms"], file["series"]
+            self.assertEqual(histograms.attrs["since"], summary["transient_end"])
+            after = series["time"][()] >= summary["transient_end"] - 1e-12
+            ended = np.ptp(series["wall_contacts_ended"][()][after])
+            time = np.ptp(series["time"][()][after])
+            for name in ("wall_contact_duration", "wall_contact_overlap"):
+                group = histograms[name]
+                self.assertAlmostEqual(group["rate"][()].sum(), ended / time, delta=1e-6 * ended / time)
+                self.assertEqual(group["rate"].attrs["unit"], b"1/s")
+                self.assertTrue((group["rate_error"][()][group["rate"][()] > 0] > 0).any())
+            self.assertGreater(ended, 0)
+
+    def test_the_braking_of_each_wall_is_that_of_its_series(self):
+        summary = self.summary(self.out)
+        with h5py.File(self.out / "run.h5", "r") as file:
+            series = {name: column[()] for name, column in file["series"].items()}
+            weight = 10.0 * file["final/mass"][()].sum()
+        after = series["time"] >= summary["transient_end"] - 1e-12
+        braking = summary["braking_force"]
+        self.assertAlmostEqual(braking["weight"] / weight, 1.0)
+        for wall in ("left", "right"):
+            impulse = series[f"{wall}_wall_impulse_y"]
+            force = -(impulse[after][-1] - impulse[after][0]) / np.ptp(series["time"][after])
+            self.assertAlmostEqual(braking[wall]["value"] / force, 1.0, delta=1e-6)
+            self.assertGreater(force, 0.0)
+            self.assertGreater(braking[wall]["error"], 0.0)
+        self.assertNotEqual(braking["left"]["value"], braking["right"]["value"])
+        begun = np.ptp(series["grain_contacts"][after]) / np.ptp(series["time"][after])
+        self.assertAlmostEqual(
+            summary["grain_contact_rate"]["value"] * summary["grains"] / 2.0 / begun, 1.0, delta=1e-6)
+        both = series["left_wall_impulse_y"] + series["right_wall_impulse_y"]
+        np.testing.assert_allclose(both, series["wall_impulse_y"], rtol=1e-12, atol=1e-20)
+        balance = summary["balance"]["n_dot_dv_y"] / summary["balance"]["gravity"]
+        both = braking["left"]["value"] + braking["right"]["value"]
+        self.assertAlmostEqual(both / weight, balance)
 
     def test_the_mean_velocity_is_that_of_the_series(self):
         summary = self.summary(self.out)

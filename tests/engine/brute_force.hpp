@@ -45,7 +45,8 @@ public:
         gravity_(0.0, state.gravity),
         dt_(state.time_step),
         model_(model),
-        bodies_(state.grains.size()) {
+        bodies_(state.grains.size()),
+        impulse_of_wall_(walls_.size(), Vector2d::Zero()) {
     for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
       const Grain g = grain_at(state, slot);
       Body& body = bodies_[static_cast<std::size_t>(state.grains.id[slot])];
@@ -73,11 +74,12 @@ public:
         accelerations[j] -= t / b.mass;
       }
       for (std::size_t w = 0; w < walls_.size(); ++w)
-        for (std::int64_t k = 0; k < walls_[w].count; ++k)
-          accelerations[i] +=
-              try_touch(bodies_[i], wall_grain(walls_[w], k), bodies_[i].mass,
-                        name(static_cast<int>(w), i, static_cast<std::size_t>(k)), now)
-              / bodies_[i].mass;
+        for (std::int64_t k = 0; k < walls_[w].count; ++k) {
+          const auto who = name(static_cast<int>(w), i, static_cast<std::size_t>(k));
+          const auto t = try_touch(bodies_[i], wall_grain(walls_[w], k), bodies_[i].mass, who, now);
+          accelerations[i] += t / bodies_[i].mass;
+          impulse_of_wall_[w] += dt_ * t;
+        }
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].acceleration = accelerations[i];
     for (const auto& [who, life] : touching_)
@@ -88,6 +90,8 @@ public:
   const Body& body(std::size_t id) const { return bodies_[id]; }
   const std::map<ContactName, Life>& touching() const { return touching_; }
   const std::vector<std::pair<ContactName, Life>>& ended() const { return ended_; }
+  /// kg m/s, given to the grains since step 0.
+  const Vector2d& impulse_of_wall(std::size_t wall) const { return impulse_of_wall_[wall]; }
 
   /// m, between a grain here and in `state`, the largest over all grains.
   double distance_to(const State& state) const {
@@ -148,7 +152,8 @@ private:
   Vector2d gravity_;
   double dt_;
   ContactModel model_;
-  std::vector<Body> bodies_;  // by id
+  std::vector<Body> bodies_;               // by id
+  std::vector<Vector2d> impulse_of_wall_;  // kg m/s, on the grains
   std::int64_t step_ = 0;
   std::map<ContactName, Life> touching_;
   std::vector<std::pair<ContactName, Life>> ended_;

@@ -1,5 +1,6 @@
 // The life of a contact: begin, end, partners, largest overlap and slip path, against a log of
 // events by brute force; and that nothing the engine does between two steps cuts it in two.
+#include "engine/observables.hpp"
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/brute_force.hpp"
@@ -33,6 +34,15 @@ brute_force::Stepper reference(const State& start, std::int64_t steps) {
   brute_force::Stepper stepper(start, paper_model());
   for (std::int64_t step = 1; step <= steps; ++step) stepper.step();
   return stepper;
+}
+
+/// The first step from `step` on in which a contact with a wall lasts.
+std::int64_t step_within_a_wall_contact(const State& start, std::int64_t step) {
+  Simulation simulation(start, paper_model(), 1);
+  simulation.advance(step);
+  const auto at_wall = [](const Contact& c) { return c.name.wall != no_wall; };
+  while (std::ranges::none_of(simulation.state().contacts, at_wall)) simulation.advance(1);
+  return simulation.state().step;
 }
 
 /// Two grains in a long, soft contact, and a fast third one that makes the engine sort again and
@@ -105,6 +115,25 @@ TEST_CASE("the tally is the sum over the lives") {
   }
   const auto lasting = static_cast<std::int64_t>(end.contacts.size());
   CHECK(end.tally.grains.begun + end.tally.walls.begun - grains.ended - walls.ended == lasting);
+}
+
+TEST_CASE("each wall has given what the log of events says") {
+  const State start = small_tube(23);
+  const std::int64_t steps = step_within_a_wall_contact(start, 700);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  const int threads = GENERATE(1, 2);
+  const State end = advanced(start, paper_model(), steps, threads, stepping);
+  const brute_force::Stepper log = reference(start, steps);
+  const Observables o = observe(end);
+  for (std::size_t wall : {0U, 1U}) {
+    CAPTURE(wall, o.impulse_y_of_wall[wall]);
+    CHECK(std::abs(o.impulse_y_of_wall[wall]) > 0.05 * mass);  // kg m/s: not next to nothing
+    CHECK(o.impulse_y_of_wall[wall] == Approx(log.impulse_of_wall(wall).y()).epsilon(1e-6));
+  }
+  CHECK(o.impulse_y_of_wall[0] + o.impulse_y_of_wall[1] == Approx(o.wall_impulse_y).epsilon(1e-14));
+  ExactSum ended = end.tally.impulses.y[0];
+  ended.add(end.tally.impulses.y[1]);
+  CHECK(ended == end.tally.walls.impulse_y);
 }
 
 TEST_CASE("begin and end are resolved within the step") {

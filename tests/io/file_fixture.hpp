@@ -145,6 +145,8 @@ inline riesel::Tally whole_tally() {
   riesel::Tally whole;
   whole.grains = tally(-2.5);
   whole.walls = tally(1e10 / 3.0);
+  whole.impulses.y[0].add(-4e-3 / 3.0);
+  whole.impulses.y[1].add(-5e-3 / 3.0);
   auto& b = whole.brakes;
   b.contacts = 11;
   b.cut_short = 3;
@@ -293,6 +295,7 @@ inline std::string bits_of(const riesel::State& state) {
   for (const auto& visit : state.open_visits) bits.add(visit);
   bits.add(state.tally.grains);
   bits.add(state.tally.walls);
+  for (const auto& sum : state.tally.impulses.y) bits.add(sum);
   bits.add(state.tally.brakes);
   bits.add(state.tally.visits);
   return bits.value();

@@ -22,17 +22,20 @@ Checkpoint special_checkpoint(std::size_t grains = 4) {
           .source = "# mine\nscenario: periodic_tube\n",
           .rows = 12345,
           .wall_seconds = 0.1,
-          .profiles = TimeBlocks(3, 5, 2, {1.0 / 3.0, -0.0, 1e300, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0})};
+          .profiles = TimeBlocks(3, 5, 2, {1.0 / 3.0, -0.0, 1e300, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0}),
+          .histograms = TimeBlocks(2, 3, 2, {11.0, 0.0, 12.0, 13.0})};
 }
 
 std::string bits_of(const Checkpoint& checkpoint) {
   Bits bits;
   bits.add(checkpoint.rows);
   bits.add(checkpoint.wall_seconds);
-  bits.add(checkpoint.profiles.columns());
-  bits.add(checkpoint.profiles.samples());
-  bits.add(checkpoint.profiles.samples_per_block());
-  bits.add_all(checkpoint.profiles.sums());
+  for (const TimeBlocks* blocks : {&checkpoint.profiles, &checkpoint.histograms}) {
+    bits.add(blocks->columns());
+    bits.add(blocks->samples());
+    bits.add(blocks->samples_per_block());
+    bits.add_all(blocks->sums());
+  }
   return file_fixture::bits_of(checkpoint.state) + bits.value() + checkpoint.settings + '\n'
          + checkpoint.source;
 }
@@ -60,7 +63,7 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
     const auto old = Hdf5File::open(path).root();
     auto root = file.root();
     for (const auto* name : {"grains", "walls", "contacts", "open_visits", "tally", "profiles",
-                             "settings", "source"}) {
+                             "histograms", "settings", "source"}) {
       root.copy(old, name);
     }
     const auto copy_attribute = [&](const char* name, auto value) {
@@ -234,6 +237,7 @@ TEST_CASE("A checkpoint of a wrong shape is refused") {
          root.group("contacts").create_data<double>("end", {.rows = 3});
        },
        [](Hdf5Group& root) { root.remove("profiles"); },
+       [](Hdf5Group& root) { root.remove("histograms"); },
        [](Hdf5Group& root) { root.group("profiles").set_attribute("samples", std::int64_t{7}); },
        [](Hdf5Group& root) { root.group("profiles").set_attribute("columns", std::int64_t{-3}); },
        [](Hdf5Group& root) { root.set_attribute("step", -1.5); },
@@ -311,7 +315,9 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
   CHECK(refusal([](auto& c) { c.rows = -1; }) == "the number of rows is negative");
   CHECK(refusal([](auto& c) { c.wall_seconds = nan; }) == "the time taken is negative");
   CHECK(refusal([](auto& c) { c.profiles = TimeBlocks(1, 1, 1, {infinity}); })
-        == "a sum of the profiles is not finite");
+        == "a sum over a block of time is not finite");
+  CHECK(refusal([](auto& c) { c.histograms = TimeBlocks(1, 1, 1, {infinity}); })
+        == "a sum over a block of time is not finite");
 }
 
 TEST_CASE("The newest good generation of a checkpoint is found") {

@@ -278,32 +278,32 @@ TEST_CASE("A run file holds the last profiles across the tube") {
   CHECK(std::isnan(errors[1]));
 }
 
-TEST_CASE("A run file holds histograms of contacts and visits") {
+TEST_CASE("A run file holds the last histograms, with rates and their errors") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;
   auto file = RunFile::create(path, provenance, columns);
-  Tally tally;
-  for (int i = 0; i < 3; ++i) tally.grains.durations.add(1e-4);
-  tally.walls.overlaps.add(0.01);
-  tally.visits.entry_slips.add(10.0);
-  file.write_histograms(tally);
+  const HistogramTable table{
+      .name = "fall_duration",
+      .unit = "s",
+      .meaning = "How long falls last.",
+      .lower_edges = {1.0, 2.0},
+      .counts = {3, 40},
+      .rates = {{.value = 0.5, .error = 0.1}, {.value = 7.0, .error = std::nan("")}}};
+  file.write_histograms({}, 0.0);
+  file.write_histograms({table}, 0.25);  // replaces
   file.flush();
   const auto all = Hdf5File::open(path).root().group("histograms");
-  const auto check = [&](const char* name, const char* unit, double value, std::int64_t times) {
-    const auto group = all.group(name);
-    CHECK(group.data("lower_edge").text_attribute("unit") == unit);
-    const auto edges = read<double>(group, "lower_edge");
-    const auto counts = read<std::int64_t>(group, "count");
-    REQUIRE(edges.size() == counts.size());
-    for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin)
-      CHECK(counts[bin] == (edges[bin] <= value && value < edges[bin + 1] ? times : 0));
-  };
-  check("grain_contact_duration", "s", 1e-4, 3);
-  check("wall_contact_overlap", "1", 0.01, 1);
-  check("wall_visit_entry_slip", "m/s", 10.0, 1);
-  check("wall_contact_duration", "s", 1e-4, 0);
-  check("grain_contact_overlap", "1", 0.01, 0);
-  check("wall_visit_entry_rate", "m/s", 10.0, 0);
+  CHECK(all.attribute<double>("since") == 0.25);
+  const auto group = all.group("fall_duration");
+  CHECK(group.text_attribute("doc") == "How long falls last.");
+  CHECK(group.data("lower_edge").text_attribute("unit") == "s");
+  CHECK(group.data("rate").text_attribute("unit") == "1/s");
+  CHECK(read<double>(group, "lower_edge") == std::vector{1.0, 2.0});
+  CHECK(read<std::int64_t>(group, "count") == std::vector<std::int64_t>{3, 40});
+  CHECK(read<double>(group, "rate") == std::vector{0.5, 7.0});
+  const auto errors = read<double>(group, "rate_error");
+  CHECK(errors[0] == 0.1);
+  CHECK(std::isnan(errors[1]));
 }
 
 TEST_CASE("A run file holds a curve") {

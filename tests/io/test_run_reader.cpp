@@ -28,12 +28,29 @@ std::vector<TubeProfile> profiles() {
   return all;
 }
 
+/// Of each two bins: one contact in two seconds in the first, and nothing that is known of the
+/// second.
+std::vector<HistogramTable> histograms() {
+  std::vector<HistogramTable> all;
+  for (const char* name : {"grain_contact_duration", "wall_contact_duration",
+                           "grain_contact_overlap", "wall_contact_overlap"})
+    all.push_back(
+        {.name = name,
+         .unit = "unit",
+         .meaning = "Meaning.",
+         .lower_edges = {1.0, 2.0},
+         .counts = {1, 0},
+         .rates = {{.value = 0.5, .error = 0.1}, {.value = std::nan(""), .error = std::nan("")}}});
+  return all;
+}
+
 RunFile write_run(const fs::path& path, const State& state) {
   auto file = RunFile::create(
       path, {{"date", "today"}, {"command", "riesel run"}, {"settings", "a: 1"}}, columns);
   for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0 / (i + 1)});
   file.write_final_state(state);
   file.write_profiles(strips, profiles(), 0.1);
+  file.write_histograms(histograms(), 0.1);
   file.flush();
   return file;
 }
@@ -82,6 +99,14 @@ TEST_CASE("What was written to a run file is read back") {
   CHECK(stress.errors.front() == 0.1);
   CHECK(std::isnan(stress.values.back()));
   CHECK_THROWS_AS(run.profiles.named("density"), std::out_of_range);
+  const HistogramWithErrors& overlaps = run.histogram_of("wall_contact_overlap");
+  CHECK(overlaps.column.unit == "unit");
+  CHECK(overlaps.column.doc == "Meaning.");
+  CHECK(overlaps.lower_edges == std::vector{1.0, 2.0});
+  CHECK(overlaps.rates.front() == 0.5);
+  CHECK(overlaps.errors.front() == 0.1);
+  CHECK(std::isnan(overlaps.rates.back()));
+  CHECK_THROWS_AS(run.histogram_of("wall_visit_entry_rate"), std::out_of_range);
   CHECK(run.history.start == Provenance{{"date", "today"}, {"command", "riesel run"}});
   CHECK(run.history.resumes.empty());
 }
@@ -94,6 +119,7 @@ TEST_CASE("Each resume of a run is told of") {
     auto file = RunFile::reopen(path, {{"date", day}}, columns, 3);
     file.write_final_state(special_state());
     file.write_profiles(strips, profiles(), 0.1);
+    file.write_histograms(histograms(), 0.1);
     file.flush();
   }
   const auto run = read_run_file(path);
@@ -120,6 +146,23 @@ TEST_CASE("A run file that is damaged or no record of a flow is refused") {
     overwrite(path, whole.substr(0, part * whole.size() / 4));
     CHECK(complaint(path).find("is damaged") != std::string::npos);
   }
+}
+
+TEST_CASE("Histograms that cannot be are refused") {
+  const ScratchDirectory directory;
+  const auto refused = [&](const char* name, auto spoil) {
+    auto file = write_run(directory / name, special_state());
+    auto spoilt = histograms();
+    spoil(spoilt[2]);
+    file.write_histograms(spoilt, 0.1);
+    file.flush();
+    return complaint(directory / name).find("grain_contact_overlap has impossible bins")
+           != std::string::npos;
+  };
+  CHECK_FALSE(refused("a.h5", [](HistogramTable&) {}));
+  CHECK(refused("b.h5", [](HistogramTable& h) { h.lower_edges[0] = 0.0; }));
+  CHECK(refused("c.h5", [](HistogramTable& h) { h.lower_edges[0] = 3.0; }));
+  CHECK(refused("d.h5", [](HistogramTable& h) { h.rates.pop_back(); }));
 }
 
 TEST_CASE("A final state that cannot be is refused") {

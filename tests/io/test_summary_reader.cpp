@@ -47,6 +47,8 @@ FlowSummary special_summary() {
             .stress_yy = {-0.1, 0.05}};
   s.wall_layers.area_fraction = {0.2, 0.06};
   s.balance = {.n_dot = {1.1, 0.1}, .dv_y = {1.2, 0.2}, .n_dot_dv_y = {1.3, 0.3}, .gravity = -0.0};
+  s.grain_contact_rate = {77.0, 0.7};
+  s.braking_force = {.left = {1.4, 0.4}, .right = {1.5, std::nan("")}, .weight = 2.9};
   s.energy = {.initial = 1.0 / 9.0,
               .kinetic = 2.1,
               .elastic = 2.2,
@@ -68,6 +70,8 @@ FlowSummary special_summary() {
                                   .pulling_fraction = std::nan(""),
                                   .steps_per_contact = 12.0}),
                 .v_crit = 2.2,
+                .t_col_grains = 5e-5 / 3.0,
+                .t_col_walls = std::nan(""),
                 .friction_failure_fraction = 0.125};
   return s;
 }
@@ -158,4 +162,19 @@ TEST_CASE("A curve that is read back and written again is the same text") {
                  {.v_x = 0.2, .verdict = Validity::unphysical}};
   overwrite(path, to_json(curve));
   CHECK(to_json(std::get<CurveSummary>(read_summary(path))) == to_json(curve));
+}
+
+TEST_CASE("A summary from before some values were told is read, and they are not known") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  auto text = to_json(special_summary());
+  for (const char* name : {"grain_contact_rate", "braking_force", "t_col"})
+    text = with(text, "\"" + std::string(name) + "\"", "\"" + std::string(name) + "_of_later\"");
+  overwrite(path, text);
+  const auto summary = std::get<FlowSummary>(read_summary(path));
+  CHECK(std::isnan(summary.grain_contact_rate.value));
+  CHECK(std::isnan(summary.braking_force.left.value));
+  CHECK(std::isnan(summary.braking_force.weight));
+  CHECK(std::isnan(summary.validity.t_col_walls));
+  CHECK(summary.energy.kinetic == 2.1);
 }

@@ -72,7 +72,7 @@ CASES = {**SLOW, **FAST}
 
 
 def run(name, seed, duration=None, **contact):
-    """{velocity, state, mean, error, hash, commit} of a run of the case, with other contact settings
+    """{velocity, state, mean, error, balance, hash, commit} of a run of the case, with other contact settings
     if there are any. velocity: mean over the second half of the run, which the program's own
     statistics have no part in; mean and error: those of the program."""
     settings, start, usual_duration = CASES[name]
@@ -92,6 +92,7 @@ def run(name, seed, duration=None, **contact):
             "state": summary["state"],
             "mean": summary["mean_axial_velocity"]["value"],
             "error": summary["mean_axial_velocity"]["error"],
+            "balance": summary["balance"],
             "hash": summary["state_hash"],
             "commit": summary["commit"]}
 

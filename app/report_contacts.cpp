@@ -1,0 +1,180 @@
+#include "app/report_contacts.hpp"
+
+#include "app/report_figures.hpp"
+#include "engine/brake.hpp"
+#include "io/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace riesel::app {
+
+namespace {
+
+constexpr double width = 760.0;  // px
+constexpr std::string_view blue = "#26548c", pale_blue = "#a9c1dd", grey = "#777777",
+                           red = "#c62828";
+
+/// Where bin `i` ends: the bins of an octave are equally wide.
+double upper_edge(const std::vector<double>& edges, std::size_t i) {
+  return i + 1 < edges.size() ? edges[i + 1] : 2.0 * edges[i] - edges[i - 1];
+}
+
+/// What is to be seen on the axis of the values: filled bins and marks.
+io::Axis axis_of_values(const io::HistogramWithErrors& h, const std::string& label,
+                        const std::vector<HistogramMark>& marks) {
+  std::vector<double> shown;
+  for (std::size_t i = 0; i < h.rates.size(); ++i)
+    if (h.rates[i] > 0.0)
+      shown.insert(shown.end(), {h.lower_edges[i], upper_edge(h.lower_edges, i)});
+  for (const HistogramMark& mark : marks) shown.push_back(mark.at);
+  return {.label = label,
+          .range = io::range_of(shown, io::Scale::logarithmic),
+          .scale = io::Scale::logarithmic};
+}
+
+/// From below the smallest of the bars, with room for the labels of the marks.
+io::Axis axis_of_rates(const io::HistogramWithErrors& h) {
+  std::vector<double> filled;
+  std::ranges::copy_if(h.rates, std::back_inserter(filled), [](double rate) { return rate > 0.0; });
+  if (!filled.empty()) filled.push_back(0.5 * std::ranges::min(filled));
+  for (std::size_t i = 0; i < h.rates.size(); ++i)
+    if (h.rates[i] > 0.0 && std::isfinite(h.errors[i])) filled.push_back(h.rates[i] + h.errors[i]);
+  io::Axis axis{.label = "per second",
+                .range = io::range_of(filled, io::Scale::logarithmic),
+                .scale = io::Scale::logarithmic};
+  return io::with_room_above(axis, 0.3);
+}
+
+/// By name, of a verdict that may be that of another version.
+double threshold(const io::FlowSummary& summary, std::string_view finding, double Finding::*which) {
+  const auto& findings = summary.validity.verdict.findings;
+  const auto found = std::ranges::find(findings, finding, &Finding::name);
+  return found == findings.end() ? io::unknown : (*found).*which;
+}
+
+double mean_radius(const io::FinalState& state) {
+  const double sum = std::accumulate(state.grains.begin(), state.grains.end(), 0.0,
+                                     [](double s, const Grain& g) { return s + g.radius; });
+  return sum / static_cast<double>(state.grains.size());
+}
+
+/// Thresholds are given for the radius of the smaller body, overlaps over the sum of the radii.
+std::vector<HistogramMark> marks_of_overlaps(const io::FlowSummary& summary,
+                                             const io::FinalState& state, bool of_walls) {
+  double smallest = std::ranges::min(state.grains, {}, &Grain::radius).radius;
+  double reach = 2.0 * mean_radius(state);
+  if (of_walls && !state.walls.empty()) {
+    smallest = std::min(smallest, state.walls.front().radius);
+    reach = mean_radius(state) + state.walls.front().radius;
+  }
+  const double part = smallest / reach;
+  return {{part * threshold(summary, "max_overlap_ratio", &Finding::suspect), "suspect"},
+          {part * threshold(summary, "max_overlap_ratio", &Finding::unphysical), "unphysical"}};
+}
+
+std::vector<HistogramMark> marks_of_durations(const io::FlowSummary& summary, bool of_walls) {
+  const auto& v = summary.validity;
+  const double steps = threshold(summary, "steps_per_contact", &Finding::suspect);
+  const double time_step = summary.time / static_cast<double>(summary.run.steps);
+  std::vector<HistogramMark> marks = {{steps * time_step, fmt::format("{:.3g} steps", steps)}};
+  if (of_walls) marks.push_back({cut_short_below * v.t_col_walls, "cut short below"});
+  marks.push_back({of_walls ? v.t_col_walls : v.t_col_grains, "t_col"});
+  return marks;
+}
+
+/// s and N: the mean force of a wall over each of at most `parts` parts of the rows.
+std::array<std::vector<double>, 2> force_of(const io::Series& time, const io::Series& impulse,
+                                            std::size_t parts) {
+  std::array<std::vector<double>, 2> force;
+  const auto& t = time.values;
+  const std::size_t steps = t.empty() ? 0 : t.size() - 1;
+  const std::size_t pieces = std::min(parts, steps);
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const std::size_t a = i * steps / pieces, b = (i + 1) * steps / pieces;
+    force[0].push_back(0.5 * (t[a] + t[b]));
+    force[1].push_back(-(impulse.values[b] - impulse.values[a]) / (t[b] - t[a]));
+  }
+  return force;
+}
+
+}  // namespace
+
+io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_label,
+                       const std::vector<HistogramMark>& marks) {
+  io::Plot plot(width, 270.0, h.column.doc, axis_of_values(h, x_label, marks), axis_of_rates(h));
+  plot.svg().begin_group("bars", {.fill = pale_blue, .stroke = blue});
+  for (std::size_t i = 0; i < h.rates.size(); ++i)
+    if (h.rates[i] > 0.0)
+      plot.area({h.lower_edges[i], upper_edge(h.lower_edges, i)}, {plot.y().range.low, h.rates[i]},
+                {});
+  plot.svg().end_group();
+  plot.svg().begin_group("errors");
+  for (std::size_t i = 0; i < h.rates.size(); ++i)
+    plot.error_bar(std::sqrt(h.lower_edges[i] * upper_edge(h.lower_edges, i)), h.rates[i],
+                   h.errors[i], blue);
+  plot.svg().end_group();
+  plot.svg().begin_group("marks");
+  int row = static_cast<int>(marks.size());
+  for (const HistogramMark& mark : marks) {
+    --row;
+    if (std::isfinite(mark.at))
+      plot.moment(mark.at, mark.label,
+                  {.stroke = mark.label == "unphysical" ? red : grey, .dashes = "4 3"}, row);
+  }
+  plot.svg().end_group();
+  return plot.svg();
+}
+
+io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary) {
+  constexpr std::size_t parts = 50;
+  const io::Series& time = run.series_of("time");
+  const double half = 0.5 * summary.braking_force.weight;
+  const auto left = force_of(time, run.series_of("left_wall_impulse_y"), parts);
+  const auto right = force_of(time, run.series_of("right_wall_impulse_y"), parts);
+  std::vector<double> extent = {0.0};
+  for (const auto* forces : {&left[1], &right[1]})
+    extent.insert(extent.end(), forces->begin(), forces->end());
+  if (std::isfinite(half)) extent.push_back(half);
+
+  io::Plot plot(width, 250.0, "Braking force of each wall",
+                {.label = "time (s)", .range = io::range_of(time.values)},
+                {.label = "braking force (N)", .range = io::range_of(extent)});
+  mark_transient(summary.transient_end, plot);
+  const std::vector<std::pair<std::string, io::Look>> legend = {{"left wall", io::look_of(0)},
+                                                                {"right wall", io::look_of(1)}};
+  plot.curve(left[0], left[1], {.stroke = legend[0].second.colour, .stroke_width = 1.5});
+  plot.curve(right[0], right[1], {.stroke = legend[1].second.colour, .stroke_width = 1.5});
+  if (std::isfinite(half)) plot.level(plot.x().range, half, {.stroke = grey, .dashes = "5 4"});
+  plot.legend("", legend, false);
+  return plot.svg();
+}
+
+void show_contacts(const io::RunContents& run, const io::FlowSummary& summary, ReportDraft& draft) {
+  draft.page().heading("Contacts");
+  for (const auto& [of, is_wall] : {std::pair{"grain", false}, std::pair{"wall", true}}) {
+    const auto add = [&](const std::string& what, const std::string& label,
+                         const std::vector<HistogramMark>& marks) {
+      const std::string name = fmt::format("{}_contact_{}", of, what);
+      const io::HistogramWithErrors& histogram = run.histogram_of(name);
+      draft.add_figure(name, draw_histogram(histogram, label, marks), histogram.column.doc);
+    };
+    add("duration", "duration (s)", marks_of_durations(summary, is_wall));
+    add("overlap", "largest overlap over the sum of the radii",
+        marks_of_overlaps(summary, run.final_state, is_wall));
+  }
+  draft.page().paragraph(
+      "How many contacts ended per second after the transient, by bins of a quarter of an octave, "
+      "with 68 % error bars. t_col: a head-on contact between grains of the mean mass. A wall "
+      "contact that lasts less than 0.639 of its own t_col is cut short: the grain has passed "
+      "before "
+      "it was pushed away. Suspect and unphysical: the thresholds of max_overlap_ratio, for "
+      "a pair of mean size; steps: that of steps_per_contact. The shortest contacts are grazing "
+      "ones, and those pressed together by others.");
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,63 @@
+// Whether two states are the same to the last bit.
+#pragma once
+
+#include "engine/observables.hpp"
+#include "engine/state.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <vector>
+
+namespace same_states {
+
+using namespace riesel;
+
+inline auto all_of(const Contact& c) {
+  return std::tie(c.name, c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
+                  c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
+                  c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y);
+}
+
+inline auto all_of(const ContactTally& t) {
+  return std::tie(t.begun, t.ended, t.max_overlap, t.duration, t.slip_path, t.normal_loss,
+                  t.friction_loss, t.impulse_y, t.impulse_y_times_step, t.durations, t.overlaps);
+}
+
+inline auto all_of(const BrakeTally& t) {
+  return std::tie(t.contacts, t.cut_short, t.braking, t.braking_cut_short, t.friction_loss,
+                  t.friction_loss_cut_short, t.entry_slip, t.duration, t.pulling);
+}
+
+inline auto all_of(const VisitTally& t) {
+  return std::tie(t.of_contacts, t.contacts, t.dv_y, t.dv_x, t.entry_rate, t.entry_slip,
+                  t.entry_rates, t.entry_slips);
+}
+
+inline auto all_of(const WallVisit& v) {
+  return std::tie(v.wall, v.grain, v.span.begin, v.span.end, v.contacts, v.entry_rate, v.entry_slip,
+                  v.impulse_x, v.impulse_y);
+}
+
+template <class Record>
+bool same(const std::vector<Record>& a, const std::vector<Record>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Record& c, const Record& d) { return all_of(c) == all_of(d); });
+}
+
+/// Every bit that a state holds, whether it is in the hash or not.
+inline bool same(const State& a, const State& b) {
+  const Grains g = ordered_by_id(a.grains), h = ordered_by_id(b.grains);
+  return a.step == b.step && g.x == h.x && g.y == h.y && g.ux == h.ux && g.uy == h.uy
+         && g.kick_x == h.kick_x && g.kick_y == h.kick_y && g.radius == h.radius && g.mass == h.mass
+         && same(a.contacts, b.contacts) && same(a.open_visits, b.open_visits)
+         && all_of(a.tally.grains) == all_of(b.tally.grains)
+         && all_of(a.tally.walls) == all_of(b.tally.walls)
+         && a.tally.impulses.y == b.tally.impulses.y
+         && all_of(a.tally.brakes) == all_of(b.tally.brakes)
+         && all_of(a.tally.visits) == all_of(b.tally.visits) && a.tally.ended_at_walls.empty()
+         && b.tally.ended_at_walls.empty() && a.origin.energy == b.origin.energy
+         && a.origin.momentum_y == b.origin.momentum_y && state_hash(a) == state_hash(b)
+         && observe(a).energies.residual == observe(b).energies.residual;
+}
+
+}  // namespace same_states

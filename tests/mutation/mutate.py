@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""Do the tests notice? Plants the faults of faults.py one at a time and runs the tests on each.
+
+    tests/mutation/mutate.py [--only WORD] [--table FILE]
+
+Works on a copy of what is committed, in build/mutation, and takes one to three minutes per fault. Ends
+with status 1 if a fault goes unnoticed. The quick tests come first; those that drive the command,
+and the kept velocities, only where these notice nothing.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from faults import FAULTS  # noqa: E402
+
+HOME = pathlib.Path(__file__).resolve().parents[2]
+COPY = HOME / "build/mutation/source"
+BUILD = HOME / "build/mutation/build"
+STAGES = ["engine|physics|scenarios|io", "properties", "cli|regression|package"]
+
+
+def run(*command, **options):
+    return subprocess.run(command, text=True, capture_output=True, **options)
+
+
+def build():
+    return run("cmake", "--build", BUILD).returncode == 0
+
+
+def first_failure(labels):
+    """The name of a test that fails, or None."""
+    tests = run("ctest", "--test-dir", BUILD, "-L", labels, "--stop-on-failure", "-j2",
+                "--timeout", "200")
+    failed = re.findall(r"^\s*\d+ - (.*?) \((?:\S+\s?)+\)", tests.stdout, re.M)
+    return failed[0] if failed else (None if tests.returncode == 0 else "?")
+
+
+def noticed_by():
+    for labels in STAGES:
+        name = first_failure(labels)
+        if name:
+            return name
+    return None
+
+
+def plant(path, text, replacement):
+    source = path.read_text()
+    if source.count(text) != 1:
+        raise SystemExit(f"{path.name}: the text of a fault stands {source.count(text)} times in it:\n{text}")
+    path.write_text(source.replace(text, replacement))
+    return source
+
+
+def prepare():
+    COPY.mkdir(parents=True, exist_ok=True)
+    files = subprocess.Popen(["git", "-C", HOME, "archive", "HEAD"], stdout=subprocess.PIPE)
+    subprocess.run(["tar", "-x", "-C", COPY], stdin=files.stdout, check=True)
+    subprocess.run(["cmake", "-S", COPY, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
+                    "-DCMAKE_CXX_FLAGS_DEBUG=-O1", "-DRIESEL_BENCH=OFF"],
+                   check=True, stdout=subprocess.DEVNULL)
+    for what, file, text, _ in FAULTS:
+        if (COPY / file).read_text().count(text) != 1:
+            raise SystemExit(f"{what}: its text does not stand in {file} exactly once")
+    if not build():
+        raise SystemExit("what is committed does not build")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", default="", help="faults with this word in their name")
+    parser.add_argument("--table", type=pathlib.Path, help="the result as a Markdown table")
+    options = parser.parse_args()
+
+    prepare()
+    rows, unnoticed = [], 0
+    for what, file, text, replacement in FAULTS:
+        if options.only not in what:
+            continue
+        original = plant(COPY / file, text, replacement)
+        try:
+            noticed = noticed_by() if build() else "the compiler"
+        finally:
+            (COPY / file).write_text(original)
+        unnoticed += noticed is None
+        rows.append(f"| {what} | `{file}` | {noticed or '**nobody**'} |")
+        print(rows[-1], flush=True)
+        if options.table:
+            options.table.write_text("\n".join(["| fault | file | noticed first by |", "|---|---|---|",
+                                                *rows]) + "\n")
+    print(f"{len(rows)} faults, {unnoticed} of them unnoticed")
+    return 1 if unnoticed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

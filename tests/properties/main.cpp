@@ -1,0 +1,97 @@
+// Thousands of random set-ups and impacts: runs in minutes, by hand. A few of each are tested
+// wherever the tests run (test_properties.cpp).
+//
+//   properties set-ups FIRST COUNT     complains of those that are not as they must be
+//   properties impacts FIRST COUNT     prints the largest gains of energy
+//   properties hashes FIRST COUNT      prints the state hash of each set-up: to compare two builds
+#include "engine/state.hpp"
+#include "tests/properties/properties.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace {
+
+using namespace properties;
+
+int check_set_ups(std::uint64_t first, std::uint64_t count) {
+  const auto scratch =
+      std::filesystem::temp_directory_path() / ("riesel-properties-" + std::to_string(first));
+  std::filesystem::create_directories(scratch);
+  std::uint64_t wrong = 0, failures = 0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const SetUp set_up = random_set_up(seed);
+    const Outcome expected = reference(set_up);
+    if (!expected.failure.empty()) ++failures;
+    Complaints complaints = same_bits(set_up, expected, seed, scratch);
+    for (const auto& more : balances(set_up, expected)) complaints.push_back(more);
+    if (complaints.empty()) continue;
+    ++wrong;
+    std::printf("%llu: %s\n", static_cast<unsigned long long>(seed), description(set_up).c_str());
+    for (const auto& complaint : complaints) std::printf("    %s\n", complaint.c_str());
+  }
+  std::filesystem::remove_all(scratch);
+  std::printf("%llu set-ups, %llu of them wrong; in %llu a run has a reason to fail\n",
+              static_cast<unsigned long long>(count), static_cast<unsigned long long>(wrong),
+              static_cast<unsigned long long>(failures));
+  return wrong == 0 ? 0 : 1;
+}
+
+/// By law and by decade of the number of steps.
+int print_gains(std::uint64_t first, std::uint64_t count) {
+  constexpr std::array laws{"linear", "power", "Hertz"};
+  constexpr std::array slips{"capped", "literal", "viscous"};
+  constexpr std::array lowest{10.0, 20.0, 50.0, 100.0};
+  std::array<std::array<std::array<double, lowest.size()>, slips.size()>, laws.size()> most{};
+  std::array<std::array<std::array<int, lowest.size()>, slips.size()>, laws.size()> counts{};
+  for (auto& law : most)
+    for (auto& slip : law) slip.fill(-1.0);
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const Impact impact = random_impact(seed);
+    std::size_t row = lowest.size() - 1;
+    while (row > 0 && impact.steps_per_collision < lowest.at(row)) --row;
+    auto& cell = most.at(impact.model.normal.index()).at(impact.model.slip.index()).at(row);
+    cell = std::max(cell, impact.gain);
+    ++counts.at(impact.model.normal.index()).at(impact.model.slip.index()).at(row);
+  }
+  std::puts("| law | slip | steps per collision from | impacts | largest gain |");
+  std::puts("|---|---|--:|--:|--:|");
+  for (std::size_t law = 0; law < laws.size(); ++law)
+    for (std::size_t slip = 0; slip < slips.size(); ++slip)
+      for (std::size_t row = 0; row < lowest.size(); ++row)
+        std::printf("| %s | %s | %.0f | %d | %.1e |\n", laws.at(law), slips.at(slip),
+                    lowest.at(row), counts.at(law).at(slip).at(row), most.at(law).at(slip).at(row));
+  return 0;
+}
+
+int print_hashes(std::uint64_t first, std::uint64_t count) {
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const SetUp set_up = random_set_up(seed);
+    const Outcome outcome = reference(set_up);
+    std::printf("%llu %016llx %zu\n", static_cast<unsigned long long>(seed),
+                outcome.failure.empty()
+                    ? static_cast<unsigned long long>(riesel::state_hash(outcome.end))
+                    : 0ULL,
+                set_up.model.normal.index());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fputs("usage: properties (set-ups | impacts | hashes) FIRST COUNT\n", stderr);
+    return 2;
+  }
+  const std::string_view what = argv[1];
+  const std::uint64_t first = std::strtoull(argv[2], nullptr, 10);
+  const std::uint64_t count = std::strtoull(argv[3], nullptr, 10);
+  if (what == "set-ups") return check_set_ups(first, count);
+  return what == "impacts" ? print_gains(first, count) : print_hashes(first, count);
+}

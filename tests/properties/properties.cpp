@@ -1,0 +1,181 @@
+#include "tests/properties/properties.hpp"
+
+#include "engine/closed_forms.hpp"
+#include "engine/observables.hpp"
+#include "engine/simulation.hpp"
+#include "io/checkpoint.hpp"
+#include "tests/engine/same_states.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace properties {
+
+namespace {
+
+using namespace systems;
+
+/// One leg of a journey: as one process of a user would do it.
+struct Leg {
+  Stepping stepping;
+  int threads;
+  bool shuffle, observe, profile, through_file;
+  std::int64_t steps;
+
+  std::string name() const {
+    static constexpr std::array names{"plain", "windows", "automatic"};
+    return std::string(names.at(static_cast<std::size_t>(stepping))) + " x "
+           + std::to_string(threads) + (shuffle ? ", shuffled" : "") + (observe ? ", observed" : "")
+           + (profile ? ", profiled" : "") + (through_file ? ", through a file" : "") + ", "
+           + std::to_string(steps) + " steps";
+  }
+};
+
+Leg random_leg(Dice& dice, std::int64_t left) {
+  static constexpr std::array steppings{Stepping::plain, Stepping::windows, Stepping::windows,
+                                        Stepping::automatic};
+  Leg leg{};
+  leg.stepping = steppings.at(static_cast<std::size_t>(dice.below(steppings.size())));
+  // Teams larger than the machine are slow.
+  leg.threads = dice.below(4) == 0 ? 2 + static_cast<int>(dice.below(3)) : 1;
+  leg.shuffle = dice.below(3) == 0;
+  leg.observe = dice.below(2) == 0;
+  leg.profile = dice.below(4) == 0;
+  leg.through_file = dice.below(6) == 0;
+  leg.steps = dice.below(3) == 0 ? left : 1 + dice.below(left);
+  return leg;
+}
+
+State through_checkpoint(const State& state, const std::filesystem::path& scratch) {
+  const auto file = scratch / "checkpoint.h5";
+  io::write_checkpoint(file, {.state = state, .settings = "", .source = ""});
+  return io::read_checkpoint(file).state;
+}
+
+State travel(State state, const ContactModel& model, const Leg& leg, Dice& dice,
+             const std::filesystem::path& scratch) {
+  if (leg.through_file) state = through_checkpoint(state, scratch);
+  if (leg.shuffle) state = shuffled(std::move(state), 7);
+  const std::int64_t last = state.step + leg.steps;
+  Simulation simulation(std::move(state), model, leg.threads, leg.stepping);
+  if (leg.profile) simulation.start_profile();
+  while (simulation.state().step < last) {
+    simulation.advance(std::min(last - simulation.state().step, 1 + dice.below(300)));
+    if (leg.observe) (void)observe(simulation.state());
+  }
+  return simulation.state();
+}
+
+/// When a grain is found to be lost depends on when the grains are sorted.
+bool tells_of_lost_grain(const std::string& failure) {
+  return failure.find("has left the system") != std::string::npos;
+}
+
+std::array<Fixed, 2> integer_momentum(const State& state) {
+  const Grains& g = state.grains;
+  std::array<Fixed, 2> sum{};
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    sum[0] = wrapped_sum(sum[0], wrapped_sum(g.ux[i], g.kick_x[i]));
+    sum[1] = wrapped_sum(sum[1], wrapped_sum(g.uy[i], g.kick_y[i]));
+  }
+  return sum;
+}
+
+}  // namespace
+
+Outcome reference(const SetUp& set_up) {
+  try {
+    return {advanced(set_up.start, set_up.model, set_up.steps, 1, Stepping::plain), {}};
+  } catch (const RunFailure& failure) {
+    return {{}, failure.what()};
+  }
+}
+
+Complaints same_bits(const SetUp& set_up, const Outcome& expected, std::uint64_t seed,
+                     const std::filesystem::path& scratch) {
+  constexpr int journeys = 4;
+  Complaints complaints;
+  Dice dice(seed);
+  for (int i = 0; i < journeys; ++i) {
+    State state = set_up.start;
+    std::string way;
+    try {
+      while (state.step < set_up.steps) {
+        const Leg leg = random_leg(dice, set_up.steps - state.step);
+        way += (way.empty() ? "" : "; ") + leg.name();
+        state = travel(std::move(state), set_up.model, leg, dice, scratch);
+      }
+      if (expected.failure.empty() && !same_states::same(state, expected.end))
+        complaints.push_back("other bits by " + way);
+      if (!expected.failure.empty() && !tells_of_lost_grain(expected.failure))
+        complaints.push_back("no failure by " + way);
+    } catch (const std::exception& failure) {
+      if (expected.failure != failure.what() && !tells_of_lost_grain(failure.what()))
+        complaints.push_back(std::string(failure.what()) + " by " + way);
+    }
+  }
+  return complaints;
+}
+
+Complaints balances(const SetUp& set_up, const Outcome& outcome) {
+  Complaints complaints;
+  if (!outcome.failure.empty()) return complaints;
+  const State& end = outcome.end;
+  const auto going_on = end.tally.grains.begun - end.tally.grains.ended + end.tally.walls.begun
+                        - end.tally.walls.ended;
+  if (going_on != static_cast<std::int64_t>(end.contacts.size()))
+    complaints.emplace_back("contacts that neither last nor have ended");
+  // A force cut off at zero gives back what the damping had taken too much.
+  if (set_up.model.attraction == Attraction::keep && observe(end).energies.normal_loss < 0.0)
+    complaints.emplace_back("the damping has won energy");
+  if (set_up.equal_masses && end.walls.empty()
+      && integer_momentum(end) != integer_momentum(set_up.start))
+    complaints.emplace_back("momentum is not conserved");
+  return complaints;
+}
+
+Impact random_impact(std::uint64_t seed) {
+  Dice dice(seed);
+  State state = empty_box(2.0, 20e-3);  // so wide that nothing flies away
+  Impact impact{.gain = 0.0,
+                .steps_per_collision = std::pow(10.0, dice.between(1.0, 2.5)),
+                .model = random_model(dice)};
+  const double speed = std::pow(10.0, dice.between(-2.0, 1.5));
+  const double angle = dice.between(-1.0, 1.0) * std::acos(-1.0) / 2.0;
+  const bool on_wall = dice.below(2) == 0;
+  const double reduced_mass = on_wall ? mass : 0.5 * mass;
+  const double t_col = collision_time(impact.model.normal, reduced_mass, speed);
+  state.time_step = t_col / impact.steps_per_collision;
+  // Just apart, so that it meets the other at a place that a step does not know.
+  const double apart = 1e-3 * radius + dice.between(0.0, 1.0) * speed * state.time_step;
+  const double offset = dice.between(-1.0, 1.0) * (on_wall ? wall_radius : 2.0 * radius);
+  double energy = 0.0;
+  if (on_wall) {
+    state.walls.push_back({.line = 1.0, .radius = wall_radius, .count = 30});
+    const double height = std::sqrt(std::pow(radius + wall_radius, 2) - offset * offset) + apart;
+    add_grain(state, grain(1.0 - height, 10e-3 + offset, speed * std::cos(angle),
+                           speed * std::sin(angle)));
+    energy = 0.5 * mass * speed * speed;
+  } else {
+    const double distance = std::sqrt(std::max(0.0, 4.0 * radius * radius - offset * offset));
+    add_grain(state, grain(1.0, 10e-3, 0.0, 0.0));
+    add_grain(state, grain(1.0 - distance - apart, 10e-3 + offset, speed, 0.0));
+    energy = 0.25 * mass * speed * speed;
+  }
+  Simulation simulation(std::move(state), impact.model, 1, Stepping::windows);
+  const auto energy_now = [&] {
+    const Energies e = observe(simulation.state()).energies;
+    return e.kinetic + e.elastic;
+  };
+  const double before = energy_now();
+  // At grazing angles an impact is over sooner than a head-on one, or does not happen; at a wall
+  // others may follow; and where the damping is strong or friction holds, the two stay together.
+  simulation.advance(static_cast<std::int64_t>(10.0 * impact.steps_per_collision));
+  impact.gain = (energy_now() - before) / energy;
+  return impact;
+}
+
+}  // namespace properties

@@ -1,0 +1,44 @@
+// What must hold for every set-up, whatever it is.
+#pragma once
+
+#include "tests/properties/setups.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace properties {
+
+/// What was found to be wrong, one line each; empty if all is well.
+using Complaints = std::vector<std::string>;
+
+/// What a run comes to: its last state, or why it failed.
+struct Outcome {
+  riesel::State end;
+  std::string failure;
+};
+
+/// Plainly, on one thread, in one go.
+Outcome reference(const SetUp& set_up);
+
+/// Goes there again by several journeys, which change the way of stepping, the number of threads,
+/// the order of the slots and the length of the advances on the way, look at the state, measure a
+/// profile, and go through a checkpoint in `scratch`: every bit must be that of `expected`.
+Complaints same_bits(const SetUp& set_up, const Outcome& expected, std::uint64_t seed,
+                     const std::filesystem::path& scratch);
+
+/// Contacts that began have ended or last; damping never wins energy; without walls, grains of
+/// equal mass keep their momentum to the last bit.
+Complaints balances(const SetUp& set_up, const Outcome& outcome);
+
+/// One impact of two grains, or of a grain on a corrugated wall, at any angle and of any law.
+struct Impact {
+  double gain;  ///< of kinetic and elastic energy, as a part of that of the relative motion
+  double steps_per_collision;  ///< of a head-on collision
+  riesel::ContactModel model;
+};
+
+Impact random_impact(std::uint64_t seed);
+
+}  // namespace properties

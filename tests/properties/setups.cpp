@@ -1,0 +1,105 @@
+#include "tests/properties/setups.hpp"
+
+#include "engine/closed_forms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace properties {
+
+namespace {
+
+using namespace systems;
+
+double power_of_ten(Dice& dice, double low, double high) {
+  return std::pow(10.0, dice.between(low, high));
+}
+
+NormalLaw random_normal_law(Dice& dice) {
+  switch (dice.below(4)) {
+  case 0: {
+    const double k = power_of_ten(dice, 4.5, 7.0);
+    return HertzKuwabaraKonoLaw{k, dice.between(0.0, 1e-5) * k};
+  }
+  case 1: {
+    const double k = power_of_ten(dice, 3.5, 5.5);
+    const double gamma = dice.between(0.0, 1e-6) * k;
+    const double alpha = dice.between(1.0, 1.6), beta = dice.between(0.0, 0.6);
+    return PowerLaw{k, gamma, alpha, beta, dice.between(1.0, 1.3)};
+  }
+  default: {
+    const double k = power_of_ten(dice, 2.3, 5.3);
+    const double restitution = dice.below(5) == 0 ? 1.0 : dice.between(0.3, 1.0);
+    return LinearLaw{k, damping_for_restitution(restitution, k, 0.5 * mass)};
+  }
+  }
+}
+
+SlipLaw random_slip_law(Dice& dice) {
+  switch (dice.below(4)) {
+  case 0:
+    return LiteralSlip{};
+  case 1:
+    return ViscousSlip{power_of_ten(dice, 3.0, 5.5)};
+  default:
+    return CappedSlip{};
+  }
+}
+
+}  // namespace
+
+ContactModel random_model(Dice& dice) {
+  // One draw after the other: arguments of one call are evaluated in an order of the compiler's.
+  const NormalLaw normal = random_normal_law(dice);
+  const SlipLaw slip = random_slip_law(dice);
+  const double friction = dice.below(5) == 0 ? 0.0 : dice.between(0.0, 1.0);
+  return {normal, slip, friction, dice.below(3) == 0 ? Attraction::clip : Attraction::keep};
+}
+
+SetUp random_set_up(std::uint64_t seed) {
+  Dice dice(seed);
+  const double width = dice.between(4e-3, 15e-3), length = dice.between(4e-3, 20e-3);
+  SetUp set_up{.start = empty_box(width, length),
+               .model = random_model(dice),
+               .steps = 100 + dice.below(600),
+               .equal_masses = dice.below(2) == 0};
+  State& state = set_up.start;
+  state.gravity = dice.below(3) == 0 ? 0.0 : dice.between(-20.0, 20.0);
+  if (dice.below(4) != 0) add_walls(state, 1 + dice.below(30));
+  const double speed = power_of_ten(dice, -1.5, 1.2);
+  const double t_col = collision_time(set_up.model.normal, 0.5 * mass, speed);
+  // From what nobody should use to what is finer than needed; and no grain crosses half the tube,
+  // which it might leave where there are no walls.
+  state.time_step = std::min(t_col / power_of_ten(dice, 0.9, 2.0),
+                             0.5 * width / (speed * static_cast<double>(set_up.steps)));
+  const Throw where{.left = 0.0,
+                    .right = width,
+                    .low = 0.0,
+                    .high = length,
+                    .speed = speed,
+                    .common_vy = dice.between(-20.0, 20.0),
+                    .polydispersity = set_up.equal_masses ? 0.0 : dice.between(0.0, 0.5)};
+  const double room = width * length / (radius * radius);
+  const auto count = static_cast<std::size_t>(1.0 + dice.between(0.0, 0.12) * room);
+  throw_grains(state, count, where, dice);
+  return set_up;
+}
+
+std::string description(const SetUp& s) {
+  static const std::vector<const char*> normal{"linear", "power", "Hertz"};
+  static const std::vector<const char*> slip{"capped", "literal", "viscous"};
+  std::vector<char> line(300);
+  const double fastest = s.start.grains.size() == 0 ? 0.0 : std::abs(grain_at(s.start, 0).vx);
+  std::snprintf(line.data(), line.size(),
+                "%zu grains, %.3g x %.3g m, walls %zu, g %.3g, %s law, %s slip, mu %.3g, %s, dt "
+                "%.3g s, %lld steps, a speed %.3g m/s",
+                s.start.grains.size(), s.start.box.width, s.start.box.length, s.start.walls.size(),
+                s.start.gravity, normal[s.model.normal.index()], slip[s.model.slip.index()],
+                s.model.friction, s.model.attraction == Attraction::clip ? "clip" : "keep",
+                s.start.time_step, static_cast<long long>(s.steps), fastest);
+  return line.data();
+}
+
+}  // namespace properties

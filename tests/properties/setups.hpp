@@ -1,0 +1,29 @@
+// Random set-ups: systems of all kinds, from a few grains in a large box to crowded corrugated
+// tubes, soft and stiff, of every law. A set-up follows from its seed alone.
+#pragma once
+
+#include "engine/contact_law.hpp"
+#include "engine/state.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace properties {
+
+struct SetUp {
+  riesel::State start;
+  riesel::ContactModel model;
+  std::int64_t steps;  ///< how far to go
+  bool equal_masses;
+};
+
+SetUp random_set_up(std::uint64_t seed);
+
+/// A contact law of any kind, with its friction. Loses energy, or at least wins none.
+riesel::ContactModel random_model(systems::Dice& dice);
+
+/// One line for whoever has to find out what is special about it.
+std::string description(const SetUp& set_up);
+
+}  // namespace properties
