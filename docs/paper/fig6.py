@@ -1,6 +1,6 @@
 """Fig. 6: the slow and the fast branch of three stiffnesses, seeds together."""
 from results import print_table, save
-from tube import WINDOWS, grouped, over_seeds, plus_minus, runs_of, seeds_text
+from tube import WINDOWS, grouped, over_seeds, plus_minus, runs_of, runs_of_all, seeds_text
 
 COLORS = {200.0: "C2", 2000.0: "C0", 2e5: "C3"}
 
@@ -28,11 +28,10 @@ def draw_fig6(plt, slow, fast):
     figure, panels = plt.subplots(1, len(COLORS), figsize=(10, 3.4), sharey=True)
     for axes, (k_n, color) in zip(panels, COLORS.items()):
         for (e_n,), runs in grouped([run for run in slow if run.k_n == k_n and run.stays], "e_n"):
-            axes.errorbar(e_n, *over_seeds([run.velocity for run in runs]), color=color, marker="o", capsize=2)
+            draw_state(axes, e_n, runs, color, marker="o")
         for state in (state for state in fast if state.k_n == k_n):
             if state.settled:
-                axes.errorbar(state.e_n, *over_seeds([run.velocity for run in state.settled]), color=color, marker="^",
-                              markerfacecolor="none", capsize=2)
+                draw_state(axes, state.e_n, state.settled, color, marker="^", markerfacecolor="none")
             else:
                 axes.vlines(state.e_n, *state.between, color=color, linestyle=":")
         axes.set(xlabel="e_N", title=f"k_N = {k_n:g} N/m", yscale="log", xlim=(0.55, 1), ylim=(1, 700))
@@ -41,6 +40,12 @@ def draw_fig6(plt, slow, fast):
     panels[0].plot([], [], "k^", markerfacecolor="none", label="fast branch")
     panels[0].legend(fontsize=7)
     return figure
+
+
+def draw_state(axes, e_n, runs, color, **symbol):
+    """The mean of several seeds with its error; of a single one the point."""
+    value, error = over_seeds([run.velocity for run in runs])
+    axes.errorbar(e_n, value, error if len(runs) > 1 else None, color=color, capsize=2, **symbol)
 
 
 # --- The fast branch ---
@@ -66,8 +71,8 @@ class FastState:
 
 
 def fast_states(tables):
-    runs = [run for name in ("fig6_fast", "fig6_above", "fig6_stiff") for run in runs_of(tables / f"{name}.csv")]
-    return [FastState(*place, of_this) for place, of_this in grouped(runs, "k_n", "e_n")]
+    runs = runs_of_all(tables, ("fig6_fast", "fig6_above", "fig6_stiff"))
+    return [FastState(*place, of_this) for place, of_this in sorted(grouped(runs, "k_n", "e_n"))]
 
 
 def end_of(name, runs, digits="3g"):

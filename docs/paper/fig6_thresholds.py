@@ -1,8 +1,8 @@
 """Fig. 6: where the slow branch ends, and what spacing, width and length of the tube have to do with it."""
 from results import print_table, save
-from tube import grouped, runs_of, seeds_text
+from tube import grouped, runs_of_all, seeds_text
 
-TABLES = ("fig6_slow", "fig6_spacing", "fig6_narrow", "fig6_length", "fig6_choices", "fig6_clipped")
+TABLES = ("fig6_slow", "fig6_spacing", "fig6_narrow", "fig6_length", "fig6_choices", "fig6_clipped", "fig6_map")
 
 
 class Threshold:
@@ -14,7 +14,7 @@ class Threshold:
         stay = [e_n for (e_n,), at_this in by_e_n if all(run.stays for run in at_this)]
         self.above = max(lost, default=None)
         self.below = min((e_n for e_n in stay if e_n > max(lost, default=0.0)), default=None)
-        self.seeds = len({run.seed for run in runs})
+        self.seeds = [len(at_this) for (e_n,), at_this in by_e_n if e_n in (self.above, self.below)]
 
     @property
     def text(self):
@@ -25,9 +25,9 @@ class Threshold:
 
 def thresholds(tables):
     """[((k_n, width, length, spacing, attraction), Threshold)], lengths in mm and rounded."""
-    runs = [run for name in TABLES for run in runs_of(tables / f"{name}.csv")]
-    for run in runs:
-        run.attraction = run.attraction or "keep"
+    runs = [run for run in runs_of_all(tables, TABLES) if run.branch != "fast"]
+    for run in runs:  # older tables have no column for the attraction
+        run.attraction = getattr(run, "attraction", "") or "keep"
         run.spacing_mm, run.width_mm, run.length_mm = 1e3 * run.spacing, round(1e3 * run.width), round(1e3 * run.length)
     return [(place, Threshold(of_this))
             for place, of_this in grouped(runs, "k_n", "width_mm", "length_mm", "spacing_mm", "attraction")]
@@ -37,8 +37,9 @@ def fig6_thresholds(tables, out, plt):
     found = sorted(thresholds(tables), key=lambda item: item[0])
     print_table("Fig. 6, end of the slow branch",
                 ("k_N (N/m)", "W (mm)", "L (mm)", "spacing (mm)", "attraction", "ends at e_N =", "seeds"),
-                [(*place, threshold.text, threshold.seeds) for place, threshold in found])
-    print_hysteresis(runs_of(tables / "fig6_hysteresis.csv"))
+                [(*place, threshold.text,
+                  ", ".join(map(str, threshold.seeds))) for place, threshold in found])
+    print_hysteresis(runs_of_all(tables, ["fig6_hysteresis"]))
     save(draw_thresholds(plt, found), out / "fig6_thresholds.svg")
 
 
@@ -66,6 +67,8 @@ def draw_thresholds(plt, found):
 # --- The way there ---
 
 def print_hysteresis(runs):
+    if not runs:
+        return
     rows = []
     for (e_n,), at_this in sorted(grouped(runs, "e_n"), reverse=True):
         cells = []

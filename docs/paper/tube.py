@@ -40,6 +40,11 @@ def runs_of(table):
     return [Run(row) for row in rows_of(table)]
 
 
+def runs_of_all(tables, names):
+    """Of several kept tables; campaigns that have not been run have none."""
+    return [run for name in names if (tables / f"{name}.csv").exists() for run in runs_of(tables / f"{name}.csv")]
+
+
 def at_default_spacing(runs):
     """1.2 mm, adjusted to the length."""
     return [run for run in runs if abs(run.spacing - 1.2e-3) < 0.05e-3]
