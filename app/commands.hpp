@@ -2,6 +2,7 @@
 // io::SettingsError or UnusableInput for bad input, anything else where a run fails.
 #pragma once
 
+#include "app/flow_options.hpp"
 #include "app/run_directory.hpp"
 #include "io/settings.hpp"
 
@@ -23,7 +24,7 @@ struct RunOptions {
   std::filesystem::path file;                      ///< the settings
   std::optional<std::filesystem::path> directory;  ///< where the results go
   std::vector<std::string> overrides;              ///< "key=value"
-  bool profile = false;                            ///< tell where the time went
+  FlowOptions flow;
 };
 
 int run(const RunOptions& options, const Arguments& arguments);
@@ -31,7 +32,7 @@ int run(const RunOptions& options, const Arguments& arguments);
 struct ResumeOptions {
   std::filesystem::path checkpoint;    ///< the file, or the directory of the run
   std::vector<std::string> overrides;  ///< "key=value"; only settings of `run` and `output`
-  bool profile = false;                ///< tell where the time went
+  FlowOptions flow;
 };
 
 int resume(const ResumeOptions& options, const Arguments& arguments);

@@ -4,7 +4,8 @@
 namespace riesel::app {
 
 inline constexpr int exit_done = 0;
-inline constexpr int exit_failed = 1;     ///< the run failed
-inline constexpr int exit_bad_input = 2;  ///< settings or usage
+inline constexpr int exit_failed = 1;       ///< the run failed
+inline constexpr int exit_bad_input = 2;    ///< settings or usage
+inline constexpr int exit_out_of_time = 3;  ///< --max-walltime; there is a checkpoint to go on from
 
 }  // namespace riesel::app

@@ -93,24 +93,6 @@ io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const Vi
           .of_contacts = tally.of_contacts};
 }
 
-/// Over all contacts since the start: the largest of any kind.
-double max_overlap_ratio(const State& state) {
-  const auto& radii = state.grains.radius;
-  const double smallest = *std::min_element(radii.begin(), radii.end());
-  double smallest_at_wall = smallest;
-  for (const WallLattice& wall : state.walls)
-    smallest_at_wall = std::min(smallest_at_wall, wall.radius);
-  const auto largest = [&](const ContactTally& ended, bool of_walls) {
-    double overlap = ended.max_overlap;
-    for (const Contact& contact : state.contacts)
-      if ((contact.name.wall != no_wall) == of_walls)
-        overlap = std::max(overlap, contact.max_overlap);
-    return overlap;
-  };
-  return std::max(largest(state.tally.grains, false) / smallest,
-                  largest(state.tally.walls, true) / smallest_at_wall);
-}
-
 constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
 
 /// Of the shortest twentieth of the contacts of a kind, since the start.
@@ -123,7 +105,8 @@ double steps_per_contact(const State& state) {
 }
 
 /// What walls do is looked at after the transient, the rest since the start.
-Evidence evidence(const CumulativeSeries& series, const State& state, double v_crit) {
+Evidence evidence(const CumulativeSeries& series, const State& state, const Energies& energies,
+                  double v_crit) {
   const bool enough = series.total("wall_contacts_ended") >= enough_contacts;
   const auto of_walls = [&](const char* part, const char* whole) {
     return enough ? series.ratio(part, whole).value : unknown;
@@ -135,6 +118,7 @@ Evidence evidence(const CumulativeSeries& series, const State& state, double v_c
       .wall_speed_ratio = of_walls("wall_entry_slip", "wall_contacts_ended") / v_crit,
       .pulling_fraction = of_walls("wall_pulling_time", "wall_contact_time"),
       .steps_per_contact = steps_per_contact(state),
+      .energy_error_ratio = energy_error_ratio(state, energies),
   };
 }
 
@@ -173,7 +157,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
   s.braking_force = braking_force(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
-  s.validity.verdict = judge(evidence(series, state, s.validity.v_crit));
+  s.validity.verdict = judge(evidence(series, state, last.energies, s.validity.v_crit));
   s.validity.friction_failure_fraction =
       series.ratio("wall_friction_loss_cut_short", "wall_friction_loss").value;
   const Energies& e = last.energies;

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <initializer_list>
+#include <string_view>
 #include <unistd.h>
 
 namespace riesel::app {
@@ -10,20 +11,33 @@ namespace {
 
 volatile std::sig_atomic_t received = 0;
 
-void on_signal(int signal) {
+/// Only calls that a signal handler may make.
+void end(int signal) {
+  constexpr std::string_view message =
+      "\nriesel: interrupted, nothing is left half-written; call it again to start anew\n";
+  const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
+  static_cast<void>(written);
+  _exit(128 + signal);
+}
+
+void remember(int signal) {
   if (received != 0) _exit(128 + signal);
   received = signal;
 }
 
-}  // namespace
-
-void catch_interrupts() {
+void on_interrupts(void (*act)(int)) {
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction action = {};
-    action.sa_handler = on_signal;
+    action.sa_handler = act;
     sigaction(signal, &action, nullptr);
   }
 }
+
+}  // namespace
+
+void end_on_interrupts() { on_interrupts(end); }
+
+void catch_interrupts() { on_interrupts(remember); }
 
 int interrupting_signal() { return received; }
 

@@ -1,9 +1,14 @@
-// SIGINT and SIGTERM as a polite request: the run stops at the next occasion, after a checkpoint. A
-// second signal ends the program at once.
+// SIGINT and SIGTERM as a polite request: what has something to save stops at the next occasion,
+// after a checkpoint, and a second signal ends it at once. What has nothing to save ends at once.
 #pragma once
 
 namespace riesel::app {
 
+/// From now on a signal ends the program with a message and the status 128 + signal. For whatever
+/// has no results that could be lost: files are replaced as a whole.
+void end_on_interrupts();
+
+/// From now on the first signal only asks for the end.
 void catch_interrupts();
 
 /// The signal that has asked for the end, or 0.

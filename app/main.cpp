@@ -2,6 +2,8 @@
 // exit status.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
+#include "app/interrupt.hpp"
+#include "app/walltime.hpp"
 #include "engine/simulation.hpp"
 #include "io/build_info.hpp"
 #include "io/file_error.hpp"
@@ -41,8 +43,12 @@ void add_threads(CLI::App& command, std::vector<std::string>& overrides) {
       "Number of threads, or 'auto'; the results do not depend on it");
 }
 
-void add_profile(CLI::App& command, bool& profile) {
-  command.add_flag("--profile", profile, "Tell where the time went; for flows");
+void add_flow_options(CLI::App& command, app::FlowOptions& options) {
+  command.add_flag("--profile", options.profile, "Tell where the time went; for flows");
+  command.add_option_function<std::string>(
+      "--max-walltime",
+      [&](const std::string& time) { options.max_walltime = app::read_walltime(time); },
+      "Stop with a checkpoint before this time on the clock, such as '23.5 h', is over; for flows");
 }
 
 /// What the command line says: the subcommand, ready to be called, and its options.
@@ -78,7 +84,7 @@ private:
     run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]");
     add_overrides(*run, run_.overrides);
     add_threads(*run, run_.overrides);
-    add_profile(*run, run_.profile);
+    add_flow_options(*run, run_.flow);
     set_command(*run, *file, [this] { return app::run(run_, arguments_); });
   }
 
@@ -89,7 +95,7 @@ private:
         resume->add_option("DIR", resume_.checkpoint, "Directory of the run, or its checkpoint.h5");
     add_overrides(*resume, resume_.overrides);
     add_threads(*resume, resume_.overrides);
-    add_profile(*resume, resume_.profile);
+    add_flow_options(*resume, resume_.flow);
     set_command(*resume, *directory, [this] { return app::resume(resume_, arguments_); });
   }
 
@@ -162,6 +168,7 @@ int fail(int status, const char* message) noexcept {
 
 /// Reads the command line and does what it says.
 int run_program(int argc, char** argv) {
+  app::end_on_interrupts();
   CommandLine line(argc, argv);
   try {
     line.program().parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/run_flow.hpp"
+#include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
@@ -62,11 +63,16 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   if (length.at_most < state.time() - state.time_step)
     settings.reject(length.key, fmt::format("the run has come to {:.6g} s already", state.time()),
                     "choose a longer time");
+  if (found.checkpoint.rows > 0
+      && found.checkpoint.profiles.columns() != Strips::of(state).columns())
+    throw UnusableInput(found.path.string()
+                        + ": is damaged (its profiles are not those of this tube); start the run "
+                          "again");
   const auto home = std::filesystem::is_directory(options.checkpoint)
                         ? options.checkpoint
                         : std::filesystem::absolute(options.checkpoint).parent_path();
   return resume_flow(settings, std::move(found.checkpoint), RunDirectory::reopen(home, settings),
-                     arguments, options.profile);
+                     arguments, options.flow);
 }
 
 }  // namespace riesel::app

@@ -9,11 +9,14 @@ int run(const RunOptions& options, const Arguments& arguments) {
   const auto settings =
       io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
   scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  if (options.flow.max_walltime && !std::holds_alternative<scenarios::Flow>(problem))
+    throw UnusableInput("--max-walltime: has no effect on the scenario " + settings.scenario()
+                        + ", which cannot be resumed; remove it");
   RunDirectory directory =
       RunDirectory::create(options.directory.value_or("runs" / options.file.stem()), settings);
 
   if (auto* flow = std::get_if<scenarios::Flow>(&problem))
-    return run_flow(settings, std::move(*flow), std::move(directory), arguments, options.profile);
+    return run_flow(settings, std::move(*flow), std::move(directory), arguments, options.flow);
   return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments);
 }
 

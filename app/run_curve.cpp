@@ -73,15 +73,11 @@ int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
               const RunDirectory& directory, const Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const int threads = threads_for_curve(settings);
-  io::RunFile file =
-      io::RunFile::create(directory.file(io::run_file_name),
-                          io::collect_provenance({.arguments = arguments,
+  const auto provenance = io::collect_provenance({.arguments = arguments,
                                                   .seed = settings.integer("seed"),
                                                   .threads = threads,
                                                   .source = settings.source_text(),
-                                                  .settings = settings.effective_yaml()}),
-                          {});
-
+                                                  .settings = settings.effective_yaml()});
   const auto start = Clock::now();
   const std::vector<ImpactResult> results = follow_all(curve.setup, curve.impacts, threads);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -100,6 +96,8 @@ int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
                  .wall_seconds = seconds,
                  .particle_steps_per_second = static_cast<double>(steps) / seconds,
                  .threads = threads};
+  // Not before: a curve cannot be resumed, and what is interrupted may be called again.
+  auto file = io::RunFile::create(directory.file(io::run_file_name), provenance, {});
   write_curve(file, summary.curve);
   file.flush();
   io::write_durably(directory.file(io::summary_name), io::to_json(summary));

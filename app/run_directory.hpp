@@ -25,6 +25,9 @@ public:
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
+  /// Throws io::FileError if the directory was moved away or removed meanwhile.
+  void require_in_place() const { lock_->require_in_place(); }
+
 private:
   RunDirectory(const std::filesystem::path& path, const io::Settings& settings);
 

@@ -3,19 +3,23 @@
 #include "app/exit_status.hpp"
 #include "app/flow_summary.hpp"
 #include "app/interrupt.hpp"
+#include "app/limit_watch.hpp"
 #include "app/print_profile.hpp"
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
+#include "app/walltime.hpp"
 #include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
 #include "engine/stopping_rule.hpp"
 #include "engine/tube_profiles.hpp"
 #include "io/durable_file.hpp"
+#include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_length.hpp"
+#include "scenarios/run_limits.hpp"
 
 #include <fmt/core.h>
 
@@ -68,34 +72,35 @@ struct Past {
 class FlowRun {
 public:
   FlowRun(io::Settings settings, const ContactModel& model, State state, RunDirectory directory,
-          const Arguments& arguments, Past past, bool profile)
+          const Arguments& arguments, Past past, const FlowOptions& options)
       : settings_(std::move(settings)),
         past_(std::move(past)),
         directory_(std::move(directory)),
+        max_walltime_(options.max_walltime),
         schedule_(settings_, scenarios::run_length(settings_), state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
+        limits_(scenarios::run_limits(settings_)),
         file_(open(arguments)),
         strips_(Strips::of(simulation_.state())),
         profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
         histograms_(past_.rows == 0 ? HistogramBlocks() : HistogramBlocks(past_.histograms)),
         first_step_(simulation_.state().step) {
-    if (profile) simulation_.start_profile();
+    if (options.profile) simulation_.start_profile();
   }
 
   int run() {
-    catch_interrupts();
     start_ = last_checkpoint_ = Clock::now();
     try {
       if (file_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
-      while (!is_over() && interrupting_signal() == 0) advance();
+      while (!is_over() && !is_interrupted()) advance();
     } catch (const RunFailure& failure) {
       return fail(failure);
     }
     progress_.finish();
     save();
-    return interrupting_signal() != 0 ? tell_interruption() : tell_result();
+    return is_over() ? tell_result() : tell_interruption();
   }
 
 private:
@@ -143,6 +148,16 @@ private:
     return static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step;
   }
 
+  bool is_interrupted() const { return interrupting_signal() != 0 || is_out_of_time(); }
+
+  /// With a reserve for what comes before the end: a piece of the way, and what it takes to save.
+  bool is_out_of_time() const {
+    constexpr double reserve = 2.0;
+    return max_walltime_
+           && seconds_since_start_of_program() + reserve * (longest_piece_ + longest_save_)
+                  > *max_walltime_;
+  }
+
   std::string ended_by() const {
     if (!schedule_.relative_error) return "duration";
     return simulation_.state().step < schedule_.last_step ? "precision" : "at_most";
@@ -159,6 +174,7 @@ private:
     const auto start = Clock::now();
     simulation_.advance(std::min(goal - state.step, patience));
     times_.stepping += seconds_since(start);
+    longest_piece_ = std::max(longest_piece_, seconds_since(start));
     if (state.step % schedule_.steps_per_row == 0) add_row();
     if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
@@ -178,23 +194,37 @@ private:
           "{:.0f} grains have gone through a wall at t = {:.6g} s: the contacts are too soft for "
           "these velocities; raise contact.stiffness",
           last_.outside, last_.time));
+    heed_limits();
+  }
+
+  void heed_limits() {
+    for (const std::string& message : limits_.newly_exceeded(simulation_.state(), last_)) {
+      if (limits_.stops()) throw RunFailure(message);
+      progress_.finish();
+      fmt::print(stderr, "riesel: {}\n", message);
+    }
+  }
+
+  io::Checkpoint checkpoint() const {
+    return {.state = simulation_.state(),
+            .settings = settings_.effective_yaml(),
+            .source = past_.source,
+            .rows = file_.rows(),
+            .wall_seconds = wall_seconds(),
+            .profiles = profiles_,
+            .histograms = histograms_.blocks()};
   }
 
   /// The series first: the checkpoint counts its rows.
   void save() {
     const auto start = Clock::now();
+    directory_.require_in_place();
     file_.write_final_state(simulation_.state());
     file_.flush();
-    io::write_checkpoint(directory_.file(io::checkpoint_name),
-                         {.state = simulation_.state(),
-                          .settings = settings_.effective_yaml(),
-                          .source = past_.source,
-                          .rows = file_.rows(),
-                          .wall_seconds = wall_seconds(),
-                          .profiles = profiles_,
-                          .histograms = histograms_.blocks()});
+    io::write_checkpoint(directory_.file(io::checkpoint_name), checkpoint());
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
+    longest_save_ = std::max(longest_save_, seconds_since(start));
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -234,9 +264,11 @@ private:
   }
 
   int tell_interruption() const {
-    fmt::print(stderr, "interrupted at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
+    const bool by_signal = interrupting_signal() != 0;
+    fmt::print(stderr, "{} at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
+               by_signal ? "interrupted" : "out of time (--max-walltime)",
                simulation_.state().time(), directory_.path().string());
-    return 128 + interrupting_signal();
+    return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
   }
 
   /// Keeps what there is: the state may tell why.
@@ -245,16 +277,30 @@ private:
     file_.write_final_state(simulation_.state());
     file_.flush();
     fmt::print(stderr, "riesel: the run failed: {}\nthe state of that moment is in {}\n",
-               failure.what(), directory_.file(io::run_file_name).string());
+               failure.what(), directory_.file(keep_for_post_mortem()).string());
     return exit_failed;
+  }
+
+  /// The name of the file that holds the state. A state with numbers that are none is no
+  /// checkpoint.
+  std::string keep_for_post_mortem() const {
+    constexpr auto post_mortem_name = "post_mortem.h5";
+    try {
+      io::write_checkpoint(directory_.file(post_mortem_name), checkpoint());
+      return post_mortem_name;
+    } catch (const io::FileError&) {
+      return io::run_file_name;
+    }
   }
 
   const io::Settings settings_;
   const Past past_;
   RunDirectory directory_;
+  const std::optional<double> max_walltime_;  // s
   const Schedule schedule_;
   const int threads_;
   Simulation simulation_;
+  LimitWatch limits_;
   io::RunFile file_;
   const Strips strips_;
   TimeBlocks profiles_;
@@ -263,21 +309,25 @@ private:
   Progress progress_;
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
+  double longest_piece_ = 0.0,
+         longest_save_ = 0.0;  // s, of stepping between two looks at the clock
   RunTimes times_;
 };
 
 }  // namespace
 
 int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory directory,
-             const Arguments& arguments, bool profile) {
+             const Arguments& arguments, const FlowOptions& options) {
+  catch_interrupts();
   const Past nothing{.source = settings.source_text()};
   return FlowRun(settings, flow.model, std::move(flow.state), std::move(directory), arguments,
-                 nothing, profile)
+                 nothing, options)
       .run();
 }
 
 int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDirectory directory,
-                const Arguments& arguments, bool profile) {
+                const Arguments& arguments, const FlowOptions& options) {
+  catch_interrupts();
   const Past past{.source = checkpoint.source,
                   .had_other_settings = checkpoint.settings != settings.effective_yaml(),
                   .rows = checkpoint.rows,
@@ -285,7 +335,7 @@ int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDire
                   .profiles = std::move(checkpoint.profiles),
                   .histograms = std::move(checkpoint.histograms)};
   return FlowRun(settings, scenarios::contact_model(settings), std::move(checkpoint.state),
-                 std::move(directory), arguments, past, profile)
+                 std::move(directory), arguments, past, options)
       .run();
 }
 

@@ -1,5 +1,8 @@
 #include "engine/observables.hpp"
 
+#include "engine/exact_sums.hpp"
+#include "engine/vector_kernel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,25 +12,27 @@ namespace {
 
 /// Sums over all grains.
 struct GrainSums {
-  ExactSum vx, vy, vx2, vy2, mass, momentum_y, kinetic;
-  std::int64_t outside = 0;
+  double vx, vy, vx2, vy2, mass, momentum_y, kinetic;
+  std::int64_t outside;
 };
 
-GrainSums sum_over_grains(const State& state) {
-  GrainSums sums;
+RIESEL_VECTOR_KERNEL GrainSums sum_over_grains(const State& state) {
+  ExactSums<8> sums;
+  std::int64_t outside = 0;
   const GrainView grains(state);
-  for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
-    const Grain g = grains[slot];
-    sums.vx.add(g.vx);
-    sums.vy.add(g.vy);
-    sums.vx2.add(g.vx * g.vx);
-    sums.vy2.add(g.vy * g.vy);
-    sums.mass.add(g.mass);
-    sums.momentum_y.add(g.mass * g.vy);
-    sums.kinetic.add(0.5 * g.mass * (g.vx * g.vx + g.vy * g.vy));
-    if (g.x < 0.0 || g.x > state.box.width) ++sums.outside;
+  std::array<std::array<double, 8>, 32> terms;
+  for (std::size_t first = 0; first < state.grains.size(); first += terms.size()) {
+    const std::size_t count = std::min(terms.size(), state.grains.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Grain g = grains[first + i];
+      const double vx2 = g.vx * g.vx, vy2 = g.vy * g.vy;
+      terms[i] = {g.vx, g.vy, vx2, vy2, g.mass, g.mass * g.vy, 0.5 * g.mass * (vx2 + vy2), 0.0};
+      if (g.x < 0.0 || g.x > state.box.width) ++outside;
+    }
+    for (std::size_t i = 0; i < count; ++i) sums.add(terms[i]);
   }
-  return sums;
+  const auto value = [&](std::size_t i) { return sums.sum(i).value(); };
+  return {value(0), value(1), value(2), value(3), value(4), value(5), value(6), outside};
 }
 
 /// The tally with the lasting contacts in it, as if they ended now.
@@ -74,8 +79,7 @@ double standard_deviation(double sum, double sum_of_squares, double n) {
 
 Origin origin_of(const State& state) {
   const GrainSums sums = sum_over_grains(state);
-  return {.energy = sums.kinetic.value() + stored_energy(state),
-          .momentum_y = sums.momentum_y.value()};
+  return {.energy = sums.kinetic + stored_energy(state), .momentum_y = sums.momentum_y};
 }
 
 Observables observe(const State& state) {
@@ -86,16 +90,17 @@ Observables observe(const State& state) {
 
   Observables o;
   o.time = state.time();
-  o.mean_vx = sums.vx.value() / n;
-  o.mean_vy = sums.vy.value() / n;
-  o.sigma_vx = standard_deviation(sums.vx.value(), sums.vx2.value(), n);
-  o.sigma_vy = standard_deviation(sums.vy.value(), sums.vy2.value(), n);
+  o.mean_vx = sums.vx / n;
+  o.mean_vy = sums.vy / n;
+  o.sigma_vx = standard_deviation(sums.vx, sums.vx2, n);
+  o.sigma_vy = standard_deviation(sums.vy, sums.vy2, n);
   o.granular_temperature = 0.5 * (o.sigma_vx * o.sigma_vx + o.sigma_vy * o.sigma_vy);
-  o.energies.kinetic = sums.kinetic.value();
+  o.energies.kinetic = sums.kinetic;
   o.energies.elastic = stored_energy(state);
-  o.energies.gravity_work = work_of_gravity(state, sums.mass.value(), at_walls);
+  o.energies.gravity_work = work_of_gravity(state, sums.mass, at_walls);
   o.energies.normal_loss = among_grains.normal_loss.value() + at_walls.normal_loss.value();
   o.energies.friction_loss = among_grains.friction_loss.value() + at_walls.friction_loss.value();
+  o.energies.won = among_grains.energy_won.value() + at_walls.energy_won.value();
   o.energies.residual = state.origin.energy + o.energies.gravity_work - o.energies.kinetic
                         - o.energies.elastic - o.energies.normal_loss - o.energies.friction_loss;
   o.contacts = static_cast<double>(state.contacts.size()) / n;
@@ -107,6 +112,29 @@ Observables observe(const State& state) {
   o.outside = static_cast<double>(sums.outside);
   o.structure_factor = axial_structure_factor(state.grains);
   return o;
+}
+
+double max_overlap_ratio(const State& state) {
+  const auto& radii = state.grains.radius;
+  const double smallest = *std::min_element(radii.begin(), radii.end());
+  double smallest_at_wall = smallest;
+  for (const WallLattice& wall : state.walls)
+    smallest_at_wall = std::min(smallest_at_wall, wall.radius);
+  const auto largest = [&](const ContactTally& ended, bool of_walls) {
+    double overlap = ended.max_overlap;
+    for (const Contact& contact : state.contacts)
+      if ((contact.name.wall != no_wall) == of_walls)
+        overlap = std::max(overlap, contact.max_overlap);
+    return overlap;
+  };
+  return std::max(largest(state.tally.grains, false) / smallest,
+                  largest(state.tally.walls, true) / smallest_at_wall);
+}
+
+double energy_error_ratio(const State& state, const Energies& energies) {
+  const double error = std::abs(energies.residual) + energies.won;
+  if (error == 0.0) return 0.0;
+  return error / (state.origin.energy + std::abs(energies.gravity_work));
 }
 
 }  // namespace riesel

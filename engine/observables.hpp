@@ -16,6 +16,7 @@ struct Energies {
   double gravity_work = 0.0;   ///< J, done by gravity
   double normal_loss = 0.0;    ///< J, dissipated by the normal damping
   double friction_loss = 0.0;  ///< J, dissipated by friction
+  double won = 0.0;            ///< J, by contacts whose losses together are negative
   double residual = 0.0;  ///< J, origin + gravity work - all the rest: the error of the time step
 };
 
@@ -39,5 +40,14 @@ struct Observables {
 Origin origin_of(const State& state);
 
 Observables observe(const State& state);
+
+/// The largest overlap of all contacts since step 0 over the radius of the smallest body that can
+/// have had it.
+double max_overlap_ratio(const State& state);
+
+/// How much of the energy of `state` is an error of the time step: the size of the residual, and
+/// what contacts have won that should have lost, as a part of the energy turned over: what the run
+/// began with and the work of gravity, which may be negative. `energies` are those of `state`.
+double energy_error_ratio(const State& state, const Energies& energies);
 
 }  // namespace riesel

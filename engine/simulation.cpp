@@ -269,9 +269,11 @@ void Simulation::fail_if_in_trouble() const {
       " at t = " + std::to_string(state_.time()) + " s (step " + std::to_string(state_.step) + ")";
   for (const Slice& slice : candidates_->slices()) {
     if (slice.trouble)
-      throw RunFailure("the force between " + partners(*slice.trouble) + " is not finite" + when);
+      throw RunFailure("the force between " + partners(*slice.trouble) + " is not finite" + when
+                       + "; a shorter time step may help");
     if (slice.lost)
-      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when);
+      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when
+                       + "; stiffer contacts or a shorter time step may help");
   }
 }
 

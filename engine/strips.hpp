@@ -63,7 +63,7 @@ struct Strips {
 };
 
 /// m^2, the part of a disc of this radius (m) that lies at smaller x than a line at distance
-/// `line` (m) from its centre, positive towards larger x.
+/// `line` (m) from its centre, positive towards larger x; to 2e-8 of the square of the radius.
 double area_left_of(double line, double radius);
 
 /// The sums over all strips at the step of `state`; `frame` in m/s. The same bits for any order of

@@ -10,6 +10,7 @@ void ContactTally::add(const Contact& contact) {
   slip_path.add(contact.slip_path);
   normal_loss.add(contact.normal_loss);
   friction_loss.add(contact.friction_loss);
+  energy_won.add(std::max(0.0, -(contact.normal_loss + contact.friction_loss)));
   impulse_y.add(contact.impulse_y);
   impulse_y_times_step.add(contact.impulse_y_times_step);
 }
@@ -22,6 +23,7 @@ void ContactTally::merge(const ContactTally& other) {
   slip_path.add(other.slip_path);
   normal_loss.add(other.normal_loss);
   friction_loss.add(other.friction_loss);
+  energy_won.add(other.energy_won);
   impulse_y.add(other.impulse_y);
   impulse_y_times_step.add(other.impulse_y_times_step);
   durations.merge(other.durations);

@@ -26,6 +26,7 @@ struct ContactTally {
   ExactSum slip_path;        ///< m
   ExactSum normal_loss;      ///< J
   ExactSum friction_loss;    ///< J
+  ExactSum energy_won;       ///< J, by those whose losses together are negative
   /// kg m/s, impulse along y on the first grain of each contact; and the same with each step's part
   /// weighted by the number of the step: for the walls the two tell how far the grains have fallen
   /// (gravity_work).

@@ -20,6 +20,7 @@ struct Criterion {
 };
 
 constexpr std::string_view stiffer = "raise contact.stiffness";
+constexpr std::string_view finer = "raise run.steps_per_collision";
 
 constexpr Criterion overlap_criterion = {"max_overlap_ratio",
                                          &Evidence::max_overlap_ratio,
@@ -37,7 +38,7 @@ constexpr Criterion brake_criterion = {
     "walls brake by contacts that are passed through before they can push",
     stiffer};
 
-constexpr std::array<Criterion, 6> criteria = {{
+constexpr std::array<Criterion, 7> criteria = {{
     overlap_criterion,
     brake_criterion,
     {"passages_per_wall_visit", &Evidence::passages_per_visit, 0.5, 2.0, false,
@@ -47,7 +48,9 @@ constexpr std::array<Criterion, 6> criteria = {{
     {"pulling_fraction", &Evidence::pulling_fraction, 0.2, none, false,
      "the damping makes contacts pull", "compare with contact.attraction: clip"},
     {"steps_per_contact", &Evidence::steps_per_contact, 10.0, -none, true,
-     "the time step does not resolve the shortest contacts", "raise run.steps_per_collision"},
+     "the time step does not resolve the shortest contacts", finer},
+    {"energy_error_ratio", &Evidence::energy_error_ratio, 0.01, 0.1, false,
+     "energy comes or goes by errors of the time step, which is too long for the forces", finer},
 }};
 
 Validity judge(const Criterion& c, double value) {

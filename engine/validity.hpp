@@ -27,6 +27,7 @@ struct Evidence {
   double wall_speed_ratio;        ///< mean slip speed at the beginning of wall contacts over v_crit
   double pulling_fraction;        ///< of the time of wall contacts, with F_N < 0
   double steps_per_contact;       ///< time steps of the shortest twentieth of contacts, at most
+  double energy_error_ratio;      ///< see energy_error_ratio()
 };
 
 struct Finding {

@@ -1,8 +1,8 @@
 // Marks a function whose loops are worth compiling for each generation of vector instructions.
 //
 // The program starts with the clone for the machine it runs on. All clones give the same bits: the
-// loops are over integers, or their floating-point results only choose candidates that are looked
-// at exactly afterwards.
+// loops are over integers, their floating-point numbers come of +, -, *, / and sqrt alone, or these
+// only choose candidates that are looked at exactly afterwards.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)                                \

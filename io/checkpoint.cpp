@@ -1,10 +1,10 @@
 #include "io/checkpoint.hpp"
 
 #include "io/build_info.hpp"
-#include "io/checkpoint_seal.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
-#include "io/hdf5_file.hpp"
+#include "io/seal.hpp"
+#include "io/sealed_hdf5.hpp"
 #include "io/state_check.hpp"
 #include "io/state_columns.hpp"
 #include "io/state_layout.hpp"
@@ -17,9 +17,9 @@
 #include <cstddef>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace riesel::io {
@@ -28,6 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t format_version = 5;
+constexpr auto kind = "checkpoint";
 
 // --- one part of the checkpoint after the other, written and read ---
 
@@ -43,11 +44,10 @@ void write(Hdf5Group group, const Grains& grains, const Box& box) {
   });
 }
 
-Grains read_grains(const Hdf5Group& group, std::size_t most_bytes) {
+Grains read_grains(const StoredGroup& group) {
   Grains grains;
-  for_each_array(grains, [&](const char* name, const char*, auto& array) {
-    read_column(group, name, most_bytes, array);
-  });
+  for_each_array(
+      grains, [&](const char* name, const char*, auto& array) { read_column(group, name, array); });
   return grains;
 }
 
@@ -68,36 +68,36 @@ void write_value(Hdf5Group& group, const std::string& name,
 }
 
 template <Hdf5Number T>
-void read_value(const Hdf5Object& object, const std::string& name, T& value) {
+void read_value(const StoredObject& object, const std::string& name, T& value) {
   value = object.attribute<T>(name);
 }
 
-void read_value(const Hdf5Object& object, const std::string& name, ExactSum& sum) {
+void read_value(const StoredObject& object, const std::string& name, ExactSum& sum) {
   sum = ExactSum::from_halves(object.attribute<std::int64_t>(name + "_high"),
                               object.attribute<std::uint64_t>(name + "_low"));
 }
 
 template <std::size_t n>
-void read_value(const Hdf5Group& group, const std::string& name,
+void read_value(const StoredGroup& group, const std::string& name,
                 std::array<std::int64_t, n>& counts) {
   std::vector<std::int64_t> values;
-  read_column(group, name, sizeof counts, values);
+  read_column(group, name, values);
   if (values.size() != n) throw Hdf5Error("the data set " + name + " has another length");
   std::copy(values.begin(), values.end(), counts.begin());
 }
 
 void write(Hdf5Group group, const Tally& tally) {
-  for_each_kind(tally, [&](const char* kind, const auto& of_kind) {
-    auto part = group.create_group(kind);
+  for_each_kind(tally, [&](const char* name_of_kind, const auto& of_kind) {
+    auto part = group.create_group(name_of_kind);
     for_each_value(of_kind,
                    [&](const char* name, const auto& value) { write_value(part, name, value); });
   });
 }
 
-Tally read_tally(const Hdf5Group& group) {
+Tally read_tally(const StoredGroup& group) {
   Tally tally;
-  for_each_kind(tally, [&](const char* kind, auto& of_kind) {
-    const auto part = group.group(kind);
+  for_each_kind(tally, [&](const char* name_of_kind, auto& of_kind) {
+    const auto part = group.group(name_of_kind);
     for_each_value(of_kind, [&](const char* name, auto& value) { read_value(part, name, value); });
   });
   return tally;
@@ -115,13 +115,13 @@ void write(Hdf5Group root, const State& state) {
   write(root.create_group("tally"), state.tally);
 }
 
-State read_state(const Hdf5Group& root, std::size_t most_bytes) {
+State read_state(const StoredGroup& root) {
   State state;
   for_each_scalar(state, [&](const char* name, auto& value) { read_value(root, name, value); });
-  state.grains = read_grains(root.group("grains"), most_bytes);
-  state.walls = read_records<WallLattice>(root.group("walls"), most_bytes);
-  state.contacts = read_records<Contact>(root.group("contacts"), most_bytes);
-  state.open_visits = read_records<WallVisit>(root.group("open_visits"), most_bytes);
+  state.grains = read_grains(root.group("grains"));
+  state.walls = read_records<WallLattice>(root.group("walls"));
+  state.contacts = read_records<Contact>(root.group("contacts"));
+  state.open_visits = read_records<WallVisit>(root.group("open_visits"));
   state.tally = read_tally(root.group("tally"));
   return state;
 }
@@ -133,9 +133,9 @@ void write(Hdf5Group group, const TimeBlocks& blocks) {
   write_column<double>(group, "sums", "SI", blocks.sums());
 }
 
-TimeBlocks read_blocks(const Hdf5Group& group, std::size_t most_bytes) {
+TimeBlocks read_blocks(const StoredGroup& group) {
   std::vector<double> sums;
-  read_column(group, "sums", most_bytes, sums);
+  read_column(group, "sums", sums);
   try {
     return {static_cast<std::size_t>(group.attribute<std::int64_t>("columns")),
             group.attribute<std::int64_t>("samples"),
@@ -158,14 +158,14 @@ void write(Hdf5Group root, const Checkpoint& checkpoint) {
   write(std::move(root), checkpoint.state);
 }
 
-Checkpoint read_contents(const Hdf5Group& root, std::size_t most_bytes) {
-  return {.state = read_state(root, most_bytes),
-          .settings = root.read_text("settings", most_bytes),
-          .source = root.read_text("source", most_bytes),
+Checkpoint read_contents(const StoredGroup& root) {
+  return {.state = read_state(root),
+          .settings = root.text("settings"),
+          .source = root.text("source"),
           .rows = root.attribute<std::int64_t>("rows"),
           .wall_seconds = root.attribute<double>("wall_seconds"),
-          .profiles = read_blocks(root.group("profiles"), most_bytes),
-          .histograms = read_blocks(root.group("histograms"), most_bytes)};
+          .profiles = read_blocks(root.group("profiles")),
+          .histograms = read_blocks(root.group("histograms"))};
 }
 
 // --- what can be wrong with it ---
@@ -192,7 +192,7 @@ bool is_there(const fs::path& path) {
                   is_there(previous) ? "use " + previous.string() : "start the run again");
 }
 
-void check_version(const Hdf5Group& root, const fs::path& path) {
+void check_version(const StoredGroup& root, const fs::path& path) {
   const auto version = root.attribute<std::int64_t>("format_version");
   if (version == format_version) return;
   throw FileError(path,
@@ -202,12 +202,10 @@ void check_version(const Hdf5Group& root, const fs::path& path) {
                   "use riesel " + root.text_attribute("riesel_version"));
 }
 
-/// Reads a file whose seal is whole.
 Checkpoint read_sealed(const fs::path& path) {
-  const auto size = fs::file_size(path);
-  const auto root = Hdf5File::open(path).root();
+  const auto root = open_sealed_hdf5(path, kind, Unsealed::refused);
   check_version(root, path);
-  return read_contents(root, size);
+  return read_contents(root);
 }
 
 }  // namespace
@@ -219,14 +217,11 @@ void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
   }
   auto file = Hdf5File::create(seal_size);
   write(file.root(), checkpoint);
-  const auto image = file.image();
-  seal(image);
-  write_durably(path, std::string_view(image.data(), image.size()), Previous::keep);
+  write_sealed_hdf5(path, file, kind, Previous::keep);
 }
 
 Checkpoint read_checkpoint(const fs::path& path) {
-  auto flaw = flaw_of_seal(path);
-  if (!flaw.empty()) throw_damaged(path, flaw);
+  std::string flaw;
   try {
     auto checkpoint = read_sealed(path);
     flaw = flaw_of(checkpoint);

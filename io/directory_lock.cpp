@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -13,6 +14,8 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 namespace riesel::io {
 namespace {
@@ -53,13 +56,23 @@ bool lock_patiently(int descriptor) {
   }
 }
 
+/// Device and inode. Throws FileError if there is no such directory.
+std::pair<std::uint64_t, std::uint64_t> identity_of(const std::filesystem::path& directory) {
+  struct stat about = {};
+  if (stat(directory.c_str(), &about) != 0)
+    throw system_failure(directory, "cannot be written any more", errno);
+  return {about.st_dev, about.st_ino};
+}
+
 }  // namespace
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
-    : descriptor_(open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    : directory_(directory),
+      descriptor_(open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
   if (lock_patiently(descriptor_)) {
     describe_holder(descriptor_);
+    std::tie(device_, inode_) = identity_of(directory);
     return;
   }
   const int error_number = errno;
@@ -70,6 +83,12 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
   }
   throw FileError(directory, "is in use by " + holder,
                   "wait until that ends, or choose another directory");
+}
+
+void DirectoryLock::require_in_place() const {
+  if (identity_of(directory_) == std::pair(device_, inode_)) return;
+  throw FileError(directory_, "is another directory than that in which the run was started",
+                  "go on with 'riesel resume' where that is now");
 }
 
 bool DirectoryLock::is_held(const std::filesystem::path& directory) {

@@ -5,6 +5,7 @@
 // would let two processes lock two files of the same name.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 namespace riesel::io {
@@ -17,6 +18,10 @@ public:
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
 
+  /// Throws FileError if the directory is not where it was: gone, moved, or another one stands in
+  /// its place, which this lock does not protect.
+  void require_in_place() const;
+
   /// Whether another process works in the directory at the moment. Writes nothing.
   static bool is_held(const std::filesystem::path& directory);
 
@@ -26,6 +31,8 @@ public:
   DirectoryLock& operator=(DirectoryLock&&) = delete;
 
 private:
+  std::filesystem::path directory_;
+  std::uint64_t device_ = 0, inode_ = 0;  ///< of the directory: which one it is
   int descriptor_;
 };
 

@@ -1,4 +1,4 @@
-// HDF5 files: made in memory, or read from the disk.
+// HDF5 files, made in memory.
 //
 // HDF5 writes in place, and where that fails (a full disk) the library cannot even close the file
 // properly. So it never writes: the finished image of the file goes to write_durably(), which knows
@@ -19,8 +19,8 @@ public:
   /// alone: 0, or a power of two from 512 on.
   static Hdf5File create(std::size_t user_block = 0);
 
-  /// Opens a file for reading. It is not locked: files are replaced, not changed, and some network
-  /// file systems know no locks. HDF5's parser is not safe with damaged files. Throws Hdf5Error.
+  /// Opens a file that this process has written, for tests that what is written is HDF5 to others,
+  /// too: HDF5's parser is not safe with damaged files, see stored_hdf5.hpp. Throws Hdf5Error.
   static Hdf5File open(const std::filesystem::path& path);
 
   Hdf5Group root() const;

@@ -1,8 +1,8 @@
 #include "io/run_file.hpp"
 
-#include "io/durable_file.hpp"
 #include "io/file_error.hpp"
-#include "io/hdf5_file.hpp"
+#include "io/seal.hpp"
+#include "io/sealed_hdf5.hpp"
 #include "io/state_columns.hpp"
 #include "io/state_layout.hpp"
 
@@ -32,10 +32,26 @@ void write_provenance(Hdf5Group group, const Provenance& provenance) {
   for (const auto& [name, value] : provenance) group.write_text(name, value);
 }
 
-void record_resume(Hdf5Group group, const Provenance& provenance) {
+void record_resume(Hdf5Group& group, const Provenance& provenance) {
   int number = 1;
   while (group.has(fmt::format("resume_{}", number))) ++number;
   write_provenance(group.create_group(fmt::format("resume_{}", number)), provenance);
+}
+
+void copy_texts(const StoredGroup& from, Hdf5Group& to) {
+  for (const auto& name : from.names())
+    if (!from.is_group(name)) to.write_text(name, from.text(name));
+}
+
+/// The texts of the start, and those of each resume in a group of its own. (No deeper: a damaged
+/// group may hold itself.)
+void copy_history(const StoredGroup& from, Hdf5Group& to) {
+  copy_texts(from, to);
+  for (const auto& name : from.names()) {
+    if (!from.is_group(name)) continue;
+    auto part = to.create_group(name);
+    copy_texts(from.group(name), part);
+  }
 }
 
 std::vector<double> values_of(const Hdf5Data& data) {
@@ -130,15 +146,15 @@ public:
   Hdf5Group root() const { return file_.root(); }
   std::int64_t rows() const { return rows_; }
 
-  /// Takes the first rows over from the series of another file of `file_size` bytes.
-  void take_rows(const Hdf5Group& from, std::int64_t rows, std::uintmax_t file_size) {
+  /// Takes the first rows over from the series of another file.
+  void take_rows(const StoredGroup& from, std::int64_t rows) {
     if (const auto found = from.text_attribute("columns"); found != names_of(columns_)) {
       throw Hdf5Error(fmt::format("its series are {} instead of {}", found, names_of(columns_)));
     }
     rows_ = rows;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       std::vector<double> values;
-      read_column(from, columns_[i].name, file_size, values);
+      read_column(from, columns_[i].name, values);
       const auto wanted = static_cast<std::size_t>(rows);
       if (values.size() < wanted) {
         throw Hdf5Error(fmt::format("it has {} rows of {} and the checkpoint counts {}",
@@ -162,8 +178,7 @@ public:
 
   void flush() {
     empty_buffers();
-    const auto image = file_.image();
-    write_durably(path_, std::string_view(image.data(), image.size()));
+    write_sealed_hdf5(path_, file_, run_file_kind, Previous::discard);
   }
 
 private:
@@ -184,7 +199,7 @@ private:
   }
 
   fs::path path_;
-  Hdf5File file_ = Hdf5File::create();
+  Hdf5File file_ = Hdf5File::create(seal_size);
   std::vector<Column> columns_;
   std::vector<Hdf5Data> series_;
   std::vector<std::vector<double>> buffers_;
@@ -212,12 +227,13 @@ RunFile RunFile::create(const fs::path& path, const Provenance& provenance,
 RunFile RunFile::reopen(const fs::path& path, const Provenance& provenance,
                         const std::vector<Column>& series, std::int64_t rows) {
   try {
-    const auto old = Hdf5File::open(path).root();
+    const auto old = open_sealed_hdf5(path, run_file_kind, Unsealed::allowed);
     RunFile file(path, series);
-    file.contents_->take_rows(old.group("series"), rows, fs::file_size(path));
+    file.contents_->take_rows(old.group("series"), rows);
     auto root = file.contents_->root();
-    root.copy(old, "provenance");
-    record_resume(root.group("provenance"), provenance);
+    auto history = root.create_group("provenance");
+    copy_history(old.group("provenance"), history);
+    record_resume(history, provenance);
     return file;
   } catch (const Hdf5Error& error) {
     throw FileError(path, fmt::format("does not fit the checkpoint ({})", error.what()),

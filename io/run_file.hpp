@@ -34,6 +34,9 @@ struct Column {
 /// The name of the run file in the directory of a run.
 inline constexpr auto run_file_name = "run.h5";
 
+/// What its seal says that it is.
+inline constexpr auto run_file_kind = "run";
+
 class RunFile {
 public:
   /// Creates the file at once, with `provenance` in /provenance and a series of no rows in

@@ -1,7 +1,7 @@
 #include "io/run_reader.hpp"
 
 #include "io/file_error.hpp"
-#include "io/hdf5_file.hpp"
+#include "io/sealed_hdf5.hpp"
 #include "io/state_columns.hpp"
 #include "io/state_layout.hpp"
 
@@ -37,15 +37,15 @@ void require(bool is_so, const std::string& flaw) {
   if (!is_so) throw Hdf5Error(flaw);
 }
 
-std::vector<double> read_numbers(const Hdf5Group& group, const std::string& name,
-                                 std::size_t most_bytes) {
+std::vector<double> read_numbers(const StoredGroup& group, const std::string& name) {
   std::vector<double> values;
-  read_column(group, name, most_bytes, values);
+  read_column(group, name, values);
   return values;
 }
 
 /// Rows of two components, one after the other.
-std::vector<double> read_pairs(const Hdf5Group& group, const std::string& name, std::size_t rows) {
+std::vector<double> read_pairs(const StoredGroup& group, const std::string& name,
+                               std::size_t rows) {
   const auto data = group.data(name);
   require(data.shape().columns == 2 && data.shape().rows == rows,
           "the data set " + name + " has another size than the grains");
@@ -54,9 +54,9 @@ std::vector<double> read_pairs(const Hdf5Group& group, const std::string& name, 
   return values;
 }
 
-std::vector<Grain> read_grains(const Hdf5Group& group, std::size_t most_bytes) {
-  const auto radius = read_numbers(group, "radius", most_bytes);
-  const auto mass = read_numbers(group, "mass", most_bytes);
+std::vector<Grain> read_grains(const StoredGroup& group) {
+  const auto radius = read_numbers(group, "radius");
+  const auto mass = read_numbers(group, "mass");
   require(mass.size() == radius.size(), "masses and radii differ in number");
   const auto position = read_pairs(group, "position", radius.size());
   const auto velocity = read_pairs(group, "velocity", radius.size());
@@ -104,19 +104,19 @@ void check(const FinalState& state) {
       "a contact names bodies that are not there");
 }
 
-FinalState read_final_state(const Hdf5Group& group, std::size_t most_bytes) {
+FinalState read_final_state(const StoredGroup& group) {
   FinalState state{.box = {.width = group.attribute<double>("box_width"),
                            .length = group.attribute<double>("box_length")},
                    .time = group.attribute<double>("time"),
                    .step = group.attribute<std::int64_t>("step"),
-                   .grains = read_grains(group, most_bytes),
-                   .walls = read_records<WallLattice>(group.group("walls"), most_bytes),
-                   .contacts = read_records<Contact>(group.group("contacts"), most_bytes)};
+                   .grains = read_grains(group),
+                   .walls = read_records<WallLattice>(group.group("walls")),
+                   .contacts = read_records<Contact>(group.group("contacts"))};
   check(state);
   return state;
 }
 
-std::vector<Series> read_series(const Hdf5Group& group, std::size_t most_bytes) {
+std::vector<Series> read_series(const StoredGroup& group) {
   std::vector<Series> series;
   std::istringstream names(group.text_attribute("columns"));
   for (std::string name; std::getline(names, name, ',');) {
@@ -124,23 +124,22 @@ std::vector<Series> read_series(const Hdf5Group& group, std::size_t most_bytes) 
     series.push_back({.column = {.name = name,
                                  .unit = data.text_attribute("unit"),
                                  .doc = data.text_attribute("doc")},
-                      .values = read_numbers(group, name, most_bytes)});
+                      .values = read_numbers(group, name)});
     require(series.back().values.size() == series.front().values.size(),
             "the series " + name + " is not as long as the others");
   }
   return series;
 }
 
-Profiles read_profiles(const Hdf5Group& group, std::size_t most_bytes) {
-  Profiles profiles{.x = read_numbers(group, "x", most_bytes), .quantities = {}};
+Profiles read_profiles(const StoredGroup& group) {
+  Profiles profiles{.x = read_numbers(group, "x"), .quantities = {}};
   for (const char* name : told_of_profiles) {
     const auto data = group.data(name);
-    profiles.quantities.push_back(
-        {.column = {.name = name,
-                    .unit = data.text_attribute("unit"),
-                    .doc = data.text_attribute("doc")},
-         .values = read_numbers(group, name, most_bytes),
-         .errors = read_numbers(group, std::string(name) + "_error", most_bytes)});
+    profiles.quantities.push_back({.column = {.name = name,
+                                              .unit = data.text_attribute("unit"),
+                                              .doc = data.text_attribute("doc")},
+                                   .values = read_numbers(group, name),
+                                   .errors = read_numbers(group, std::string(name) + "_error")});
     const auto& read = profiles.quantities.back();
     require(read.values.size() == profiles.x.size() && read.errors.size() == profiles.x.size(),
             fmt::format("the profile {} has another number of strips than the others", name));
@@ -148,16 +147,16 @@ Profiles read_profiles(const Hdf5Group& group, std::size_t most_bytes) {
   return profiles;
 }
 
-std::vector<HistogramWithErrors> read_histograms(const Hdf5Group& all, std::size_t most_bytes) {
+std::vector<HistogramWithErrors> read_histograms(const StoredGroup& all) {
   std::vector<HistogramWithErrors> histograms;
   for (const char* name : told_of_histograms) {
     const auto group = all.group(name);
     histograms.push_back({.column = {.name = name,
                                      .unit = group.data("lower_edge").text_attribute("unit"),
                                      .doc = group.text_attribute("doc")},
-                          .lower_edges = read_numbers(group, "lower_edge", most_bytes),
-                          .rates = read_numbers(group, "rate", most_bytes),
-                          .errors = read_numbers(group, "rate_error", most_bytes)});
+                          .lower_edges = read_numbers(group, "lower_edge"),
+                          .rates = read_numbers(group, "rate"),
+                          .errors = read_numbers(group, "rate_error")});
     const auto& read = histograms.back();
     const auto& edges = read.lower_edges;
     require(edges.size() > 1 && edges.size() == read.rates.size()
@@ -168,32 +167,31 @@ std::vector<HistogramWithErrors> read_histograms(const Hdf5Group& all, std::size
   return histograms;
 }
 
-Provenance read_provenance(const Hdf5Group& group, std::size_t most_bytes) {
+Provenance read_provenance(const StoredGroup& group) {
   Provenance provenance;
   for (const char* name : told_of_provenance)
-    if (group.has(name)) provenance.emplace_back(name, group.read_text(name, most_bytes));
+    if (group.has(name)) provenance.emplace_back(name, group.text(name));
   return provenance;
 }
 
-RunHistory read_history(const Hdf5Group& root, std::size_t most_bytes) {
+RunHistory read_history(const StoredGroup& root) {
   require(root.text_attribute("format") == "riesel run", "it is no run of riesel");
   const auto provenance = root.group("provenance");
-  RunHistory history{.start = read_provenance(provenance, most_bytes), .resumes = {}};
+  RunHistory history{.start = read_provenance(provenance), .resumes = {}};
   for (int i = 1; provenance.has(fmt::format("resume_{}", i)); ++i)
-    history.resumes.push_back(
-        read_provenance(provenance.group(fmt::format("resume_{}", i)), most_bytes));
+    history.resumes.push_back(read_provenance(provenance.group(fmt::format("resume_{}", i))));
   return history;
 }
 
-RunContents read_contents(const Hdf5Group& root, std::size_t most_bytes) {
-  RunHistory history = read_history(root, most_bytes);
+RunContents read_contents(const StoredGroup& root) {
+  RunHistory history = read_history(root);
   require(root.has("final"), "it holds no final state");
   require(root.has("profiles"), "it holds no profiles");
   require(root.has("histograms"), "it holds no histograms");
-  return {.final_state = read_final_state(root.group("final"), most_bytes),
-          .series = read_series(root.group("series"), most_bytes),
-          .profiles = read_profiles(root.group("profiles"), most_bytes),
-          .histograms = read_histograms(root.group("histograms"), most_bytes),
+  return {.final_state = read_final_state(root.group("final")),
+          .series = read_series(root.group("series")),
+          .profiles = read_profiles(root.group("profiles")),
+          .histograms = read_histograms(root.group("histograms")),
           .history = std::move(history)};
 }
 
@@ -205,12 +203,11 @@ const Named& find(const std::vector<Named>& all, const std::string& name, const 
   return *found;
 }
 
-/// What `read` makes of the root of the file and of its size.
+/// What `read` makes of the root of the file.
 template <class Read>
 auto read_file(const std::filesystem::path& path, Read read) {
   try {
-    const auto root = Hdf5File::open(path).root();
-    return read(root, std::filesystem::file_size(path));
+    return read(open_sealed_hdf5(path, run_file_kind, Unsealed::allowed));
   } catch (const Hdf5Error& error) {
     throw FileError(path, fmt::format("is damaged, or of another kind of run ({})", error.what()),
                     "restore the file, or make the run again");

@@ -2,8 +2,9 @@
 
 #include "io/durable_file.hpp"
 #include "io/json_cell.hpp"
+#include "io/json_file.hpp"
 
-#include <fstream>
+#include <exception>
 
 namespace riesel::io {
 namespace {
@@ -13,10 +14,12 @@ constexpr auto record_name = "attempts.json";
 }  // namespace
 
 RunRecord read_run_record(const std::filesystem::path& directory) {
-  std::ifstream stream(directory / record_name);
-  const auto json = stream ? Json::parse(stream, nullptr, false) : Json();
-  if (!json.is_object()) return {};
-  return {.attempts = json.value("attempts", 0), .failure = json.value("failure", "")};
+  try {
+    const auto json = read_json(directory / record_name, "");
+    return {.attempts = integer_of<int>(json.at("attempts")), .failure = json.at("failure")};
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 void write_run_record(const std::filesystem::path& directory, const RunRecord& record) {

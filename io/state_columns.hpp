@@ -4,6 +4,7 @@
 #include "engine/state.hpp"
 #include "io/hdf5_object.hpp"
 #include "io/state_layout.hpp"
+#include "io/stored_hdf5.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,15 +26,13 @@ Hdf5Data write_column(Hdf5Group& group, const std::string& name, const std::stri
   return data;
 }
 
-/// Reads what write_column() wrote, into a vector. Throws Hdf5Error; in particular if the column
-/// claims to be longer than `most_bytes`.
+/// Reads what write_column() wrote, into a vector. Throws Hdf5Error.
 template <class Vector>
-void read_column(const Hdf5Group& group, const std::string& name, std::size_t most_bytes,
-                 Vector& values) {
+void read_column(const StoredGroup& group, const std::string& name, Vector& values) {
   using T = typename Vector::value_type;
   const auto data = group.data(name);
   const auto shape = data.shape();
-  if (shape.columns != 1 || shape.rows > most_bytes / sizeof(T)) {
+  if (shape.columns != 1) {
     throw Hdf5Error("cannot read the data set " + name + ": its size is impossible");
   }
   values.resize(shape.rows);
@@ -43,8 +42,7 @@ void read_column(const Hdf5Group& group, const std::string& name, std::size_t mo
 /// Exact sums stand as rows of two integers: the upper 64 bits, and the lower as if signed.
 void write_column(Hdf5Group& group, const std::string& name, const std::string& unit,
                   const std::vector<ExactSum>& sums);
-void read_column(const Hdf5Group& group, const std::string& name, std::size_t most_bytes,
-                 std::vector<ExactSum>& sums);
+void read_column(const StoredGroup& group, const std::string& name, std::vector<ExactSum>& sums);
 
 /// Writes each member of all records (contacts, visits or walls) as a column.
 template <class Record>
@@ -62,12 +60,12 @@ void write_records(Hdf5Group& group, const std::vector<Record>& records) {
 
 /// Reads what write_records() wrote. Throws Hdf5Error as read_column().
 template <class Record>
-std::vector<Record> read_records(const Hdf5Group& group, std::size_t most_bytes) {
+std::vector<Record> read_records(const StoredGroup& group) {
   std::vector<Record> records;
   bool first = true;
   for_each_member<Record>([&](const char* name, const char*, auto member) {
     std::vector<std::remove_cvref_t<decltype(member(records.front()))>> values;
-    read_column(group, name, most_bytes, values);
+    read_column(group, name, values);
     if (first) records.resize(values.size());
     first = false;
     if (values.size() != records.size()) {

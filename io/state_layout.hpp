@@ -113,8 +113,8 @@ concept MaybeConst = std::same_as<std::remove_const_t<Any>, T>;
 /// not), in SI units.
 template <MaybeConst<ContactTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
-  auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, impulse_y,
-         impulse_y_times_step, durations, overlaps] = tally;
+  auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, energy_won,
+         impulse_y, impulse_y_times_step, durations, overlaps] = tally;
   visit("begun", begun);
   visit("ended", ended);
   visit("max_overlap", max_overlap);
@@ -122,6 +122,7 @@ void for_each_value(AnyTally& tally, Visit visit) {
   visit("slip_path", slip_path);
   visit("normal_loss", normal_loss);
   visit("friction_loss", friction_loss);
+  visit("energy_won", energy_won);
   visit("impulse_y", impulse_y);
   visit("impulse_y_times_step", impulse_y_times_step);
   visit("durations", durations.counts());

@@ -1,12 +1,11 @@
 #include "io/summary_reader.hpp"
 
 #include "io/file_error.hpp"
+#include "io/json_file.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -28,12 +27,12 @@ Measured measured(const Json& json) {
 RunSummary read_run(const Json& json) {
   const auto& performance = json.at("performance");
   return {.scenario = json.at("scenario"),
-          .grains = json.at("grains"),
-          .steps = json.at("steps"),
+          .grains = integer_of<std::int64_t>(json.at("grains")),
+          .steps = integer_of<std::int64_t>(json.at("steps")),
           .state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16),
           .wall_seconds = number(performance, "wall_seconds"),
           .particle_steps_per_second = number(performance, "particle_steps_per_second"),
-          .threads = performance.at("threads")};
+          .threads = integer_of<int>(performance.at("threads"))};
 }
 
 FlowSummary::Balance read_balance(const Json& json) {
@@ -72,6 +71,12 @@ FlowSummary::Energy read_energy(const Json& json) {
           .residual = number(json, "residual")};
 }
 
+auto read_counts(const Json& json) {
+  decltype(FlowSummary::WallVisits::of_contacts) counts{};
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = integer_of<std::int64_t>(json.at(i));
+  return counts;
+}
+
 FlowSummary::WallVisits read_wall_visits(const Json& json) {
   return {.visits = number(json, "visits"),
           .contacts = measured(json.at("contacts")),
@@ -79,7 +84,7 @@ FlowSummary::WallVisits read_wall_visits(const Json& json) {
           .dv_x = measured(json.at("dv_x")),
           .entry_rate = measured(json.at("entry_rate")),
           .entry_slip = measured(json.at("entry_slip")),
-          .of_contacts = json.at("of_contacts_since_start")};
+          .of_contacts = read_counts(json.at("of_contacts_since_start"))};
 }
 
 FlowSummary::Fluctuations read_fluctuations(const Json& json) {
@@ -114,7 +119,7 @@ Validity validity(const Json& json) {
 Finding read_finding(const Json& json) {
   const std::string name = json.at("name");
   const double value = number(json, "value");
-  const auto known = judge({value, value, value, value, value, value}).findings;
+  const auto known = judge({value, value, value, value, value, value, value}).findings;
   const auto found = std::ranges::find(known, name, &Finding::name);
   if (found == known.end()) throw std::runtime_error("there is no finding " + name);
   return {.name = found->name,
@@ -147,8 +152,8 @@ CurveSummary read_curve(const Json& json) {
                              .contacts = number(point, "contacts"),
                              .contact_time = number(point, "contact_time"),
                              .max_overlap = number(point, "max_overlap"),
-                             .passed = point.at("passed"),
-                             .stuck = point.at("stuck"),
+                             .passed = integer_of<int>(point.at("passed")),
+                             .stuck = integer_of<int>(point.at("stuck")),
                              .cut_short = number(point, "cut_short"),
                              .brake_failure_fraction = number(point, "brake_failure_fraction"),
                              .verdict = validity(point.at("verdict"))});
@@ -196,9 +201,7 @@ void require_this_format(const std::filesystem::path& path, const Json& json) {
 }  // namespace
 
 Summary read_summary(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  if (!stream) throw FileError(path, "cannot be read", "give the directory of a run that is over");
-  const auto json = Json::parse(stream, nullptr, false);
+  const auto json = read_json(path, "give the directory of a run that is over");
   require_this_format(path, json);
   try {
     if (json.contains("curve")) return read_curve(json);

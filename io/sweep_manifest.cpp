@@ -3,10 +3,10 @@
 #include "io/build_info.hpp"
 #include "io/file_error.hpp"
 #include "io/json_cell.hpp"
+#include "io/json_file.hpp"
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
 
 namespace riesel::io {
@@ -47,9 +47,9 @@ ManifestPoint point_of(const Json& json, const std::vector<VariedSetting>& varie
                          .leg = json.at("leg"),
                          .values = {},
                          .expected_seconds = json.at("expected_seconds"),
-                         .most_threads = json.at("most_threads"),
+                         .most_threads = integer_of<int>(json.at("most_threads")),
                          .status = json.at("status"),
-                         .attempts = json.at("attempts"),
+                         .attempts = integer_of<int>(json.at("attempts")),
                          .reason = json.at("reason")};
   for (const auto& setting : varied) {
     point.values.push_back(cell_of(json.at("settings").at(setting.key)));
@@ -97,12 +97,9 @@ std::string to_json(const Manifest& manifest) {
 
 Manifest read_manifest(const fs::path& directory) {
   const auto path = directory / manifest_name;
-  std::ifstream stream(path);
-  if (!stream) {
-    throw FileError(path, "cannot be read", "give the directory of a sweep (see 'riesel sweep')");
-  }
+  const auto json = read_json(path, "give the directory of a sweep (see 'riesel sweep')");
   try {
-    return manifest_of(Json::parse(stream));
+    return manifest_of(json);
   } catch (const std::exception& error) {
     throw FileError(path, fmt::format("is no manifest of a sweep ({})", error.what()),
                     "run 'riesel sweep' again: it writes a new one and keeps the results");

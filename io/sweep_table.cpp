@@ -5,11 +5,11 @@
 #include "io/file_error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json_cell.hpp"
+#include "io/json_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <span>
 
@@ -78,11 +78,9 @@ void SweepTable::set(std::size_t row, const std::string& column, Cell value,
 }
 
 std::vector<std::pair<std::string, Cell>> flat_summary(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  const auto json = stream ? Json::parse(stream, nullptr, false) : Json();
-  if (!json.is_object()) {
-    throw FileError(path, "is no summary of a run", "remove the directory and run the point again");
-  }
+  constexpr auto remedy = "remove the directory and run the point again";
+  const auto json = read_json(path, remedy);
+  if (!json.is_object()) throw FileError(path, "is no summary of a run", remedy);
   std::vector<std::pair<std::string, Cell>> values;
   flatten(json, "", values);
   return values;

@@ -10,6 +10,7 @@
 #include "scenarios/continued_start.hpp"
 #include "scenarios/packing.hpp"
 #include "scenarios/run_length.hpp"
+#include "scenarios/run_limits.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -130,7 +131,7 @@ io::SettingsTable output_settings() {
 
 io::SettingsTable own_settings() {
   io::SettingsTable table = flow_settings();
-  for (const auto& rows : {run_length_settings(), output_settings()})
+  for (const auto& rows : {run_length_settings(), run_limits_settings(), output_settings()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }

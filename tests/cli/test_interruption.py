@@ -1,6 +1,8 @@
 """A run that is stopped at any moment, politely or not, goes on as if it had never been stopped."""
 
+import pathlib
 import random
+import re
 import signal
 import time
 
@@ -8,7 +10,20 @@ from riesel_command import CommandTest, SMALL_TUBE, data_of, final_time
 
 # Rows of 1 ms hold about 1000 steps; the run ends long after the tests.
 LONG_TUBE = SMALL_TUBE.replace("5 ms", "1000 s") + "output: {checkpoint_interval: 0.02 s}\n"
+IMPACT = """\
+scenario: single_wall_grain
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+impact: {axial_velocity: [1 m/s]}
+"""
 PATIENCE = 30.0  # s
+OUT_OF_TIME = 3
+
+
+def catches(process, number):
+    """Whether the process has a handler for the signal."""
+    status = pathlib.Path(f"/proc/{process}/status").read_text(encoding="ascii")
+    caught = int(re.search(r"^SigCgt:\s*([0-9a-f]+)$", status, re.MULTILINE).group(1), 16)
+    return caught >> (number - 1) & 1 == 1
 
 
 class Interruption(CommandTest):
@@ -87,6 +102,38 @@ class Interruption(CommandTest):
         result = self.riesel("resume", "out", "--set", "run.duration=1 ms")
         if result.returncode != 0:
             self.assert_refused(result, "out", "start the run again")
+
+    def test_by_the_limit_on_the_clock(self):
+        limit = ["--max-walltime", "1.5 s"]
+        for arguments in (["run", "long.yaml", "--out", "out"], ["resume", "out"]):
+            result = self.riesel(*arguments, "--threads", 1, *limit)
+            self.assertEqual((result.returncode, result.stdout), (OUT_OF_TIME, ""), result)
+            self.assertRegex(result.stderr, r"out of time \(--max-walltime\) at t = \S+ s; "
+                                            r"'riesel resume out' goes on from there\n\Z")
+        self.assert_goes_on_as_uninterrupted(final_time(self.out))
+
+    def test_a_limit_on_the_clock_that_is_none(self):
+        for limit in ("soon", "3 m", "-1 s", "0"):
+            self.assert_refused(self.riesel("run", "long.yaml", "--max-walltime", limit),
+                                "--max-walltime", limit)
+        self.write("impact.yaml", IMPACT)
+        self.assert_refused(self.riesel("run", "impact.yaml", "--max-walltime", "1 h"),
+                            "--max-walltime", "no effect")
+        self.assertFalse((self.home / "runs").exists())
+
+    def test_while_nothing_is_written_yet(self):
+        """The packing of a dense tube and riesel check, which runs on for a while to measure speed."""
+        dense = ["--set", "grains.area_fraction=0.76", "--set", "tube.length=400 mm"]
+        for command in (["run", "long.yaml", "--out", "out"], ["check", "long.yaml"]):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(command=command, number=number):
+                    process = self.start(*command, *dense)
+                    self.wait_until(lambda p=process: catches(p.pid, number), "the start")
+                    process.send_signal(number)
+                    _, stderr = process.communicate(timeout=PATIENCE)
+                    self.assertEqual(process.returncode, 128 + number, stderr)
+                    self.assertRegex(stderr, r"riesel: interrupted, [^\n]+; [^\n]+\n\Z")
+                    self.assertFalse(self.out.exists())
 
     def test_the_directory_of_a_run_that_goes_on_is_nobody_elses(self):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1)

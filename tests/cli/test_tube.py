@@ -252,6 +252,6 @@ class LostGrains(CommandTest):
                 self.assertEqual(result.returncode, FAILED, result)
                 self.assertEqual(result.stdout, "")
                 self.assertIn("riesel: the run failed: ", result.stderr)
-                self.assertIn(f"{name}/run.h5", result.stderr)
+                self.assertIn(f"{name}/post_mortem.h5", result.stderr)
                 self.assertIn("/final/position", data_of(self.home / name))
                 self.assertFalse((self.home / name / "summary.json").exists())

@@ -18,7 +18,8 @@ run: {duration: 0.15 s}
 """
 
 FINDINGS = ["max_overlap_ratio", "brake_failure_fraction", "passages_per_wall_visit",
-            "wall_speed_over_v_crit", "pulling_fraction", "steps_per_contact"]
+            "wall_speed_over_v_crit", "pulling_fraction", "steps_per_contact",
+            "energy_error_ratio"]
 
 
 class Validity(CommandTest):

@@ -20,7 +20,8 @@ inline auto all_of(const Contact& c) {
 
 inline auto all_of(const ContactTally& t) {
   return std::tie(t.begun, t.ended, t.max_overlap, t.duration, t.slip_path, t.normal_loss,
-                  t.friction_loss, t.impulse_y, t.impulse_y_times_step, t.durations, t.overlaps);
+                  t.friction_loss, t.energy_won, t.impulse_y, t.impulse_y_times_step, t.durations,
+                  t.overlaps);
 }
 
 inline auto all_of(const BrakeTally& t) {

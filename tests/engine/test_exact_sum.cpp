@@ -1,11 +1,14 @@
 // Sums that come out the same in any order, and are as accurate as their terms.
 #include "engine/exact_sum.hpp"
+
+#include "engine/exact_sums.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 using riesel::ExactSum;
@@ -55,6 +58,25 @@ TEST_CASE("a sum loses less than its resolution per term") {
   for (const double value : values) reference += static_cast<long double>(value);
   CHECK(std::abs(sum_of(values).value() - static_cast<double>(reference)) < 1e-14);
   CHECK(sum_of({1e-20, 1e10, -1e10}).value() == Approx(1e-20).epsilon(1e-7));
+}
+
+TEST_CASE("sums that grow together are those that grow alone, bit by bit") {
+  std::vector<double> values = terms(1000);
+  const double denormal = std::numeric_limits<double>::denorm_min();
+  const std::vector<double> special = {0.0,     -0.0,    1e10,    -1e10,     0.9e11,
+                                       -0.9e11, 0x1p-26, 0x1p-27, -0x1p-58,  0x1p-90,
+                                       0x1p-91, 1e-300,  -1e-300, -denormal, 1.0 + 0x1p-52};
+  values.insert(values.end(), special.begin(), special.end());
+  riesel::ExactSums<3> together;
+  std::array<ExactSum, 3> alone;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::array<double, 3> of_this = {values[i], -values[i], values[values.size() - 1 - i]};
+    together.add(of_this);
+    for (std::size_t k = 0; k < 3; ++k) {
+      alone[k].add(of_this[k]);
+      REQUIRE(together.sum(k) == alone[k]);
+    }
+  }
 }
 
 TEST_CASE("terms that cancel leave nothing") {

@@ -77,6 +77,11 @@ TEST_CASE("the area of a disc left of a line has its closed form") {
   CHECK(area_left_of(0.0, r) == Approx(0.5 * whole));
   CHECK(area_left_of(r, r) == Approx(whole));
   CHECK(area_left_of(3.0 * r, r) == Approx(whole));
+  for (int i = -50; i <= 50; ++i) {
+    const double h = 0.02 * i;
+    const double exact = std::numbers::pi - std::acos(h) + h * std::sqrt(1.0 - h * h);
+    CHECK(std::abs(area_left_of(h * r, r) / (r * r) - exact) < 3e-8);
+  }
   // The segment beyond half the radius: r^2 (pi/3 - sqrt(3)/4)
   CHECK(area_left_of(-0.5 * r, r)
         == Approx(r * r * (std::numbers::pi / 3.0 - std::sqrt(3.0) / 4.0)));

@@ -16,7 +16,8 @@ constexpr Evidence hard = {.max_overlap_ratio = 0.01,
                            .passages_per_visit = 0.01,
                            .wall_speed_ratio = 0.1,
                            .pulling_fraction = 0.05,
-                           .steps_per_contact = 50.0};
+                           .steps_per_contact = 50.0,
+                           .energy_error_ratio = 1e-4};
 
 Validity verdict_with(double Evidence::*member, double value) {
   Evidence evidence = hard;
@@ -29,7 +30,7 @@ Validity verdict_with(double Evidence::*member, double value) {
 TEST_CASE("hard grains are valid, with all findings told") {
   const ValidityVerdict v = judge(hard);
   CHECK(v.verdict == Validity::valid);
-  REQUIRE(v.findings.size() == 6);
+  REQUIRE(v.findings.size() == 7);
   for (const Finding& finding : v.findings) CHECK(finding.verdict == Validity::valid);
   CHECK(v.findings[1].name == "brake_failure_fraction");
   CHECK(v.findings[1].value == hard.brake_failure_fraction);
@@ -59,7 +60,8 @@ TEST_CASE("each threshold separates two verdicts") {
   const Case c = GENERATE(Case{&Evidence::max_overlap_ratio, 0.2, 0.5},
                           Case{&Evidence::brake_failure_fraction, 0.1, 0.5},
                           Case{&Evidence::passages_per_visit, 0.5, 2.0},
-                          Case{&Evidence::wall_speed_ratio, 1.0, 3.0});
+                          Case{&Evidence::wall_speed_ratio, 1.0, 3.0},
+                          Case{&Evidence::energy_error_ratio, 0.01, 0.1});
   CHECK(verdict_with(c.member, 0.99 * c.suspect) == Validity::valid);
   CHECK(verdict_with(c.member, 1.01 * c.suspect) == Validity::suspect);
   CHECK(verdict_with(c.member, 0.99 * c.unphysical) == Validity::suspect);
@@ -80,9 +82,10 @@ TEST_CASE("few steps are suspect and no proof") {
 
 TEST_CASE("what is not known is suspect") {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  for (const auto member : {&Evidence::max_overlap_ratio, &Evidence::brake_failure_fraction,
-                            &Evidence::passages_per_visit, &Evidence::wall_speed_ratio,
-                            &Evidence::pulling_fraction, &Evidence::steps_per_contact})
+  for (const auto member :
+       {&Evidence::max_overlap_ratio, &Evidence::brake_failure_fraction,
+        &Evidence::passages_per_visit, &Evidence::wall_speed_ratio, &Evidence::pulling_fraction,
+        &Evidence::steps_per_contact, &Evidence::energy_error_ratio})
     CHECK(verdict_with(member, unknown) == Validity::suspect);
 }
 

@@ -1,9 +1,9 @@
 // Checkpoints: the same bits come back, and nothing else ever does.
 #include "io/checkpoint.hpp"
-#include "io/checkpoint_seal.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/seal.hpp"
 #include "io/state_layout.hpp"
 #include "tests/io/file_fixture.hpp"
 
@@ -77,7 +77,7 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
     change(root);
   }
   const auto image = file.image();
-  seal(image);
+  seal(image, "checkpoint");
   overwrite(path, {image.begin(), image.end()});
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("Behind the seal, data sets have checksums for any reader of HDF5") {
   const auto place = bytes.find({reinterpret_cast<const char*>(x.data()), x.size() * sizeof x[0]});
   REQUIRE(place != std::string::npos);
   bytes[place] = static_cast<char>(bytes[place] ^ 1);
-  seal(bytes);
+  seal(bytes, "checkpoint");
   overwrite(path, bytes);
   const auto error = error_of_reading(path);
   CAPTURE(error);

@@ -242,7 +242,8 @@ TEST_CASE("A run file holds the last verdict of validity") {
                     .passages_per_visit = 0.0,
                     .wall_speed_ratio = 0.3,
                     .pulling_fraction = 0.05,
-                    .steps_per_contact = 50.0};
+                    .steps_per_contact = 50.0,
+                    .energy_error_ratio = 1e-4};
   file.write_validity(judge(evidence));
   evidence.max_overlap_ratio = 0.7;
   file.write_validity(judge(evidence));

@@ -1,0 +1,83 @@
+#include "app/limit_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace riesel::app {
+
+namespace {
+
+/// The lasting contact with the largest overlap so far; it need not be that of the whole run.
+std::string deepest_contact(const State& state, double overlap) {
+  const auto deepest = std::max_element(
+      state.contacts.begin(), state.contacts.end(),
+      [](const Contact& a, const Contact& b) { return a.max_overlap < b.max_overlap; });
+  if (deepest == state.contacts.end() || deepest->max_overlap < overlap)
+    return "in a contact that has ended";
+  const auto& [wall, grain, partner] = deepest->name;
+  return wall == no_wall
+             ? fmt::format("between grains {} and {}", grain, partner)
+             : fmt::format("of grain {} with grain {} of wall {}", grain, partner, wall);
+}
+
+std::string overlap_exceeded(const State& state, const Observables& seen, double ratio) {
+  return fmt::format("an overlap of {:.3g} m, {:.3g} of the radius of the smaller body, {}; raise "
+                     "contact.stiffness",
+                     seen.max_overlap, ratio, deepest_contact(state, seen.max_overlap));
+}
+
+std::string energy_error_exceeded(double ratio) {
+  return fmt::format("{:.3g} of the energy turned over came or went by errors of the time step, "
+                     "which is too long for the forces; raise run.steps_per_collision",
+                     ratio);
+}
+
+struct Fastest {
+  double speed = 0.0;  // m/s
+  std::int32_t id = 0;
+};
+
+Fastest fastest_grain(const State& state) {
+  Fastest fastest;
+  const GrainView grains(state);
+  for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
+    const Grain g = grains[slot];
+    const double speed = std::hypot(g.vx, g.vy);
+    const std::int32_t id = state.grains.id[slot];
+    if (speed > fastest.speed || (speed == fastest.speed && id < fastest.id)) fastest = {speed, id};
+  }
+  return fastest;
+}
+
+std::string speed_exceeded(const Fastest& fastest) {
+  return fmt::format("grain {} moves with {:.4g} m/s: the brake of the walls has failed; lower the "
+                     "velocity at the start, or raise contact.stiffness",
+                     fastest.id, fastest.speed);
+}
+
+}  // namespace
+
+std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Observables& seen) {
+  std::vector<std::string> messages;
+  const auto look = [&](std::size_t which, const std::optional<double>& limit, double value,
+                        const char* key, const auto& message) {
+    if (!limit || told_.at(which) || !(value > *limit)) return;
+    told_.at(which) = true;
+    messages.push_back(fmt::format("at t = {:.6g} s (step {}) {} is exceeded: {}", seen.time,
+                                   state.step, key, message()));
+  };
+  const double ratio = limits_.overlap ? max_overlap_ratio(state) : 0.0;
+  look(0, limits_.overlap, ratio, "limits.overlap",
+       [&] { return overlap_exceeded(state, seen, ratio); });
+  const double error = energy_error_ratio(state, seen.energies);
+  look(1, limits_.energy_error, error, "limits.energy_error",
+       [&] { return energy_error_exceeded(error); });
+  const Fastest fastest = limits_.speed ? fastest_grain(state) : Fastest{};
+  look(2, limits_.speed, fastest.speed, "limits.speed", [&] { return speed_exceeded(fastest); });
+  return messages;
+}
+
+}  // namespace riesel::app

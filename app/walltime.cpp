@@ -1,0 +1,45 @@
+#include "app/walltime.hpp"
+
+#include "app/commands.hpp"
+#include "io/units.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+
+namespace riesel::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const Clock::time_point start_of_program = Clock::now();
+
+std::optional<double> seconds_in(const std::string& text) {
+  const auto quantity = io::split_quantity(text);
+  if (!quantity) return {};
+  try {
+    return io::value_in_si(*quantity, "s");
+  } catch (const io::UnitError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+double seconds_since_start_of_program() {
+  return std::chrono::duration<double>(Clock::now() - start_of_program).count();
+}
+
+double read_walltime(const std::string& text) {
+  const auto seconds = seconds_in(text);
+  if (!seconds || !(*seconds > 0.0))
+    throw UnusableInput(
+        fmt::format("--max-walltime: expected a time, got '{}'; write for instance '23.5 h' or "
+                    "'600 s'",
+                    text));
+  return *seconds;
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,33 @@
+// The trees of an HDF5 file: names of a group's members, and places of a data set's chunks. See
+// stored_hdf5.hpp.
+//
+// Keys must rise from leaf to leaf, and no node but a root is empty. So a tree that bites its own
+// tail is found at its second leaf, and reading takes no longer than the file is long.
+#pragma once
+
+#include "io/bytes.hpp"
+#include "io/hdf5_header.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace riesel::io {
+
+/// The members of a group, by name, and the addresses of their headers. Throws Hdf5Error or
+/// OutOfBytes.
+std::map<std::string, std::uint64_t> read_hdf5_members(const Bytes& file,
+                                                       const Hdf5Members& members);
+
+/// The chunks of a data set that is cut along its rows, one after the other, without their
+/// checksums, which are right. `chunk_size`: bytes of each; `rows`: of each, in the data set all
+/// rows together have `count` chunks. Throws Hdf5Error or OutOfBytes.
+std::vector<Bytes> read_hdf5_chunks(const Bytes& file, const Hdf5Layout& layout,
+                                    std::uint64_t chunk_size, std::uint64_t count);
+
+/// The checksum that HDF5's filter of this name appends to chunks.
+std::uint32_t fletcher32(const Bytes& bytes);
+
+}  // namespace riesel::io

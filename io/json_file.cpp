@@ -1,0 +1,51 @@
+#include "io/json_file.hpp"
+
+#include "io/file_error.hpp"
+#include "io/whole_file.hpp"
+
+#include <vector>
+
+namespace riesel::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A manifest of the most points that a sweep may have is the largest: 5 MB. What is read takes up
+// to 16 times as much memory.
+constexpr std::uint64_t most_bytes = 32'000'000;
+constexpr int deepest_nesting = 16;
+
+std::vector<char> read_bytes(const std::filesystem::path& path, const std::string& remedy) {
+  try {
+    return read_whole_file(path, most_bytes);
+  } catch (const FileError& error) {
+    throw FileError(path, error.problem(), remedy);
+  }
+}
+
+/// Counted before anything is built: text in quotes does not count.
+bool is_too_deep(const std::vector<char>& bytes) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const char c = bytes[i];
+    if (c == '"') in_text = !in_text;
+    if (in_text && c == '\\') ++i;
+    if (in_text) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > deepest_nesting) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Json read_json(const std::filesystem::path& path, const std::string& remedy) {
+  const auto bytes = read_bytes(path, remedy);
+  Json json(Json::value_t::discarded);
+  if (!is_too_deep(bytes)) json = Json::parse(bytes, nullptr, false);
+  return json;
+}
+
+}  // namespace riesel::io

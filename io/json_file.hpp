@@ -1,0 +1,30 @@
+// JSON files read as a whole. Internal.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace riesel::io {
+
+/// What the file holds; a discarded value if that is no JSON, or nested deeper than anything that
+/// this program writes (what walks through it could exhaust the stack). Throws FileError, with this
+/// remedy, if the file cannot be read or is larger than any that this program writes.
+nlohmann::ordered_json read_json(const std::filesystem::path& path, const std::string& remedy);
+
+/// An integer that is written as one and fits into T. Throws std::exception.
+template <std::signed_integral T>
+T integer_of(const nlohmann::ordered_json& json) {
+  const bool fits = json.is_number_unsigned()
+                        ? std::in_range<T>(json.get<std::uint64_t>())
+                        : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
+  if (!fits) throw std::runtime_error(json.dump() + " is no integer of this size");
+  return json.get<T>();
+}
+
+}  // namespace riesel::io

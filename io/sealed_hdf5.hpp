@@ -1,0 +1,27 @@
+// Files of HDF5 behind a seal, written and opened.
+#pragma once
+
+#include "io/durable_file.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/stored_hdf5.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+namespace riesel::io {
+
+/// Seals a file that was created with a user block of `seal_size` bytes, and writes it durably.
+/// Throws FileError.
+void write_sealed_hdf5(const std::filesystem::path& path, Hdf5File& file, std::string_view kind,
+                       Previous previous);
+
+/// Whether a file without a seal may be opened, too: run files of riesel 0.3.0 and before have
+/// none.
+enum class Unsealed { refused, allowed };
+
+/// The root of a file whose seal is whole. Throws FileError if it cannot be read, Hdf5Error if it
+/// is damaged or of another kind.
+StoredGroup open_sealed_hdf5(const std::filesystem::path& path, std::string_view kind,
+                             Unsealed unsealed);
+
+}  // namespace riesel::io

@@ -1,0 +1,72 @@
+#include "io/whole_file.hpp"
+
+#include "io/file_error.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <span>
+
+namespace riesel::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class File {
+public:
+  /// A pipe without a writer would keep a plain open() waiting.
+  explicit File(const fs::path& path)
+      : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    if (descriptor_ < 0) throw system_failure(path_, "cannot be opened", errno);
+  }
+  ~File() { close(descriptor_); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  File(File&&) = delete;
+  File& operator=(File&&) = delete;
+
+  std::uint64_t size() const {
+    struct stat about = {};
+    if (fstat(descriptor_, &about) != 0) throw system_failure(path_, "cannot be read", errno);
+    if (S_ISDIR(about.st_mode)) throw system_failure(path_, "cannot be read", EISDIR);
+    if (!S_ISREG(about.st_mode)) throw FileError(path_, "is no regular file", "check the path");
+    return static_cast<std::uint64_t>(about.st_size);
+  }
+
+  /// As many bytes as fit into the buffer; fewer if the file ends before. Returns how many.
+  std::size_t read(std::span<char> buffer) {
+    std::size_t size = 0;
+    while (size < buffer.size()) {
+      const ssize_t got = ::read(descriptor_, &buffer[size], buffer.size() - size);
+      if (got == 0) break;
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) throw system_failure(path_, "cannot be read", errno);
+      size += static_cast<std::size_t>(got);
+    }
+    return size;
+  }
+
+private:
+  const fs::path& path_;
+  int descriptor_;
+};
+
+}  // namespace
+
+std::vector<char> read_whole_file(const fs::path& path, std::uint64_t most) {
+  File file(path);
+  const auto size = file.size();
+  if (size > most) {
+    throw FileError(path, fmt::format("is larger than {} bytes", most),
+                    "check that this is the right file");
+  }
+  std::vector<char> bytes(size);
+  bytes.resize(file.read(bytes));
+  return bytes;
+}
+
+}  // namespace riesel::io

@@ -1,0 +1,41 @@
+#include "scenarios/run_limits.hpp"
+
+namespace riesel::scenarios {
+
+io::SettingsTable run_limits_settings() {
+  return {
+      {.key = "limits.overlap",
+       .unit = "1",
+       .range = io::positive(),
+       .doc = "Limit of the largest overlap of a contact over the radius of the smaller body "
+              "(docs/validity.md). By default there is none."},
+      {.key = "limits.energy_error",
+       .unit = "1",
+       .range = io::positive(),
+       .doc = "Limit of the energy that comes or goes by errors of the time step, as a part of the "
+              "initial energy and the work of gravity. By default there is none."},
+      {.key = "limits.speed",
+       .unit = "m/s",
+       .range = io::positive(),
+       .doc = "Limit of the speed of any grain. By default there is none."},
+      {.key = "limits.action",
+       .kind = io::Kind::choice,
+       .fallback = "stop",
+       .choices = {"stop", "warn"},
+       .doc = "What to do when a limit is exceeded: `stop` the run with a checkpoint for the post "
+              "mortem, or `warn` and go on."},
+  };
+}
+
+RunLimits run_limits(const io::Settings& settings) {
+  const auto limit = [&](const char* key) -> std::optional<double> {
+    if (!settings.has(key)) return {};
+    return settings.number(key);
+  };
+  return {.overlap = limit("limits.overlap"),
+          .energy_error = limit("limits.energy_error"),
+          .speed = limit("limits.speed"),
+          .stop = settings.text("limits.action") == "stop"};
+}
+
+}  // namespace riesel::scenarios

@@ -1,0 +1,111 @@
+"""Files made to do harm are refused at once: within 2 s of processor time and 1 GB of memory, or the
+system ends the command."""
+
+import resource
+import subprocess
+
+import h5py
+
+from riesel_command import COMMAND, CommandTest
+
+PROCESSOR_TIME, MEMORY = 2, 1 << 30  # s, bytes
+SIZE = 100_000_000
+
+
+def limit():
+    resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_TIME, PROCESSOR_TIME))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def seal_again(path):
+    """Makes length and checksum right, as io/seal.cpp does."""
+    content = path.read_bytes()
+    checksum = 0xcbf29ce484222325
+    for byte in content[512:]:
+        checksum = (checksum ^ byte) * 0x100000001b3 & 0xffffffffffffffff
+    lines = content[:512].rstrip(b"\0").split(b"\n")
+    lines[2:4] = [b"bytes in all: %d" % len(content),
+                  b"FNV-1a of those behind the block: %016x" % checksum]
+    path.write_bytes(b"\n".join(lines).ljust(512, b"\0") + content[512:])
+
+
+class HostileFiles(CommandTest):
+
+    def limited(self, *arguments):
+        return subprocess.run([COMMAND, *map(str, arguments)], cwd=self.home, timeout=120,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              errors="replace", preexec_fn=limit, check=False,
+                              env={"OMP_NUM_THREADS": "1"})
+
+    def write_bytes(self, name, content):
+        path = self.home / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(content)
+        return path
+
+    def assert_settings_refused(self, content, *mentions):
+        path = self.write_bytes("hostile.yaml", content)
+        for command in (["check"], ["run"], ["sweep", "--dry-run"]):
+            with self.subTest(command):
+                self.assert_refused(self.limited(*command, path), *mentions)
+        self.assertEqual([entry.name for entry in self.home.iterdir()], ["hostile.yaml"])
+
+    def test_a_bomb_of_aliases(self):
+        levels = b"a: &a [x, x, x, x, x, x, x, x, x, x]\n"
+        for above, below in zip(b"abcdefgh", b"bcdefghi"):
+            levels += b"%c: &%c [%s]\n" % (below, below, b", ".join([b"*%c" % above] * 10))
+        self.assert_settings_refused(levels, "anchors", "write values out")
+
+    def test_deep_nesting(self):
+        for opening in (b"[", b"{a: ", b"- ", b"? "):
+            with self.subTest(opening):
+                self.assert_settings_refused(b"a: " + opening * 200_000 if opening != b"- "
+                                             else opening * 200_000, "hostile.yaml")
+
+    def test_a_hundred_megabytes(self):
+        for content in (b"a" * SIZE, b"\n" * SIZE, b"#" + b" x" * (SIZE // 2), bytes(SIZE)):
+            with self.subTest(content[:2]):
+                self.assert_settings_refused(content, "larger than 1000000 bytes")
+
+    def test_a_megabyte_that_is_hard_to_read(self):
+        for content in (b"a: [" + b"x, " * 330_000, b"a: '" + b"''" * 499_000, b"? a\n" * 250_000,
+                        b"a:\n" + b" b: c\n" * 160_000, b"!" * 999_999, b"&" * 999_999,
+                        b"a: |\n" + b" x\n" * 330_000, b"%" * 999_999, b": " * 499_000):
+            with self.subTest(content[:8]):
+                self.assert_settings_refused(content, "hostile.yaml")
+
+    def test_a_hundred_megabytes_as_files_of_runs(self):
+        for name, command, status in (("run/checkpoint.h5", "resume", 2), ("run/run.h5", "report", 1),
+                                      ("run/summary.json", "report", 1),
+                                      ("run/manifest.json", "status", 1),
+                                      ("run/manifest.json", "collect", 1)):
+            for content in (bytes(SIZE), b"[" * SIZE, b"riesel checkpoint\n" * (SIZE // 18)):
+                with self.subTest(name, content=content[:2]):
+                    self.write_bytes(name, content)
+                    result = self.limited(command, "run")
+                    self.assertIn(result.returncode, (1, 2), result)
+                    self.assert_one_message(result.stderr, "run")
+
+    def test_deep_nesting_in_json(self):
+        for name, command in (("run/summary.json", "report"), ("run/manifest.json", "status")):
+            for content in (b"[" * 1_000_000, b'{"a":' * 1_000_000):
+                with self.subTest(name, content=content[:2]):
+                    self.write_bytes(name, content)
+                    self.assert_one_message(self.limited(command, "run").stderr, "run")
+
+    def test_a_forged_checkpoint_with_the_profiles_of_another_tube(self):
+        checkpoint = self.run_small_tube("run") / "checkpoint.h5"
+        whole = checkpoint.read_bytes()
+        seal_again(checkpoint)
+        self.assertEqual(checkpoint.read_bytes(), whole, "the seal is made as it was")
+        with h5py.File(checkpoint, "r+") as file:
+            profiles = file["profiles"]
+            sums = profiles["sums"][:63]
+            for name, value in (("columns", 1), ("samples", sums.size), ("samples_per_block", 1)):
+                profiles.attrs.modify(name, value)
+            del profiles["sums"]
+            profiles.create_dataset("sums", data=sums, chunks=sums.shape, fletcher32=True)
+        seal_again(checkpoint)
+        (checkpoint.parent / "checkpoint.h5.previous").unlink()
+        self.assert_refused(self.riesel("resume", "run"), "is damaged", "profiles",
+                            "start the run again")

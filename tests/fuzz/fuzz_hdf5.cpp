@@ -1,0 +1,168 @@
+// Any bytes as checkpoint.h5 and as run.h5: read, or refused with a FileError.
+//
+// The first byte of the input says what the rest is: the content of a file, or changes to that of a
+// good one, each a place (2 bytes), what to do there (1 byte) and a word (8 bytes). So a fuzzer
+// needs not find out what HDF5 is, and what it finds is short. The length is made right, as who
+// forges a file would do; the fuzzer's readers take checksums for right.
+#include "io/checkpoint.hpp"
+#include "io/file_error.hpp"
+#include "io/run_file.hpp"
+#include "io/run_reader.hpp"
+#include "io/seal.hpp"
+#include "tests/memory_file.hpp"
+#include "tests/small_files.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+using namespace riesel;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Content = std::vector<char>;
+using Input = std::span<const std::uint8_t>;
+
+/// What stands behind the seal.
+Content content_of(void (*write)(const fs::path&)) {
+  const auto all = small_file(write);
+  return {all.begin() + io::seal_size, all.end()};
+}
+
+/// Where the changes go: words that are not zero, as most are unused.
+std::vector<std::size_t> words_in_use(const Content& content) {
+  constexpr std::size_t word = 8;
+  std::vector<std::size_t> places;
+  for (std::size_t place = 0; place + word <= content.size(); place += word) {
+    const auto begin = content.begin() + static_cast<std::ptrdiff_t>(place);
+    if (std::any_of(begin, begin + word, [](char byte) { return byte != 0; }))
+      places.push_back(place);
+  }
+  return places;
+}
+
+struct Good {
+  explicit Good(Content good) : content(std::move(good)), places(words_in_use(content)) {}
+  Content content;
+  std::vector<std::size_t> places;
+};
+
+std::uint64_t number(Input digits) {
+  std::uint64_t value = 0;
+  for (std::size_t i = digits.size(); i-- > 0;) value = value << 8U | digits[i];
+  return value;
+}
+
+std::uint64_t word_of(const Content& content, std::size_t place) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, &content[place], sizeof word);
+  return word;
+}
+
+/// Puts the lowest `width` bytes of a number, or fewer at the end.
+void put(Content& content, std::size_t place, std::uint64_t value, std::size_t width) {
+  for (std::size_t i = 0; i < width && place + i < content.size(); ++i)
+    content[place + i] = static_cast<char>(value >> 8U * i);
+}
+
+Content changed(const Good& good, Input changes) {
+  constexpr std::size_t size = 11;
+  enum : unsigned { put_byte, put_half, put_word, copy_word, cut };
+  Content content = good.content;
+  for (; changes.size() >= size; changes = changes.subspan(size)) {
+    const auto place_of = [&](std::uint64_t n) { return good.places[n % good.places.size()]; };
+    const std::size_t at = place_of(number(changes.first(2))) + changes[2] / 32U;
+    const std::uint64_t value = number(changes.subspan(3, 8));
+    switch (changes[2] % 8U) {
+    case put_byte:
+      put(content, at, value, 1);
+      break;
+    case put_half:
+      put(content, at, value, 4);
+      break;
+    case put_word:
+      put(content, at, value, 8);
+      break;
+    case copy_word:
+      put(content, at, word_of(good.content, place_of(value)), 8);
+      break;
+    case cut:
+      content.resize(std::min<std::size_t>(content.size(), value % good.content.size()));
+      break;
+    default:
+      put(content, at, value, 2);
+    }
+  }
+  return content;
+}
+
+/// Behind the first line of a seal.
+Content sealed(const Content& content, const std::string& kind) {
+  constexpr std::size_t place_of_length = 40;
+  const std::string title = "riesel " + kind + "\n";
+  Content image(io::seal_size + content.size());
+  std::copy(title.begin(), title.end(), image.begin());
+  std::copy(content.begin(), content.end(), image.begin() + io::seal_size);
+  put(image, io::seal_size + place_of_length, image.size(), 8);
+  return image;
+}
+
+enum class Kind { anything, checkpoint, run };
+
+Kind kind_of(Input input) {
+  switch (input.empty() ? 0U : input[0] % 4U) {
+  case 1:
+    return Kind::checkpoint;
+  case 2:
+  case 3:
+    return Kind::run;
+  default:
+    return Kind::anything;
+  }
+}
+
+Content content_from(Input input) {
+  static const Good checkpoint(content_of(write_small_checkpoint)),
+      run(content_of(write_small_run_file));
+  const Input rest = input.subspan(input.empty() ? 0 : 1);
+  switch (kind_of(input)) {
+  case Kind::checkpoint:
+    return changed(checkpoint, rest);
+  case Kind::run:
+    return changed(run, rest);
+  default:
+    return {rest.begin(), rest.end()};
+  }
+}
+
+template <class Read>
+void attempt(Read read) {
+  try {
+    read();
+  } catch (const io::FileError&) {
+  }
+}
+
+}  // namespace
+
+// The name is libFuzzer's.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto content = content_from({data, size});
+  const auto kind = kind_of({data, size});
+  if (kind != Kind::run) {
+    const MemoryFile file(sealed(content, "checkpoint"));
+    attempt([&] { io::read_checkpoint(file.path()); });
+  }
+  if (kind != Kind::checkpoint) {
+    const MemoryFile file(sealed(content, io::run_file_kind));
+    attempt([&] { io::read_run_file(file.path()); });
+    attempt([&] { io::RunFile::reopen(file.path(), {{"date", "later"}}, small_columns, 2); });
+  }
+  return 0;
+}

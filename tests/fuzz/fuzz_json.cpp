@@ -1,0 +1,69 @@
+// Any bytes as the JSON files of runs and sweeps: read, or refused with a FileError.
+#include "io/file_error.hpp"
+#include "io/run_record.hpp"
+#include "io/summary.hpp"
+#include "io/summary_reader.hpp"
+#include "io/sweep_manifest.hpp"
+#include "io/sweep_table.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+using namespace riesel;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory in which one file goes by all the names that are read.
+class Directory {
+public:
+  Directory() {
+    auto name = (fs::temp_directory_path() / "riesel-fuzz-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) std::abort();
+    path_ = name;
+    put(nullptr, 0);
+    for (const char* other : {io::manifest_name, "attempts.json"})
+      fs::create_hard_link(path_ / io::summary_name, path_ / other);
+  }
+  ~Directory() { fs::remove_all(path_); }
+  Directory(const Directory&) = delete;
+  Directory& operator=(const Directory&) = delete;
+  Directory(Directory&&) = delete;
+  Directory& operator=(Directory&&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  void put(const char* bytes, std::size_t size) const {
+    std::ofstream file(path_ / io::summary_name, std::ios::binary | std::ios::trunc);
+    file.write(bytes, static_cast<std::streamsize>(size));
+  }
+
+private:
+  fs::path path_;
+};
+
+template <class Read>
+void attempt(Read read) {
+  try {
+    read();
+  } catch (const io::FileError&) {
+  }
+}
+
+}  // namespace
+
+// The name is libFuzzer's.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Directory directory;
+  directory.put(reinterpret_cast<const char*>(data), size);
+  attempt([&] { io::read_summary(directory.path() / io::summary_name); });
+  attempt([&] { (void)io::flat_summary(directory.path() / io::summary_name); });
+  attempt([&] { io::read_manifest(directory.path()); });
+  attempt([&] { io::read_run_record(directory.path()); });
+  return 0;
+}

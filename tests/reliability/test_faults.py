@@ -1,0 +1,163 @@
+"""Faults on order, by a library that is preloaded (fault_shim.c): a run is killed inside any of the calls
+that change its files, or the call fails. Nothing that was saved is lost, and nothing stands half-written.
+
+The variable RIESEL_KILLS tells how many kills inside calls are tried, 24 unless it is set, and half as many
+at any moment; `all` tries each call, before and after it is done, and 200 moments. The same seed gives the same kills.
+"""
+
+import os
+import random
+import shutil
+import signal
+import time
+
+from riesel_command import CommandTest, SMALL_TUBE, bytes_of_files
+
+SHIM = os.environ["RIESEL_SHIM"]
+KILLS = os.environ.get("RIESEL_KILLS", "24")
+# Saves with each row: about 20 rows, and at each some 18 calls.
+TUBE = SMALL_TUBE.replace("5 ms", "6 ms") + "output: {interval: 0.3 ms, checkpoint_interval: 1e-6 s}\n"
+KINDS = ["open", "write", "fsync", "close", "link", "rename"]
+ERRORS = {28: "No space left", 5: "Input/output error", 13: "Permission denied", 30: "Read-only",
+          122: "Disk quota exceeded"}
+
+
+class Faults(CommandTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.maker = cls.maker()
+        cls.maker.write("tube.yaml", TUBE)
+        cls.maker.faulty("run", "tube.yaml", "--out", "out", log=True)
+        cls.whole = cls.maker.home / "out"
+        cls.maker.assert_same_result(cls.whole, cls.maker.run_to_end("tube.yaml", "alone"))
+        cls.calls = (cls.maker.home / "log").read_text(encoding="ascii").split()
+
+    def setUp(self):
+        super().setUp()
+        self.write("tube.yaml", TUBE)
+        self.out = self.home / "out"
+        self.random = random.Random(1)
+
+    def faulty(self, *arguments, fault=None, log=False):
+        """Calls the command with a fault; names of files are relative, as the shim wants them."""
+        environment = {"LD_PRELOAD": SHIM}
+        if fault is not None:
+            environment["RIESEL_FAULT"] = fault
+        if log:
+            environment["RIESEL_FAULT_LOG"] = str(self.home / "log")
+        return self.riesel(*arguments, "--threads", "1", **environment)
+
+    def start_again(self):
+        if self.out.exists():
+            shutil.rmtree(self.out)
+
+    def go_on(self, **how):
+        """As a user would: resumes, or starts again where nothing had been saved yet."""
+        if not (self.out / "checkpoint.h5").exists() and not (
+                self.out / "checkpoint.h5.previous").exists():
+            self.start_again()
+            return self.faulty("run", "tube.yaml", "--out", "out", **how)
+        return self.faulty("resume", "out", **how)
+
+    def assert_goes_on_as_uninterrupted(self):
+        self.assert_done(self.go_on())
+        self.assert_same_result(self.whole, self.out)
+        self.assertEqual([path.name for path in self.out.iterdir() if ".tmp" in path.name], [])
+
+    def kill_at(self, call, how):
+        result = self.faulty("run", "tube.yaml", "--out", "out", fault=f"any:{call}:{how}")
+        self.assertEqual(result.returncode, -signal.SIGKILL, result)
+
+    def kills(self):
+        """(number of the call, kill or killed_after)"""
+        every = [(call, how) for call in range(1, len(self.calls) + 1)
+                 for how in ("kill", "killed_after")]
+        return every if KILLS == "all" else self.random.sample(every, min(len(every), int(KILLS)))
+
+    # --- the order in which a file is written ---
+
+    def test_a_file_is_on_the_disk_before_it_gets_its_name_and_the_name_before_anything_else(self):
+        calls = " ".join(self.calls)
+        file, name, directory = "open write fsync close", "rename", "open fsync close"
+        kept = "link rename rename", "link rename"  # the generation before, which the first has not
+        rest = calls
+        for naming in (*kept, name):
+            rest = rest.replace(f"{file} {naming} {directory}", "*")
+        self.assertRegex(rest, r"\Aopen( \*)+( close)?\Z")  # the lock, then nothing but that
+
+    # --- kills ---
+
+    def test_killed_inside_a_call(self):
+        kills = self.kills()
+        for call, how in kills:
+            with self.subTest(call=call, name=self.calls[call - 1], how=how):
+                self.start_again()
+                self.kill_at(call, how)
+                self.assert_goes_on_as_uninterrupted()
+        print(f"{len(kills)} kills inside calls, of {len(self.calls)} calls")
+
+    def test_killed_again_and_again(self):
+        for _ in range(3):
+            self.start_again()
+            kills = 0
+            while kills < 8:
+                result = self.go_on(fault=f"any:{self.random.randrange(25, 60)}:kill")
+                if result.returncode == 0:
+                    break
+                self.assertEqual(result.returncode, -signal.SIGKILL, result)
+                kills += 1
+            self.assertGreater(kills, 2)
+            self.assert_goes_on_as_uninterrupted()
+
+    def test_killed_at_any_moment(self):
+        for _ in range(200 if KILLS == "all" else int(KILLS) // 2):
+            moment = self.random.uniform(0.0, 0.1)  # s
+            with self.subTest(moment=moment):
+                self.start_again()
+                process = self.start("run", "tube.yaml", "--out", "out", "--threads", 1)
+                time.sleep(moment)
+                process.kill()
+                process.communicate()
+                self.assert_goes_on_as_uninterrupted()
+
+    # --- calls that fail ---
+
+    def assert_fails_with_word(self, result, error):
+        self.assertEqual(result.returncode, 1, result)
+        self.assert_one_message(result.stderr, "out", ERRORS[error])
+
+    def run_with_failure(self, kind, error, lasting):
+        """A run of which one call of the kind fails, or all from one on, after the first checkpoint."""
+        first = 2 if kind == "link" else 8
+        call = self.random.randrange(first, self.calls.count(kind) // 2)
+        self.start_again()
+        return self.faulty("run", "tube.yaml", "--out", "out", fault=f"{kind}:{call}:{error}{lasting}")
+
+    def test_a_call_that_fails_ends_the_run_with_a_message_and_loses_nothing(self):
+        for kind in KINDS:
+            for error, lasting in [(error, "") for error in ERRORS] + [(28, "+")]:
+                with self.subTest(kind=kind, error=ERRORS[error], lasting=lasting):
+                    result = self.run_with_failure(kind, error, lasting)
+                    # Nothing depends on how a directory that has been synchronised is closed.
+                    if kind != "close" or result.returncode != 0:
+                        self.assert_fails_with_word(result, error)
+                    self.assert_goes_on_as_uninterrupted()
+
+    def test_a_resume_that_fails_loses_nothing(self):
+        for kind in KINDS:
+            with self.subTest(kind=kind):
+                self.start_again()
+                self.kill_at(len(self.calls) // 2, "kill")
+                before = bytes_of_files(self.out)
+                result = self.faulty("resume", "out", fault=f"{kind}:1:28+")
+                self.assert_fails_with_word(result, 28)
+                after = bytes_of_files(self.out)
+                for name in ("checkpoint.h5", "checkpoint.h5.previous"):
+                    self.assertEqual(after[name], before[name], name)
+                self.assert_goes_on_as_uninterrupted()
+
+    def test_nothing_can_be_written_at_all(self):
+        result = self.faulty("run", "tube.yaml", "--out", "out", fault="open:1:13+")
+        self.assert_fails_with_word(result, 13)
+        self.assertEqual(bytes_of_files(self.out), {})

@@ -1,0 +1,87 @@
+#include "tests/small_files.hpp"
+
+#include "engine/histogram_blocks.hpp"
+#include "engine/simulation.hpp"
+#include "engine/tube_profiles.hpp"
+#include "io/checkpoint.hpp"
+#include "io/settings.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace riesel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+State state_of_a_small_tube() {
+  const auto settings = io::Settings::from_text("scenario: periodic_tube\n"
+                                                "contact: {stiffness: 2000 N/m, restitution: 0.9}\n"
+                                                "grains: {area_fraction: 0.4}\n"
+                                                "tube: {width: 4 mm, length: 5 mm}\n"
+                                                "start: {random_velocity: 2 m/s}\n"
+                                                "run: {duration: 5 ms}\n",
+                                                "tube.yaml", scenarios::settings_tables());
+  auto problem = scenarios::named(settings.scenario()).prepare(settings);
+  auto& flow = std::get<scenarios::Flow>(problem);
+  Simulation simulation(std::move(flow.state), flow.model, 1);
+  do simulation.advance(100);
+  while (simulation.state().contacts.size() < 2 || simulation.state().open_visits.empty());
+  return simulation.state();
+}
+
+}  // namespace
+
+const std::vector<io::Column> small_columns = {{"time", "s", "t"}, {"velocity", "m/s", "v"}};
+
+void write_small_checkpoint(const fs::path& path) {
+  io::write_checkpoint(path, {.state = state_of_a_small_tube(),
+                              .settings = "scenario: periodic_tube\n",
+                              .source = "# mine\n",
+                              .rows = 2,
+                              .wall_seconds = 0.1,
+                              .profiles = TimeBlocks(1, 3, 2, {1.0, 2.0}),
+                              .histograms = HistogramBlocks().blocks()});
+}
+
+void write_small_run_file(const fs::path& path) {
+  auto file = io::RunFile::create(path, {{"date", "today"}, {"settings", "a: 1"}}, small_columns);
+  for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0});
+  file.write_final_state(state_of_a_small_tube());
+  std::vector<TubeProfile> profiles;
+  for (const char* name : {"area_fraction", "mean_axial_velocity", "temperature_x", "temperature_y",
+                           "stress_xx", "stress_xy", "stress_yy"})
+    profiles.push_back({.name = name, .unit = "1", .meaning = "m", .zones = {{}, {}}});
+  file.write_profiles({.width = 1e-3, .length = 0.1, .count = 2}, profiles, 0.1);
+  std::vector<HistogramTable> histograms;
+  for (const char* name : {"grain_contact_duration", "wall_contact_duration",
+                           "grain_contact_overlap", "wall_contact_overlap"})
+    histograms.push_back({.name = name,
+                          .unit = "1",
+                          .meaning = "m",
+                          .lower_edges = {1.0, 2.0},
+                          .counts = {1, 0},
+                          .rates = {{}, {}}});
+  file.write_histograms(histograms, 0.1);
+  file.flush();
+}
+
+std::vector<char> small_file(void (*write)(const fs::path&)) {
+  auto directory = (fs::temp_directory_path() / "riesel-small-XXXXXX").string();
+  if (mkdtemp(directory.data()) == nullptr) throw std::runtime_error("no temporary directory");
+  const auto path = fs::path(directory) / "file.h5";
+  write(path);
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+  fs::remove_all(directory);
+  return bytes;
+}
+
+}  // namespace riesel
