@@ -1,85 +1,125 @@
-"""Fig. 6: what the spacing of the wall grains does, and where the fast branch is."""
+"""Fig. 6: the slow and the fast branch of three stiffnesses, seeds together."""
 from results import print_table, save
-from tube import WINDOWS, at_default_spacing, runs_of
+from tube import WINDOWS, grouped, over_seeds, plus_minus, runs_of, runs_of_all, seeds_text
+
+COLORS = {200.0: "C2", 2000.0: "C0", 2e5: "C3"}
 
 
-# --- The spacing ---
+# --- The slow branch ---
 
-def state_cell(run):
-    """The velocity if it is one, else how far the fall has come in the last window."""
-    return run.with_error("velocity") if run.settled else f"falls: {run.velocity_5:.3g}, wall {run.share_5:.2f}"
-
-
-def fig6_map(tables, out, plt):
-    """A row per spacing and start, a column per e_N."""
-    runs = runs_of(tables / "fig6_map.csv")
-    e_ns = sorted({run.e_n for run in runs})
-    rows = {}
-    for run in runs:
-        rows.setdefault((1e3 * run.spacing, run.branch), {})[run.e_n] = state_cell(run)
-    print_table("Fig. 6, spacing of the wall grains, 2000 N/m",
-                ("spacing (mm)", "start", *(f"e_N = {e_n:g}" for e_n in e_ns)),
-                [(*place, *(cells[e_n] for e_n in e_ns)) for place, cells in rows.items()])
-    print_end(runs_of(tables / "fig6_end.csv"))
-    save(draw_map(plt, runs), out / "fig6_map.svg")
+def slow_row(k_n, e_n, runs):
+    stay = [run for run in runs if run.stays]
+    return (k_n, e_n, f"{len(stay)} of {len(runs)}", f"{sum(run.lost for run in runs)} of {len(runs)}",
+            seeds_text([run.velocity for run in stay]) if stay else "",
+            f"{sum(run.state == 'steady' for run in stay)}", f"{max(run.brake_failure for run in runs):.1g}")
 
 
-def print_end(runs):
-    """Slow starts around the end of the slow branch: a row per e_N, a column per seed."""
-    cells = {(run.e_n, run.seed): state_cell(run) for run in runs}
-    seeds = sorted({run.seed for run in runs})
-    print_table("Fig. 6, end of the slow branch, 2000 N/m, spacing 1.2 mm",
-                ("e_N", *(f"seed {seed:g}" for seed in seeds)),
-                [(e_n, *(cells.get((e_n, seed), "not run") for seed in seeds))
-                 for e_n in sorted({run.e_n for run in runs})])
+def fig6(tables, out, plt):
+    slow = runs_of(tables / "fig6_slow.csv")
+    print_table("Fig. 6, slow starts, spacing 1.2 mm, W = 20 mm, L = 48 mm, 3 s",
+                ("k_N (N/m)", "e_N", "stay", "lost", "mean v_y of those that stay (m/s)", "steady", "brake failure, worst"),
+                [slow_row(*place, runs) for place, runs in grouped(slow, "k_n", "e_n")])
+    save(draw_fig6(plt, slow, fast_states(tables)), out / "fig6.svg")
 
 
-def draw_map(plt, runs):
-    """The wall's share of the weight in the last window, over e_N and spacing."""
-    branches = list(dict.fromkeys(run.branch for run in runs))
-    figure, panels = plt.subplots(1, len(branches), figsize=(7, 3.2), sharey=True)
-    for axes, branch in zip(panels, branches):
-        of_this = [run for run in runs if run.branch == branch]
-        dots = axes.scatter([run.e_n for run in of_this], [1e3 * run.spacing for run in of_this],
-                            c=[run.share_5 for run in of_this], vmin=0, vmax=1, s=60, marker="s")
-        axes.set(title=f"{branch} start", xlabel="e_N", xlim=(0.55, 1))
-    panels[0].set_ylabel("spacing (mm)")
-    figure.colorbar(dots, ax=panels[-1], label="share of the weight")
+def draw_fig6(plt, slow, fast):
+    """Full: the slow branch, mean of the seeds that stay. Open: the fast states; bars without a symbol: between which
+    velocities one lies."""
+    figure, panels = plt.subplots(1, len(COLORS), figsize=(10, 3.4), sharey=True)
+    for axes, (k_n, color) in zip(panels, COLORS.items()):
+        for (e_n,), runs in grouped([run for run in slow if run.k_n == k_n and run.stays], "e_n"):
+            draw_state(axes, e_n, runs, color, marker="o")
+        for state in (state for state in fast if state.k_n == k_n):
+            if state.settled:
+                draw_state(axes, state.e_n, state.settled, color, marker="^", markerfacecolor="none")
+            else:
+                axes.vlines(state.e_n, *state.between, color=color, linestyle=":")
+        axes.set(xlabel="e_N", title=f"k_N = {k_n:g} N/m", yscale="log", xlim=(0.55, 1), ylim=(1, 700))
+    panels[0].set_ylabel("mean axial velocity (m/s)")
+    panels[0].plot([], [], "ko", label="slow branch")
+    panels[0].plot([], [], "k^", markerfacecolor="none", label="fast branch")
+    panels[0].legend(fontsize=7)
     return figure
+
+
+def draw_state(axes, e_n, runs, color, **symbol):
+    """The mean of several seeds with its error; of a single one the point."""
+    value, error = over_seeds([run.velocity for run in runs])
+    axes.errorbar(e_n, value, error if len(runs) > 1 else None, color=color, capsize=2, **symbol)
 
 
 # --- The fast branch ---
 
-def fast_row(run):
-    if run.settled:
-        seen = [run.with_error(name) for name in ("velocity", "share", "sigma_vx")]
-    else:
-        seen = [f"{getattr(run, f'{name}_5'):.3g} at the end" for name in ("velocity", "share", "sigma_vx")]
-    return (run.e_n, run.start, run.time, run.state.replace("_", " "), *seen, run.brake_failure,
-            run.steps_per_contact, run.verdict)
+class FastState:
+    """All fast starts at one stiffness and e_N: those that have settled, and between which velocities the state lies by
+    the others, of which the wall carries less than the weight from below and more from above."""
+
+    def __init__(self, k_n, e_n, runs):
+        self.k_n, self.e_n, self.runs = k_n, e_n, runs
+        fast = [run for run in runs if run.lost]
+        self.settled = [run for run in fast if run.settled]
+        below = [run.velocity_5 for run in fast if run.share_5 < 1]
+        above = [run.velocity_5 for run in fast if run.share_5 > 1]
+        self.between = (max(below, default=0.0), min(above, default=float("inf")))
+
+    @property
+    def text(self):
+        if self.settled:
+            return seeds_text([run.velocity for run in self.settled])
+        low, high = self.between
+        return f"above {low:.3g}" if high == float("inf") else f"{low:.3g} to {high:.3g}"
+
+
+def fast_states(tables):
+    runs = runs_of_all(tables, ("fig6_fast", "fig6_above", "fig6_stiff"))
+    return [FastState(*place, of_this) for place, of_this in sorted(grouped(runs, "k_n", "e_n"))]
+
+
+def end_of(name, runs, digits="3g"):
+    values = [getattr(run, name) for run in runs]
+    return plus_minus(*over_seeds(values)) if len(values) > 1 else f"{values[0]:.{digits}}"
+
+
+def fast_row(k_n, e_n, start, runs):
+    states = ", ".join(dict.fromkeys(run.state.replace("_", " ") for run in runs))
+    return (k_n, e_n, start, runs[0].time, len(runs), end_of("velocity_5", runs), end_of("share_5", runs, "2f"), states,
+            f"{max(run.brake_failure for run in runs):.2g}", f"{min(run.steps_per_contact for run in runs):.2g}")
 
 
 def fig6_fast(tables, out, plt):
-    runs = runs_of(tables / "fig6_fast.csv")
-    print_table("Fig. 6, fast branch, 2000 N/m",
-                ("e_N", "start (m/s)", "time (s)", "state", "mean v_y (m/s)", "n_dot dv_y / g", "sigma_vx (m/s)",
-                 "brake failure", "steps per contact", "verdict"), [fast_row(run) for run in runs])
-    falls = [run for run in at_default_spacing(runs_of(tables / "fig6_map.csv")) if run.branch == "fast"]
-    save(draw_fast(plt, falls + runs), out / "fig6_fast.svg")
+    states = fast_states(tables)
+    print_table("Fig. 6, fast branch: the states", ("k_N (N/m)", "e_N", "fast state (m/s)", "settled"),
+                [(s.k_n, s.e_n, s.text, f"{len(s.settled)} of {len(s.runs)}") for s in states])
+    print_table("Fig. 6, fast branch: the runs; in the last fifth of each",
+                ("k_N (N/m)", "e_N", "start (m/s)", "time (s)", "seeds", "v_y at the end (m/s)", "n_dot dv_y / g", "state",
+                 "brake failure", "steps per contact"),
+                [fast_row(s.k_n, s.e_n, start, runs) for s in states for (start,), runs in grouped(s.runs, "start")])
+    print_checks(runs_of(tables / "fig6_checks.csv"))
+    save(draw_fast(plt, [run for s in states for run in s.runs]), out / "fig6_fast.svg")
+
+
+def print_checks(runs):
+    print_table("Fig. 6, fast branch of 2000 N/m: time step and attraction",
+                ("e_N", "start (m/s)", "steps per collision", "attraction", "time (s)", "v_y at the end (m/s)",
+                 "n_dot dv_y / g", "sigma_vx (m/s)", "steps per contact", "state"),
+                [(run.e_n, run.start, run.steps, run.attraction, run.time, run.velocity_5, f"{run.share_5:.2f}",
+                  f"{run.sigma_vx_5:.2g}", f"{run.steps_per_contact:.2g}", run.state.replace("_", " ")) for run in runs])
 
 
 def draw_fast(plt, runs):
     """How much of the weight the wall carries at which velocity, in the windows of each run: where it passes 1 upwards
     there is a stable state."""
-    figure, axes = plt.subplots(figsize=(6, 3.5))
+    figure, panels = plt.subplots(1, len(COLORS), figsize=(10, 3.5), sharey=True)
     colors = {e_n: f"C{i}" for i, e_n in enumerate(sorted({run.e_n for run in runs}))}
     windows = range(1, WINDOWS + 1)
-    for run in runs:
-        axes.semilogx([getattr(run, f"velocity_{i}") for i in windows], [getattr(run, f"share_{i}") for i in windows],
-                      "o-", markersize=3, color=colors[run.e_n])
+    for axes, k_n in zip(panels, COLORS):
+        for run in (run for run in runs if run.k_n == k_n):
+            axes.semilogx([getattr(run, f"velocity_{i}") for i in windows], [getattr(run, f"share_{i}") for i in windows],
+                          "o-", markersize=3, color=colors[run.e_n])
+        axes.axhline(1, color="0.5", linewidth=0.8)
+        axes.set(xlabel="mean axial velocity (m/s)", title=f"k_N = {k_n:g} N/m", ylim=(0, 3))
     for e_n, color in colors.items():
-        axes.plot([], [], "o-", markersize=3, color=color, label=f"e_N = {e_n:g}")
-    axes.axhline(1, color="0.5", linewidth=0.8)
-    axes.set(xlabel="mean axial velocity (m/s)", ylabel="the wall's share of the weight", ylim=(0, 3))
-    axes.legend(fontsize=7)
+        panels[0].plot([], [], "o-", markersize=3, color=color, label=f"e_N = {e_n:g}")
+    panels[0].set_ylabel("the wall's share of the weight")
+    panels[0].legend(fontsize=7)
     return figure

@@ -1,15 +1,20 @@
 """The argument behind Fig. 6: where single impacts on the wall balance gravity, eq. (9), beside the measured states.
 
 g = n_dot dv_y needs of each visit to the wall the loss g / n_dot. The curve of single impacts (Fig. 5) at the
-grains' v_x says at which v_y they lose that much: a state is stable where the curve rises through it.
+grains' v_x says at which v_y they lose that much: a state is stable where the curve rises through it. Which v_x that is:
+sigma_vx of the whole tube, as in the paper; sigma_vx of the wall layer; the mean v_x of grains of that layer as they
+come to the wall, (pi/2)^(1/2) sigma_vx for a Maxwellian, as faster ones come more often; or the one that is inferred from
+how visits change v_x.
 """
+from statistics import mean
+
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 from scipy.optimize import brentq
 
 from impacts import curves_of
-from results import print_table, save
-from tube import at_default_spacing, runs_of
+from results import print_table, rows_of, save
+from tube import at_default_spacing, grouped, runs_of, seeds_text
 
 GRAVITY = 10.0  # m/s^2, scenarios/periodic_tube.yaml
 
@@ -50,18 +55,34 @@ def impacts_of(sweep):
 
 
 class Case:
-    """A measured state and what single impacts predict of it."""
+    """A measured state, seeds together, and what single impacts predict of it."""
 
-    def __init__(self, run, impacts):
-        self.run, self.impacts = run, impacts
-        self.needed = GRAVITY / run.visit_rate
-        self.v_x = impacts.v_x_of(run.visit_dv_x, run.entry_slip)
+    def __init__(self, e_n, runs, impacts):
+        self.e_n, self.runs, self.impacts = e_n, runs, impacts
+        self.slip, self.visit_rate, dv_x = (self.mean(name) for name in ("entry_slip", "visit_rate", "visit_dv_x"))
+        self.needed = GRAVITY / self.visit_rate
+        at_wall = self.mean("sigma_vx_wall")
+        self.v_x = {"sigma_vx": self.mean("sigma_vx"), "sigma_vx at the wall": at_wall,
+                    "arrival": np.sqrt(np.pi / 2) * at_wall, "inferred": impacts.v_x_of(dv_x, self.slip)}
+
+    def mean(self, name):
+        return mean(getattr(run, name) for run in self.runs)
+
+    def text(self, name):
+        return seeds_text([getattr(run, name) for run in self.runs])
+
+
+def settled_states(tables):
+    """Of 2000 N/m: seeds of slow starts that stay, and the fast starts that have settled."""
+    slow = [run for run in runs_of(tables / "fig6_slow.csv") if run.stays]
+    fast = [run for run in runs_of(tables / "fig6_fast.csv") if run.lost and run.settled]
+    return [run for run in at_default_spacing(slow + fast) if run.k_n == 2000]
 
 
 def cases_of(tables, sweep):
     impacts = impacts_of(sweep)
-    runs = at_default_spacing(runs_of(tables / "fig6_map.csv")) + runs_of(tables / "fig6_fast.csv")
-    return [Case(run, impacts[run.e_n]) for run in sorted(runs, key=lambda run: run.e_n) if run.settled]
+    states = [run for run in settled_states(tables) if run.e_n in impacts]
+    return [Case(e_n, runs, impacts[e_n]) for (e_n, _), runs in sorted(grouped(states, "e_n", "lost"))]
 
 
 def crossings_text(crossings):
@@ -71,16 +92,20 @@ def crossings_text(crossings):
 def fig6_balance(sweeps, tables, out, plt):
     cases = cases_of(tables, sweeps / "fig6_curves")
     print_table("Fig. 6, measured states, 2000 N/m, velocities in m/s; g / n_dot is what a visit must lose",
-                ("e_N", "mean v_y", "sigma_vx", "slip at the wall", "v_x at the wall", "n_dot (1/s)", "g / n_dot",
-                 "dv_y of a visit", "of a single impact"),
-                [(c.run.e_n, c.run.with_error("velocity"), c.run.with_error("sigma_vx"), c.run.entry_slip, c.v_x,
-                  c.run.visit_rate, c.needed, c.run.with_error("visit_dv_y"),
-                  float(c.impacts.dv_y(c.v_x, c.run.entry_slip))) for c in cases])
-    print_table("Fig. 6, predicted states: v_y at which single impacts lose g / n_dot, m/s",
-                ("e_N", "slip at the wall", "with v_x = sigma_vx", "with v_x at the wall"),
-                [(c.run.e_n, c.run.entry_slip, crossings_text(c.impacts.crossings(c.run.sigma_vx, c.needed)),
-                  crossings_text(c.impacts.crossings(c.v_x, c.needed))) for c in cases])
+                ("e_N", "runs", "mean v_y", "slip at the wall", "n_dot (1/s)", "g / n_dot", "dv_y of a visit",
+                 "of a single impact"),
+                [(c.e_n, len(c.runs), c.text("velocity"), c.text("entry_slip"), c.text("visit_rate"), c.needed,
+                  c.text("visit_dv_y"), float(c.impacts.dv_y(c.v_x["inferred"], c.slip))) for c in cases])
+    print_table("Fig. 6, v_x in m/s: sigma_vx in the tube, in its core and at its wall, and what comes to the wall",
+                ("e_N", "slip at the wall", "sigma_vx", "in the core", "at the wall", "arrival", "inferred"),
+                [(c.e_n, c.slip, c.text("sigma_vx"), c.text("sigma_vx_core"), c.text("sigma_vx_wall"),
+                  c.v_x["arrival"], c.v_x["inferred"]) for c in cases])
+    print_table("Fig. 6, predicted states: v_y at which single impacts lose g / n_dot, m/s, with four choices of v_x",
+                ("e_N", "slip at the wall", *cases[0].v_x),
+                [(c.e_n, c.slip, *(crossings_text(c.impacts.crossings(v_x, c.needed)) for v_x in c.v_x.values()))
+                 for c in cases])
     save(draw_balance(plt, cases), out / "fig6_balance.svg")
+    save(draw_profiles(plt, cases, rows_of(tables / "fig6_profiles.csv")), out / "fig6_profiles.svg")
 
 
 def draw_balance(plt, cases):
@@ -88,11 +113,27 @@ def draw_balance(plt, cases):
     figure, panels = plt.subplots(1, len(cases), figsize=(2.6 * len(cases), 3.2), sharey=True, squeeze=False)
     for axes, c in zip(panels[0], cases):
         v_y = c.impacts.v_y
-        axes.loglog(v_y, c.impacts.dv_y(c.run.sigma_vx, v_y), label="v_x = sigma_vx")
-        axes.loglog(v_y, c.impacts.dv_y(c.v_x, v_y), "--", label="v_x at the wall")
+        for name, v_x in c.v_x.items():
+            axes.loglog(v_y, c.impacts.dv_y(v_x, v_y), label=f"v_x: {name}")
         axes.axhline(c.needed, color="0.3", linestyle=":", label="g / n_dot")
-        axes.plot(c.run.entry_slip, c.run.visit_dv_y, "ko", label="measured")
-        axes.set(title=f"e_N = {c.run.e_n:g}, {c.run.velocity:.3g} m/s", xlabel="v_y (m/s)", ylim=(0.05, 5))
+        axes.plot(c.slip, c.mean("visit_dv_y"), "ko", label="measured")
+        axes.set(title=f"e_N = {c.e_n:g}, {c.mean('velocity'):.3g} m/s", xlabel="v_y (m/s)", ylim=(0.05, 5))
     panels[0][0].set_ylabel("loss of axial velocity (m/s)")
+    panels[0][-1].legend(fontsize=6)
+    return figure
+
+
+def draw_profiles(plt, cases, strips):
+    """sigma_vx across the tube, a line for each run; dashed what it is in the whole tube, dotted the inferred v_x."""
+    figure, panels = plt.subplots(1, len(cases), figsize=(2.6 * len(cases), 3.0), sharey=True, squeeze=False)
+    for axes, c in zip(panels[0], cases):
+        for run in c.runs:
+            of_run = [strip for strip in strips if strip["point"] == run.point]
+            axes.semilogy([1e3 * float(strip["x"]) for strip in of_run],
+                          [float(strip["sigma_vx"] or "nan") for strip in of_run], color="C0")
+        axes.axhline(c.v_x["sigma_vx"], color="C1", linestyle="--", label="whole tube")
+        axes.axhline(c.v_x["inferred"], color="C3", linestyle=":", label="inferred v_x")
+        axes.set(title=f"e_N = {c.e_n:g}, {c.mean('velocity'):.3g} m/s", xlabel="x (mm)")
+    panels[0][0].set_ylabel("sigma_vx (m/s)")
     panels[0][-1].legend(fontsize=6)
     return figure

@@ -13,9 +13,11 @@ from pathlib import Path
 
 import matplotlib
 
-from fig6 import fig6_fast, fig6_map
+from fig6 import fig6, fig6_fast
 from fig6_balance import fig6_balance
+from fig6_map import fig6_map
 from fig6_short import fig6_short
+from fig6_thresholds import fig6_thresholds
 from impacts import fig3, fig4_5
 from results import Missing
 
@@ -29,9 +31,11 @@ def main():
     sweeps, out = Path("sweeps"), HERE
     figures = {"fig3": lambda: fig3(sweeps, out, plt),
                "fig4_5": lambda: fig4_5(sweeps, out, plt),
-               "fig6_short": lambda: fig6_short(HERE / "fig6_short.csv", out, plt),
-               "fig6_map": lambda: fig6_map(HERE, out, plt),
+               "fig6": lambda: fig6(HERE, out, plt),
                "fig6_fast": lambda: fig6_fast(HERE, out, plt),
+               "fig6_thresholds": lambda: fig6_thresholds(HERE, out, plt),
+               "fig6_short": lambda: fig6_short(HERE, out, plt),
+               "fig6_map": lambda: fig6_map(HERE, out, plt),
                "fig6_balance": lambda: fig6_balance(sweeps, HERE, out, plt)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("figures", metavar="FIGURE", nargs="+", choices=figures)

@@ -3,9 +3,10 @@
 
     docs/paper/keep.py sweeps/fig6_map docs/paper/fig6_map.csv
 
-A row per run that is done. It has what the sweep's own table lacks: sigma_vx and sigma_vy, the walls as they are (the
-spacing is adjusted to the length), and five equal windows of the run, so that a fall that has not ended can be seen
-from the table: mean velocity, the wall's share of the weight, sigma_vx and rate of visits to the walls in each.
+A row per run that is done. It has what the sweep's own table lacks: sigma_vx and sigma_vy, also at the wall (the outermost
+strips of the profiles) and in the core, the walls as they are (the spacing is adjusted to the length), and five equal windows
+of the run, so that a fall that has not ended can be seen from the table: mean velocity, the wall's share of the weight,
+sigma_vx and rate of visits to the walls in each.
 """
 import argparse
 import csv
@@ -51,6 +52,18 @@ def windows_of(series, mass, grains, gravity):
     return columns
 
 
+def zones_of(profiles):
+    """sigma_vx, velocity and area fraction of the wall layers and of the core."""
+    columns = {}
+    for word, zone in (("wall", profiles["wall_layers"]), ("core", profiles["core"])):
+        t_x = zone["temperature_x"]
+        sigma = t_x["value"] ** 0.5
+        columns |= {f"sigma_vx_{word}": sigma, f"sigma_vx_{word}_error": t_x["error"] / (2 * sigma),
+                    f"velocity_{word}": zone["mean_axial_velocity"]["value"],
+                    f"area_fraction_{word}": zone["area_fraction"]["value"]}
+    return columns
+
+
 def finding(summary, name):
     return next(f["value"] for f in summary["validity"]["findings"] if f["name"] == name)
 
@@ -65,14 +78,16 @@ def row_of(sweep, row):
                   ("time", "mean_vy", "sigma_vx", "sigma_vy", "wall_impulse_y", "wall_visits")}
         mass, walls = file["final/mass"][:].sum(), walls_of(file)
     late = series["time"] >= summary["transient_end"]
-    kept = {"k_n": row["contact.stiffness"], "e_n": row["contact.restitution"], **walls,
+    kept = {"point": row["point"], "k_n": row["contact.stiffness"], "e_n": row["contact.restitution"], **walls,
             "branch": row.get("branch", ""), "start": row.get("start.axial_velocity", ""),
             "leg": row.get("leg", ""), "seed": row["seed"], "grains": grains,
+            "steps": row.get("run.steps_per_collision", ""), "attraction": row.get("contact.attraction", ""),
             "time": summary["time"], "state": summary["state"], "velocity": flow["value"],
             "velocity_error": flow["error"], "independent_samples": summary["independent_samples"],
             "transient_end": summary["transient_end"]}
     for name in ("sigma_vx", "sigma_vy"):
         kept[name], kept[f"{name}_error"] = mean_and_error(series[name][late])
+    kept |= zones_of(summary["profiles"])
     kept |= {"share": balance["n_dot_dv_y"] / gravity, "share_error": balance["errors"]["n_dot_dv_y"] / gravity,
              "contact_rate": balance["n_dot"],
              "visit_rate": np.ptp(series["wall_visits"][late]) / (grains * np.ptp(series["time"][late])),

@@ -12,10 +12,12 @@ Usage: docs/paper/reproduce.sh FIGURE...
 
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (a minute)
-  fig6_short   tube, one seed, 3 s (a quarter to half an hour on two cores)
-  fig6_map     tube, spacing of the wall grains, end of the slow branch (a quarter of an hour)
-  fig6_fast    tube, starts near the fast branch (minutes)
-  fig6_balance predicted states from single impacts (seconds; reads the tables of the two before)
+  fig6_short   tube of 100 mm, one seed, 3 s (a quarter to half an hour on two cores)
+  fig6         tube, slow starts of three stiffnesses, three seeds (half an hour on two cores), and the next one
+  fig6_fast    tube, starts from below and above the fast states; time step, attraction (a quarter of an hour)
+  fig6_thresholds  end of the slow branch over spacing, width and length, three seeds; hysteresis (half an hour)
+  fig6_map     tube, slow and fast starts over the spacing of the wall grains (ten minutes)
+  fig6_balance predicted states from single impacts (seconds; reads the tables and runs of the first two)
 
 The program is \$RIESEL, or else $riesel (./setup.sh build).
 END
@@ -26,9 +28,12 @@ sweep() {
 }
 
 # The tables of long campaigns are kept; curves of impacts are quick to make again.
-campaign() {
-  sweep "$1"
-  /usr/bin/python3 -B docs/paper/keep.py "sweeps/$1" "docs/paper/$1.csv"
+campaigns() {
+  local name
+  for name in "$@"; do
+    sweep "$name"
+    /usr/bin/python3 -B docs/paper/keep.py "sweeps/$name" "docs/paper/$name.csv"
+  done
 }
 
 reproduce() {
@@ -39,9 +44,15 @@ reproduce() {
       sweep fig6_short
       cp sweeps/fig6_short/sweep.csv docs/paper/fig6_short.csv
       ;;
-    fig6_map) for name in fig6_map fig6_end; do campaign "$name"; done ;;
-    fig6_fast) campaign fig6_fast ;;
-    fig6_balance) sweep fig6_curves ;;
+    fig6) campaigns fig6_slow fig6_fast fig6_above fig6_stiff ;;
+    fig6_fast) campaigns fig6_fast fig6_above fig6_stiff fig6_checks ;;
+    fig6_thresholds) campaigns fig6_slow fig6_spacing fig6_narrow fig6_length fig6_choices fig6_clipped
+      campaigns fig6_hysteresis ;;
+    fig6_map) campaigns fig6_map ;;
+    fig6_balance)
+      sweep fig6_curves
+      /usr/bin/python3 -B docs/paper/keep_profiles.py
+      ;;
     *)
       usage >&2
       exit 2

@@ -1,10 +1,13 @@
 """Runs of the tube from the tables that keep.py has made."""
+from statistics import mean, stdev
+
 import numpy as np
 
 from results import rows_of
 
 WINDOWS = 5  # equal parts of a run, of which the table has means: velocity_1 to velocity_5, and so on
-WORDS = ("branch", "leg", "state", "verdict", "commit")
+WORDS = ("point", "branch", "leg", "state", "attraction", "verdict", "commit")
+STUDENT = {2: 1.84, 3: 1.32, 4: 1.20}  # 68 % points: errors of the mean of so many seeds, in standard errors
 
 
 class Run:
@@ -19,6 +22,16 @@ class Run:
         """No trend, and the wall carries the weight, eq. (9), within two error bars and three per cent."""
         return self.state in ("steady", "too_short") and abs(self.share - 1) < 2 * self.share_error + 0.03
 
+    @property
+    def lost(self):
+        """Not on the slow branch any more: it accelerates, the brake works by contacts that are cut short, or the wall
+        carries less than half of the weight at the end."""
+        return self.state == "accelerating" or self.brake_failure > 0.1 or self.share_5 < 0.5
+
+    @property
+    def stays(self):
+        return self.settled and not self.lost
+
     def with_error(self, name):
         return plus_minus(getattr(self, name), getattr(self, f"{name}_error"))
 
@@ -27,9 +40,34 @@ def runs_of(table):
     return [Run(row) for row in rows_of(table)]
 
 
+def runs_of_all(tables, names):
+    """Of several kept tables; campaigns that have not been run have none."""
+    return [run for name in names if (tables / f"{name}.csv").exists() for run in runs_of(tables / f"{name}.csv")]
+
+
 def at_default_spacing(runs):
     """1.2 mm, adjusted to the length."""
     return [run for run in runs if abs(run.spacing - 1.2e-3) < 0.05e-3]
+
+
+def grouped(runs, *names):
+    """[(values of the columns, runs that have them)] in the order in which they come."""
+    groups = {}
+    for run in runs:
+        groups.setdefault(tuple(getattr(run, name) for name in names), []).append(run)
+    return list(groups.items())
+
+
+def over_seeds(values):
+    """Mean and 68 % error of the values of several seeds; of a single one the error is not known."""
+    error = STUDENT[len(values)] * stdev(values) / len(values) ** 0.5 if len(values) > 1 else np.nan
+    return mean(values), error
+
+
+def seeds_text(values):
+    """The mean of several seeds with its error, of one seed the value."""
+    value, error = over_seeds(values)
+    return f"{value:.3g}" if np.isnan(error) else plus_minus(value, error)
 
 
 def plus_minus(value, error):

@@ -1,16 +1,22 @@
 """The files of the paper's figures: each sweep can be run, and docs/paper.md says what they give."""
 
 import subprocess
+import sys
+import unittest
 
 from riesel_command import SHIPPED, CommandTest, plain_number
 
 DOCS = SHIPPED.parent / "docs"
+sys.path.insert(0, str(DOCS / "paper"))
+
+from fig6_thresholds import Threshold  # noqa: E402
+from tube import Run, plus_minus, seeds_text  # noqa: E402
 
 # file: number of its points
 POINTS = {
-    "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_map": 60, "fig6_end": 9,
-    "fig6_fast": 5, "fig6_curves": 4, "fig6_slow": 51, "fig6_sizes": 30, "fig6_fall": 3, "fig6_checks": 3,
-    "fig6_hysteresis": 51,
+    "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_slow": 54, "fig6_fast": 12,
+    "fig6_above": 5, "fig6_stiff": 4, "fig6_checks": 9, "fig6_clipped": 15, "fig6_spacing": 27, "fig6_narrow": 22,
+    "fig6_length": 12, "fig6_choices": 13, "fig6_hysteresis": 26, "fig6_map": 60, "fig6_curves": 4,
 }
 
 
@@ -46,7 +52,7 @@ class Paper(CommandTest):
         self.assert_quoted("fig3")
 
     def test_the_numbers_of_fig_6_are_those_of_the_kept_tables(self):
-        for figure in ("fig6_short", "fig6_map", "fig6_fast"):
+        for figure in ("fig6", "fig6_fast", "fig6_thresholds", "fig6_short", "fig6_map"):
             with self.subTest(figure):
                 self.assert_quoted(figure)
 
@@ -60,3 +66,35 @@ class Paper(CommandTest):
                               timeout=60, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 1)
         self.assert_one_message(done.stderr.replace("figures.py:", "riesel:", 1), "reproduce.sh")
+
+
+def slow_run(e_n, seed, share_5="1.0", **other):
+    """A run on the slow branch, as a row of a kept table."""
+    return Run({"e_n": str(e_n), "seed": str(seed), "state": "too_short", "share": "1.01", "share_error": "0.02",
+                "share_5": share_5, "brake_failure": "0.001"} | other)
+
+
+def runaway(e_n, seed):
+    return slow_run(e_n, seed, share_5="0.0", state="accelerating", share="0.01", brake_failure="1")
+
+
+class Thresholds(unittest.TestCase):
+
+    def test_a_state_that_is_lost_in_the_last_fifth_does_not_stay(self):
+        late = slow_run(0.84, 1, share_5="0.32")
+        self.assertTrue(late.lost)
+        self.assertFalse(late.stays)
+        self.assertTrue(slow_run(0.84, 1, share_5="0.9").stays)
+
+    def test_the_end_lies_between_where_all_seeds_are_lost_and_where_all_stay(self):
+        threshold = Threshold([runaway(0.85, 1), runaway(0.85, 2), runaway(0.87, 1), slow_run(0.87, 2),
+                               slow_run(0.9, 1), slow_run(0.9, 2), slow_run(0.95, 1)])
+        self.assertEqual((threshold.text, threshold.seeds), ("0.85 to 0.9", [2, 2]))
+
+    def test_an_end_that_was_not_found_is_told_as_a_bound(self):
+        self.assertEqual(Threshold([runaway(0.97, 1), runaway(0.99, 1)]).text, "above 0.99")
+        self.assertEqual(Threshold([slow_run(0.65, 1), slow_run(0.8, 1)]).text, "below 0.65")
+
+    def test_seeds_give_a_mean_with_the_error_of_so_few(self):
+        self.assertEqual(seeds_text([1.0, 2.0, 3.0]), plus_minus(2.0, 1.32 / 3**0.5))
+        self.assertEqual(seeds_text([1.5]), "1.5")
