@@ -156,7 +156,8 @@ io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary)
 
 void show_contacts(const io::RunContents& run, const io::FlowSummary& summary, ReportDraft& draft) {
   draft.page().heading("Contacts");
-  for (const auto& [of, is_wall] : {std::pair{"grain", false}, std::pair{"wall", true}}) {
+  for (const bool is_wall : {false, true}) {
+    const char* of = is_wall ? "wall" : "grain";
     const auto add = [&](const std::string& what, const std::string& label,
                          const std::vector<HistogramMark>& marks) {
       const std::string name = fmt::format("{}_contact_{}", of, what);

@@ -151,7 +151,7 @@ void attempt(Read read) {
 
 }  // namespace
 
-// The name is libFuzzer's.
+// The name is libFuzzer's. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto content = content_from({data, size});
   const auto kind = kind_of({data, size});

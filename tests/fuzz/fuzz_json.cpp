@@ -57,7 +57,7 @@ void attempt(Read read) {
 
 }  // namespace
 
-// The name is libFuzzer's.
+// The name is libFuzzer's. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Directory directory;
   directory.put(reinterpret_cast<const char*>(data), size);

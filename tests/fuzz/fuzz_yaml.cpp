@@ -53,7 +53,7 @@ void read_as_sweep(const std::string& text) {
 
 }  // namespace
 
-// The name is libFuzzer's.
+// The name is libFuzzer's. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   read_as_settings(text);

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-// The name is libFuzzer's.
+// The name is libFuzzer's. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {

@@ -73,7 +73,7 @@ TEST_CASE("Tables of any size come back, in one chunk, many, or a tree of them")
   const bool growing = GENERATE(false, true);
   const auto rows = GENERATE(0U, 1U, 1023U, 1025U, 70'001U);  // 64 chunks of 1024 fit into one node
   const auto values = read_table(image_of_table(rows, growing));
-  REQUIRE(values.size() == 2 * rows);
+  REQUIRE(values.size() == 2 * std::size_t{rows});
   bool equal = true;
   for (std::size_t i = 0; i < values.size(); ++i)
     equal = equal && values[i] == static_cast<std::int64_t>(i * i);

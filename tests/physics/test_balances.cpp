@@ -49,7 +49,7 @@ State encounters(double dt, std::uint64_t seed) {
   State state = empty_box(40e-3, rows * apart);
   state.time_step = dt;
   state.gravity = 10.0;
-  add_walls(state, 8 * rows);
+  add_walls(state, std::int64_t{8} * rows);
   Dice dice(seed);
   const auto gap = [&] { return dice.between(0.05e-3, 0.3e-3); };
   for (int row = 0; row < rows; ++row) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -82,9 +83,8 @@ int print_hashes(std::uint64_t first, std::uint64_t count) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// The exit status.
+int answer(int argc, char** argv) {
   if (argc != 4) {
     std::fputs("usage: properties (set-ups | impacts | hashes) FIRST COUNT\n", stderr);
     return 2;
@@ -94,4 +94,15 @@ int main(int argc, char** argv) {
   const std::uint64_t count = std::strtoull(argv[3], nullptr, 10);
   if (what == "set-ups") return check_set_ups(first, count);
   return what == "impacts" ? print_gains(first, count) : print_hashes(first, count);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return answer(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -102,9 +103,8 @@ bool try_all(const char* kind, void (*write)(const std::filesystem::path&), Read
   return flips.refused == flips.tried && cuts.refused == cuts.tried;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// The exit status.
+int answer(int argc, char** argv) {
   const std::size_t damage = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1;
   const std::size_t forgeries = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : damage;
   if (damage < 1 || forgeries < 1) return 2;
@@ -112,4 +112,15 @@ int main(int argc, char** argv) {
   const bool checkpoint = try_all("checkpoint", write_small_checkpoint, read_checkpoint, strides);
   const bool run = try_all(io::run_file_kind, write_small_run_file, read_run_file, strides);
   return checkpoint && run ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return answer(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }
