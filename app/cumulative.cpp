@@ -2,14 +2,11 @@
 
 #include "engine/time_series.hpp"
 
-#include <limits>
 #include <numeric>
 
 namespace riesel::app {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Of the mean; not a number where there is no scatter to take it from.
 double error_of_mean(const std::vector<double>& samples) {

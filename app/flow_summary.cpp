@@ -19,8 +19,6 @@ namespace riesel::app {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// What a grain of the mean mass and size does that meets others and the wall with the typical
 /// random velocity: t_col, and the velocity above which it passes a wall grain sooner than the
 /// contact can push it away, chord over t_col.

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <cstdint>
+#include <optional>
 
 namespace riesel::app {
 
@@ -62,21 +63,21 @@ std::string speed_exceeded(const Fastest& fastest) {
 
 std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Observables& seen) {
   std::vector<std::string> messages;
-  const auto look = [&](std::size_t which, const std::optional<double>& limit, double value,
-                        const char* key, const auto& message) {
-    if (!limit || told_.at(which) || !(value > *limit)) return;
-    told_.at(which) = true;
+  const auto look = [&](std::optional<double>& limit, const char* key, double value,
+                        const auto& message) {
+    if (!limit || !(value > *limit)) return;
+    limit.reset();
     messages.push_back(fmt::format("at t = {:.6g} s (step {}) {} is exceeded: {}", seen.time,
                                    state.step, key, message()));
   };
-  const double ratio = limits_.overlap ? max_overlap_ratio(state) : 0.0;
-  look(0, limits_.overlap, ratio, "limits.overlap",
-       [&] { return overlap_exceeded(state, seen, ratio); });
+  const double overlap = limits_.overlap ? max_overlap_ratio(state) : 0.0;
+  look(limits_.overlap, "limits.overlap", overlap,
+       [&] { return overlap_exceeded(state, seen, overlap); });
   const double error = energy_error_ratio(state, seen.energies);
-  look(1, limits_.energy_error, error, "limits.energy_error",
+  look(limits_.energy_error, "limits.energy_error", error,
        [&] { return energy_error_exceeded(error); });
   const Fastest fastest = limits_.speed ? fastest_grain(state) : Fastest{};
-  look(2, limits_.speed, fastest.speed, "limits.speed", [&] { return speed_exceeded(fastest); });
+  look(limits_.speed, "limits.speed", fastest.speed, [&] { return speed_exceeded(fastest); });
   return messages;
 }
 

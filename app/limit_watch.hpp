@@ -5,7 +5,6 @@
 #include "engine/state.hpp"
 #include "scenarios/run_limits.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,7 @@ public:
   std::vector<std::string> newly_exceeded(const State& state, const Observables& seen);
 
 private:
-  scenarios::RunLimits limits_;
-  std::array<bool, 3> told_{};
+  scenarios::RunLimits limits_;  // those that nothing has exceeded yet
 };
 
 }  // namespace riesel::app

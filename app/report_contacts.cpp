@@ -54,7 +54,7 @@ io::Axis axis_of_rates(const io::HistogramWithErrors& h) {
 double threshold(const io::FlowSummary& summary, std::string_view finding, double Finding::*which) {
   const auto& findings = summary.validity.verdict.findings;
   const auto found = std::ranges::find(findings, finding, &Finding::name);
-  return found == findings.end() ? io::unknown : (*found).*which;
+  return found == findings.end() ? unknown : (*found).*which;
 }
 
 double mean_radius(const io::FinalState& state) {

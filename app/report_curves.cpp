@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace riesel::app {
@@ -11,8 +10,7 @@ namespace riesel::app {
 namespace {
 
 constexpr double width = 760.0, height = 420.0;  // px
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double room_for_arrows = 0.06;  // of the axis
+constexpr double room_for_arrows = 0.06;         // of the axis
 constexpr std::string_view red = "#c62828";
 
 using Legend = std::vector<std::pair<std::string, io::Look>>;

@@ -1,9 +1,14 @@
 // A measured number.
 #pragma once
 
+#include <limits>
+
 namespace riesel {
 
-/// A number and its 68 % error; not a number where it is not known.
+/// What stands for a number that is not known.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A number and its 68 % error; either may be unknown.
 struct Estimate {
   double value = 0.0, error = 0.0;
 };

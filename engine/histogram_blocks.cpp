@@ -2,15 +2,12 @@
 
 #include "engine/time_series.hpp"
 
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace riesel {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls visit(name, unit, meaning, histogram) for each histogram of a tally.
 template <class Visit>

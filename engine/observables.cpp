@@ -120,15 +120,8 @@ double max_overlap_ratio(const State& state) {
   double smallest_at_wall = smallest;
   for (const WallLattice& wall : state.walls)
     smallest_at_wall = std::min(smallest_at_wall, wall.radius);
-  const auto largest = [&](const ContactTally& ended, bool of_walls) {
-    double overlap = ended.max_overlap;
-    for (const Contact& contact : state.contacts)
-      if ((contact.name.wall != no_wall) == of_walls)
-        overlap = std::max(overlap, contact.max_overlap);
-    return overlap;
-  };
-  return std::max(largest(state.tally.grains, false) / smallest,
-                  largest(state.tally.walls, true) / smallest_at_wall);
+  return std::max(all_contacts(state, false).max_overlap / smallest,
+                  all_contacts(state, true).max_overlap / smallest_at_wall);
 }
 
 double energy_error_ratio(const State& state, const Energies& energies) {

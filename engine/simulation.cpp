@@ -4,6 +4,7 @@
 #include "engine/flights.hpp"
 #include "engine/kicks.hpp"
 #include "engine/observables.hpp"
+#include "engine/require.hpp"
 #include "engine/vector_kernel.hpp"
 
 #include <omp.h>
@@ -17,10 +18,6 @@
 namespace riesel {
 
 namespace {
-
-void require(bool condition, const char* otherwise) {
-  if (!condition) throw std::invalid_argument(otherwise);
-}
 
 void check_grains(const Grains& g) {
   require(g.size() > 0, "a simulation needs at least one grain");

@@ -1,18 +1,11 @@
 #include "engine/time_blocks.hpp"
 
+#include "engine/require.hpp"
+
 #include <bit>
-#include <stdexcept>
 #include <utility>
 
 namespace riesel {
-
-namespace {
-
-void require(bool condition, const char* otherwise) {
-  if (!condition) throw std::invalid_argument(otherwise);
-}
-
-}  // namespace
 
 TimeBlocks::TimeBlocks(std::size_t columns, std::int64_t samples, std::int64_t samples_per_block,
                        std::vector<double> sums)

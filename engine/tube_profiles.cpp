@@ -6,7 +6,6 @@
 #include <array>
 #include <functional>
 #include <initializer_list>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +13,6 @@ namespace riesel {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Estimate not_known{unknown, unknown};
 
 /// One of the sums that a quantity is a function of, and how it changes with its mean.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace riesel::io {
@@ -17,6 +18,11 @@ class Hdf5Error : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws the Hdf5Error `flaw` unless it is so.
+inline void require(bool is_so, std::string_view flaw) {
+  if (!is_so) throw Hdf5Error(std::string(flaw));
+}
 
 /// An identifier of HDF5 (hid_t), closed by the destructor.
 class Hdf5Handle {

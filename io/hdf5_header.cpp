@@ -24,10 +24,6 @@ enum Message : std::uint64_t {
 constexpr std::size_t prefix_size = 16, message_head_size = 8;
 constexpr std::uint64_t shared_message = 0x2;  // flag: it stands elsewhere
 
-void require(bool is_so, const char* flaw) {
-  if (!is_so) throw Hdf5Error(flaw);
-}
-
 // How HDF5 describes the types of numbers that this program writes.
 struct NumberType {
   Hdf5Type type;

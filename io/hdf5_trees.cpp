@@ -13,10 +13,6 @@ constexpr std::uint64_t node_head_size = 24;
 // Four levels hold more than 10^6 chunks.
 constexpr std::uint64_t highest_level = 8;
 
-void require(bool is_so, const char* flaw) {
-  if (!is_so) throw Hdf5Error(flaw);
-}
-
 /// A node of a tree: a key, a child, a key, a child, ...
 struct Node {
   Bytes entries;

@@ -33,10 +33,6 @@ constexpr auto told_of_profiles = {"area_fraction", "mean_axial_velocity", "temp
 constexpr auto told_of_histograms = {"grain_contact_duration", "wall_contact_duration",
                                      "grain_contact_overlap", "wall_contact_overlap"};
 
-void require(bool is_so, const std::string& flaw) {
-  if (!is_so) throw Hdf5Error(flaw);
-}
-
 std::vector<double> read_numbers(const StoredGroup& group, const std::string& name) {
   std::vector<double> values;
   read_column(group, name, values);

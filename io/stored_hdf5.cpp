@@ -22,10 +22,6 @@ constexpr Hdf5Type::Kind kind_of<std::uint64_t> = Hdf5Type::Kind::uint64;
 template <>
 constexpr Hdf5Type::Kind kind_of<double> = Hdf5Type::Kind::real64;
 
-void require(bool is_so, const char* flaw) {
-  if (!is_so) throw Hdf5Error(flaw);
-}
-
 /// What `read` returns; errors say what was attempted.
 template <class Read>
 auto attempt(const std::string& what, Read read) {

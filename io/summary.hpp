@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,8 +32,6 @@ struct RunSummary {
 
 /// Not a number stands as null in the file.
 using Measured = Estimate;
-
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Means are over the samples after the transient.
 struct FlowSummary {

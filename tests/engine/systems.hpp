@@ -5,6 +5,7 @@
 #include "engine/simulation.hpp"
 #include "engine/state.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -155,6 +156,17 @@ inline State advanced(const State& state, const ContactModel& model, std::int64_
   Simulation simulation(state, model, threads, stepping);
   simulation.advance(steps);
   return simulation.state();
+}
+
+/// Sums of the displacements per step, with the kicks that the next step takes up.
+inline std::array<Fixed, 2> integer_momentum(const State& state) {
+  const Grains& g = state.grains;
+  std::array<Fixed, 2> sum{};
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    sum[0] = wrapped_sum(sum[0], wrapped_sum(g.ux[i], g.kick_x[i]));
+    sum[1] = wrapped_sum(sum[1], wrapped_sum(g.uy[i], g.kick_y[i]));
+  }
+  return sum;
 }
 
 }  // namespace systems

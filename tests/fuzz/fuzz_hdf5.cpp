@@ -5,10 +5,10 @@
 // needs not find out what HDF5 is, and what it finds is short. The length is made right, as who
 // forges a file would do; the fuzzer's readers take checksums for right.
 #include "io/checkpoint.hpp"
-#include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/run_reader.hpp"
 #include "io/seal.hpp"
+#include "tests/fuzz/attempt.hpp"
 #include "tests/memory_file.hpp"
 #include "tests/small_files.hpp"
 
@@ -22,6 +22,7 @@
 #include <vector>
 
 using namespace riesel;
+using fuzz::attempt;
 
 namespace {
 
@@ -138,14 +139,6 @@ Content content_from(Input input) {
     return changed(run, rest);
   default:
     return {rest.begin(), rest.end()};
-  }
-}
-
-template <class Read>
-void attempt(Read read) {
-  try {
-    read();
-  } catch (const io::FileError&) {
   }
 }
 

@@ -1,10 +1,10 @@
 // Any bytes as the JSON files of runs and sweeps: read, or refused with a FileError.
-#include "io/file_error.hpp"
 #include "io/run_record.hpp"
 #include "io/summary.hpp"
 #include "io/summary_reader.hpp"
 #include "io/sweep_manifest.hpp"
 #include "io/sweep_table.hpp"
+#include "tests/fuzz/attempt.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include <string>
 
 using namespace riesel;
+using fuzz::attempt;
 
 namespace {
 
@@ -46,14 +47,6 @@ public:
 private:
   fs::path path_;
 };
-
-template <class Read>
-void attempt(Read read) {
-  try {
-    read();
-  } catch (const io::FileError&) {
-  }
-}
 
 }  // namespace
 

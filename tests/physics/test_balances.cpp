@@ -70,17 +70,6 @@ State encounters(double dt, std::uint64_t seed) {
   return state;
 }
 
-/// Sums of the displacements per step, with the kicks that the next step takes up.
-std::array<Fixed, 2> integer_momentum(const State& state) {
-  const Grains& g = state.grains;
-  std::array<Fixed, 2> sum{};
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    sum[0] = wrapped_sum(sum[0], wrapped_sum(g.ux[i], g.kick_x[i]));
-    sum[1] = wrapped_sum(sum[1], wrapped_sum(g.uy[i], g.kick_y[i]));
-  }
-  return sum;
-}
-
 /// kg m/s, as above.
 std::array<double, 2> momentum(const State& state) {
   const Grains& g = state.grains;

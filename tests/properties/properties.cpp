@@ -74,16 +74,6 @@ bool tells_of_lost_grain(const std::string& failure) {
   return failure.find("has left the system") != std::string::npos;
 }
 
-std::array<Fixed, 2> integer_momentum(const State& state) {
-  const Grains& g = state.grains;
-  std::array<Fixed, 2> sum{};
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    sum[0] = wrapped_sum(sum[0], wrapped_sum(g.ux[i], g.kick_x[i]));
-    sum[1] = wrapped_sum(sum[1], wrapped_sum(g.uy[i], g.kick_y[i]));
-  }
-  return sum;
-}
-
 }  // namespace
 
 Outcome reference(const SetUp& set_up) {
