@@ -8,9 +8,9 @@ build_packages=(
   cmake ninja-build g++ git
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libudunits2-dev librandom123-dev catch2
-  python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
+  python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
-lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
+lint_packages=(clang-format clang-tidy libomp-dev shellcheck mypy)
 # Shows the pages of riesel report to the tests, which are skipped without it.
 browser_packages=(chromium)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
@@ -30,7 +30,7 @@ Usage: ./setup.sh COMMAND
   test       install what is missing, build with warnings as errors, run all tests;
              further arguments go to ctest, e.g. -R engine
   build      install what is missing and build the release: $riesel
-  lint       check formatting, C++ and shell scripts (clang-format, clang-tidy, shellcheck)
+  lint       check formatting, C++, Python and shell scripts (clang-format, clang-tidy, mypy, shellcheck)
   format     let clang-format rewrite the C++ sources
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
@@ -130,6 +130,8 @@ lint() {
   cpp_files | xargs clang-format --dry-run -Werror || complaints+=("clang-format (try ./setup.sh format)")
   say "shellcheck"
   shellcheck setup.sh .ci/run docs/paper/reproduce.sh || complaints+=(shellcheck)
+  say "mypy"
+  (cd python && mypy riesel) || complaints+=(mypy)
   # What takes the time are the headers of libraries, so most checks read units of several sources.
   # A "redefinition" across two sources of a room wants another name, or SKIP_UNITY_BUILD_INCLUSION
   # as in the room's CMakeLists.txt. The analyzer and two checks look at the main file only: they read

@@ -1,5 +1,5 @@
-# Installation: the program, the libraries and their headers, a CMake package, the scenarios' YAML
-# files; and a Debian package (`cpack` in the build directory).
+# Installation: the program, the libraries and their headers, a CMake package, the Python package, the
+# scenarios' YAML files; and a Debian package (`cpack` in the build directory).
 #
 # Headers go to include/riesel/<room>/, and include/riesel is the include directory of the exported
 # targets: outside as inside, a header is `#include "engine/state.hpp"`.
@@ -41,6 +41,16 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/RieselDependencies.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake"
   DESTINATION "${riesel_package_dir}")
+
+# Where Debian's Python looks for packages, below /usr; the metadata tell Python's tools the version.
+set(RIESEL_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Where the Python package goes")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/python/riesel" DESTINATION "${RIESEL_PYTHON_DIR}"
+  FILES_MATCHING PATTERN "*.py" PATTERN py.typed)
+configure_file("${PROJECT_SOURCE_DIR}/python/METADATA.in"
+  "${PROJECT_BINARY_DIR}/python/METADATA" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/python/METADATA"
+  DESTINATION "${RIESEL_PYTHON_DIR}/riesel-${PROJECT_VERSION}.dist-info")
+
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 if(PROJECT_IS_TOP_LEVEL)

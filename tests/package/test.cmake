@@ -6,6 +6,18 @@ file(REMOVE_RECURSE "${WORK_DIR}")
 set(step COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --install "${BUILD_DIR}" --prefix "${WORK_DIR}/prefix"
   OUTPUT_QUIET ${step})
+
+# The Python package; Debian's Python finds it there below /usr.
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=${WORK_DIR}/prefix/lib/python3/dist-packages"
+    /usr/bin/python3 -B -c
+    "import importlib.metadata, riesel; print(importlib.metadata.version('riesel'), riesel.__path__[0])"
+  OUTPUT_VARIABLE said OUTPUT_STRIP_TRAILING_WHITESPACE ${step})
+if(NOT said STREQUAL "${VERSION} ${WORK_DIR}/prefix/lib/python3/dist-packages/riesel"
+    OR NOT EXISTS "${WORK_DIR}/prefix/lib/python3/dist-packages/riesel/py.typed")
+  message(FATAL_ERROR "the Python package is not as installed: ${said}")
+endif()
+
 execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja
   -S "${CMAKE_CURRENT_LIST_DIR}" -B "${WORK_DIR}/build"
   "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
