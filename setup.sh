@@ -8,7 +8,8 @@ build_packages=(
   cmake ninja-build g++ git
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libudunits2-dev librandom123-dev catch2
-  python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib)
+  python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib
+  parallel)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck mypy)
 # Shows the pages of riesel report to the tests, which are skipped without it.
@@ -16,6 +17,9 @@ browser_packages=(chromium)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
 peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
+
+# A queue, in which tests can run sweeps (docs/cluster.md).
+cluster_packages=(slurm-wlm munge)
 
 riesel=build/release/app/riesel
 run_input=scenarios/periodic_tube.yaml
@@ -35,6 +39,7 @@ Usage: ./setup.sh COMMAND
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
+  cluster    install Slurm and munge too: sweeps can be tested on them
   help       this text
 END
 }
@@ -112,7 +117,7 @@ run_scenario() {
   cat "$out.txt"
 }
 
-cpp_files() { find engine io scenarios app tests bench -name '*.[ch]pp' | sort; }
+cpp_files() { find engine io scenarios app tests bench examples -name '*.[ch]pp' | sort; }
 cpp_sources() { find "$@" -name '*.cpp' | sort; }
 
 # What the compiler's command lines name.
@@ -174,6 +179,7 @@ case $command in
     ;;
   packages) install_packages "${build_packages[@]}" ;;
   browser) install_packages "${build_packages[@]}" "${browser_packages[@]}" ;;
+  cluster) install_packages "${build_packages[@]}" "${cluster_packages[@]}" ;;
   peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)

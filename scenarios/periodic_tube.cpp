@@ -10,7 +10,6 @@
 #include "scenarios/continued_start.hpp"
 #include "scenarios/packing.hpp"
 #include "scenarios/run_length.hpp"
-#include "scenarios/run_limits.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -113,26 +112,10 @@ io::SettingsTable flow_settings() {
   };
 }
 
-io::SettingsTable output_settings() {
-  return {
-      {.key = "output.interval",
-       .unit = "s",
-       .fallback = "1 ms",
-       .range = io::positive(),
-       .doc = "Simulated time between two rows of the time series."},
-      {.key = "output.checkpoint_interval",
-       .unit = "s",
-       .fallback = "60 s",
-       .range = io::positive(),
-       .doc = "Time on the clock between two checkpoints; the results do not depend on it.",
-       .matters = false},
-  };
-}
-
 io::SettingsTable own_settings() {
   io::SettingsTable table = flow_settings();
-  for (const auto& rows : {run_length_settings(), run_limits_settings(), output_settings()})
-    table.insert(table.end(), rows.begin(), rows.end());
+  const io::SettingsTable common = common_flow_settings();
+  table.insert(table.end(), common.begin(), common.end());
   return table;
 }
 
