@@ -88,6 +88,17 @@ void print_critical_velocity(double chord_length, double t_col, double fastest) 
          fastest);
 }
 
+void warn_of_open_walls(const State& state) {
+  const WallLattice& wall = state.walls.front();
+  const double gap = wall.spacing(state.box) - 2.0 * wall.radius;
+  const double smallest =
+      2.0 * *std::min_element(state.grains.radius.begin(), state.grains.radius.end());
+  if (smallest < gap)
+    warn("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may leave the tube; "
+         "choose wall.spacing below {:.3g} m",
+         smallest, gap, smallest + 2.0 * wall.radius);
+}
+
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const State& state = flow.state;
   const Grains& grains = state.grains;
@@ -106,6 +117,7 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
        area / (state.box.width * state.box.length));
   line("wall grains", "{} per wall, spacing {:.6g} m", state.walls.front().count,
        state.walls.front().spacing(state.box));
+  warn_of_open_walls(state);
   print_contact("grain and grain", flow.model.normal, {0.5 * mass, fastest});
   print_contact("grain and wall", flow.model.normal, {mass, fastest});
   line("time step", "{:.4g} s", state.time_step);

@@ -114,6 +114,8 @@ TEST_CASE("tubes of all kinds come back from their effective settings") {
       Overrides{"contact.law=hertz", "contact.stiffness=3.3e5", "contact.damping=1.7"},
       Overrides{"contact.slip=viscous", "contact.slip_damping=1e5 1/s", "contact.attraction=clip"},
       Overrides{"grains.size_distribution=truncated_normal", "grains.polydispersity=7 %"},
+      Overrides{"grains.size_distribution=bidisperse", "grains.size_ratio=2.5",
+                "grains.large_fraction=0.3"},
       Overrides{"grains.diameter=1.1 mm", "grains.mass=1.3 mg", "grains.area_fraction=0.123"},
       Overrides{"grains.area_fraction=0.8", "seed=77"},
       Overrides{"gravity=9.81 m/s^2", "start.axial_velocity=-0.1 m/s", "run.threads=3"});
