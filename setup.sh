@@ -13,6 +13,8 @@ build_packages=(
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
 # Shows the pages of riesel report to the tests, which are skipped without it.
 browser_packages=(chromium)
+# Which lines the tests reach (docs/reliability.md).
+coverage_packages=(gcovr)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
 peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
@@ -31,6 +33,8 @@ Usage: ./setup.sh COMMAND
              further arguments go to ctest, e.g. -R engine
   build      install what is missing and build the release: $riesel
   lint       check formatting, C++ and shell scripts (clang-format, clang-tidy, shellcheck)
+  coverage   build for it, run the tests and tell which lines they do not reach;
+             further arguments go to ctest
   format     let clang-format rewrite the C++ sources
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
@@ -144,6 +148,16 @@ lint() {
   ((${#complaints[@]} == 0)) || die "complaints from: ${complaints[*]}"
 }
 
+# The tests of reliability do not count: they kill, and count the calls that write.
+coverage() {
+  build coverage
+  find build/coverage -name '*.gcda' -delete
+  ctest --preset coverage --label-exclude reliability --parallel "$(nproc)" "$@" || true
+  gcovr --root . --object-directory build/coverage --filter 'engine/' --filter 'io/' \
+    --filter 'scenarios/' --filter 'app/' --exclude '.*/include-rooms/' --print-summary \
+    --fail-under-line 95
+}
+
 command=${1:-help}
 shift || true
 case $command in
@@ -165,6 +179,10 @@ case $command in
   lint)
     install_packages "${build_packages[@]}" "${lint_packages[@]}"
     lint
+    ;;
+  coverage)
+    install_packages "${build_packages[@]}" "${coverage_packages[@]}"
+    coverage "$@"
     ;;
   format)
     install_packages "${lint_packages[@]}"
