@@ -15,6 +15,8 @@ test_packages=(python3-netcdf4)
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
 # Shows the pages of riesel report to the tests, which are skipped without it.
 browser_packages=(chromium)
+# Show trajectories to the tests, which are skipped without them.
+look_packages=(paraview python3-paraview ffmpeg)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
 peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
@@ -37,6 +39,7 @@ Usage: ./setup.sh COMMAND
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
+  look       install ParaView and ffmpeg too, and test that they show trajectories
   help       this text
 END
 }
@@ -174,6 +177,11 @@ case $command in
     ;;
   packages) install_packages "${build_packages[@]}" ;;
   browser) install_packages "${build_packages[@]}" "${browser_packages[@]}" ;;
+  look)
+    install_packages "${build_packages[@]}" "${test_packages[@]}" "${look_packages[@]}"
+    build ci --target riesel
+    ctest --preset ci -R 'cli/test_(trajectory|paraview|film)'
+    ;;
   peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)

@@ -18,9 +18,8 @@ constexpr std::size_t most_at_once = std::size_t{1} << 30;  // bytes; what Linux
 
 }  // namespace
 
-Descriptor::Descriptor(const std::filesystem::path& name, int flags,
-                       const std::filesystem::path& path)
-    : path_(path), descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
+Descriptor::Descriptor(const std::filesystem::path& name, int flags, std::filesystem::path path)
+    : path_(std::move(path)), descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
   check(descriptor_);
 }
 

@@ -16,7 +16,7 @@ namespace riesel::io {
 class Descriptor {
 public:
   /// `flags` as open(2) wants them.
-  Descriptor(const std::filesystem::path& name, int flags, const std::filesystem::path& path);
+  Descriptor(const std::filesystem::path& name, int flags, std::filesystem::path path);
   ~Descriptor();
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;

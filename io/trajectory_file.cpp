@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t components = trajectory_components;
 
 /// What HDF5 reads at once: it keeps a megabyte in memory.
-constexpr std::uint64_t bytes_of_a_chunk = 512 * 1024;
+constexpr std::uint64_t bytes_of_a_chunk = 524288;
 /// So that a short trajectory of few grains is no large file.
 constexpr std::uint64_t most_frames_in_a_block = 64;
 /// What HDF5 can count in a chunk.
