@@ -9,12 +9,16 @@ build_packages=(
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libudunits2-dev librandom123-dev catch2
   python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
+# Read what riesel writes, in the tests only.
+test_packages=(python3-netcdf4)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen)
 # Shows the pages of riesel report to the tests, which are skipped without it.
 browser_packages=(chromium)
 # Which lines the tests reach (docs/reliability.md).
 coverage_packages=(gcovr)
+# Show trajectories to the tests, which are skipped without them.
+look_packages=(paraview python3-paraview ffmpeg)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
 peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
@@ -41,6 +45,7 @@ Usage: ./setup.sh COMMAND
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
+  look       install ParaView and ffmpeg too, and test that they show trajectories
   help       this text
 END
 }
@@ -176,7 +181,7 @@ case $command in
     run_scenario
     ;;
   test)
-    install_packages "${build_packages[@]}"
+    install_packages "${build_packages[@]}" "${test_packages[@]}"
     build ci
     say "Testing"
     ctest --preset ci --parallel "$(nproc)" "$@"
@@ -204,6 +209,11 @@ case $command in
     ;;
   packages) install_packages "${build_packages[@]}" ;;
   browser) install_packages "${build_packages[@]}" "${browser_packages[@]}" ;;
+  look)
+    install_packages "${build_packages[@]}" "${test_packages[@]}" "${look_packages[@]}"
+    build ci --target riesel
+    ctest --preset ci -R 'cli/test_(trajectory|paraview|film)'
+    ;;
   peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)
