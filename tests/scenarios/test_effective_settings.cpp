@@ -69,6 +69,20 @@ void check_same(const scenarios::ImpactCurve& a, const scenarios::ImpactCurve& b
   }
 }
 
+void check_same(const scenarios::ColumnCurve& a, const scenarios::ColumnCurve& b) {
+  const auto numbers = [](const ColumnSetup& s) {
+    return std::vector{static_cast<double>(s.beads),
+                       s.bead_radius,
+                       s.bead_mass,
+                       s.velocity,
+                       s.collision_time,
+                       s.time_step};
+  };
+  CHECK(numbers(a.setup) == numbers(b.setup));
+  check_same(a.setup.model, b.setup.model);
+  CHECK(a.gap_ratios == b.gap_ratios);
+}
+
 void check_comes_back(const io::Settings& settings) {
   const std::string effective = settings.effective_yaml();
   CAPTURE(effective);
