@@ -6,6 +6,7 @@
 #include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
+#include "io/trajectory_file.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -99,6 +100,14 @@ void warn_of_open_walls(const State& state) {
          smallest, gap, smallest + 2.0 * wall.radius);
 }
 
+void print_trajectory(const io::Settings& settings, const State& state, double steps) {
+  constexpr auto interval = "output.trajectory_interval";
+  if (!settings.has(interval)) return;
+  const double frames = std::floor(steps * state.time_step / settings.number(interval)) + 1.0;
+  line("trajectory", "{:.0f} frames, {:.3g} MB", frames,
+       frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
+}
+
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const State& state = flow.state;
   const Grains& grains = state.grains;
@@ -139,6 +148,7 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
        precision ? "at most " : "", readable_time(n * steps / speed), threads,
        threads == 1 ? "" : "s", speed / 1e6);
   line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
+  print_trajectory(settings, flow.state, steps);
 }
 
 template <class Curve>
