@@ -79,4 +79,7 @@ int list_scenarios();
 /// The reference page of the settings, in Markdown.
 int print_settings();
 
+/// The JSON Schema of settings files, or of sweep files.
+int print_schema(bool of_sweeps);
+
 }  // namespace riesel::app

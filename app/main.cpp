@@ -72,6 +72,7 @@ public:
     });
     program_.add_subcommand("settings", "Print the reference of all settings, in Markdown")
         ->callback([this] { command_ = app::print_settings; });
+    add_schema();
   }
 
   CLI::App& program() { return program_; }
@@ -132,6 +133,15 @@ private:
     set_command(*task, *index, [this] { return app::sweep_task(task_); });
   }
 
+  void add_schema() {
+    CLI::App* schema = program_.add_subcommand(
+        "schema",
+        "Print the JSON Schema of settings files, for editors that complete and check YAML");
+    schema->add_flag("--sweep", schema_of_sweeps_, "That of sweep files");
+    schema->callback(
+        [this] { command_ = [this] { return app::print_schema(schema_of_sweeps_); }; });
+  }
+
   /// A subcommand whose only argument is the directory of something that was made.
   void add_directory(const std::string& name, const std::string& what, const std::string& of,
                      int (*act)(const std::filesystem::path&)) {
@@ -158,6 +168,7 @@ private:
   app::SweepOptions sweep_;
   app::SweepTaskOptions task_;
   std::filesystem::path directory_;
+  bool schema_of_sweeps_ = false;
   std::function<int()> command_;
 };
 
