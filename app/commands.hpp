@@ -76,6 +76,14 @@ int report(const std::filesystem::path& directory);
 
 int list_scenarios();
 
+struct NewFileOptions {
+  std::string scenario;
+  std::optional<std::filesystem::path> file;  ///< [SCENARIO.yaml]
+};
+
+/// Writes a settings file to begin with.
+int new_file(const NewFileOptions& options);
+
 /// The reference page of the settings, in Markdown.
 int print_settings();
 

@@ -27,8 +27,7 @@ std::string names_of_unit(const std::string& unit) {
 /// Other units of the same dimension.
 std::string aliases_of_unit(const std::string& unit) {
   if (unit == "1/s") return "|" + prefix + "(?:Hz|hertz)";
-  if (unit == "N/m")
-    return fmt::format("|{}/{}\\^?2", names_of_unit("kg"), names_of_unit("s"));
+  if (unit == "N/m") return fmt::format("|{}/{}\\^?2", names_of_unit("kg"), names_of_unit("s"));
   return "";
 }
 
@@ -62,7 +61,7 @@ std::string quantity_pattern(const std::string& si_unit, bool may_be_negative) {
   const std::string number = "(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)(?:[eE][-+]?[0-9]+)?";
   const std::string unit =
       si_unit.empty() ? "" : fmt::format("(?: *(?:{}))?", pattern_of_unit(si_unit));
-  return fmt::format("^{}{}{}$", may_be_negative ? "-?" : "", number, unit);
+  return fmt::format("^{}{}{}$", may_be_negative ? "[-+]?" : "\\+?", number, unit);
 }
 
 }  // namespace riesel::io
