@@ -14,7 +14,8 @@ namespace {
 std::string all_that_comes(int descriptor) {
   std::string text;
   std::array<char, 4096> piece{};
-  for (ssize_t size; (size = read(descriptor, piece.data(), piece.size())) > 0;)
+  ssize_t size = 0;
+  while ((size = read(descriptor, piece.data(), piece.size())) > 0)
     text.append(piece.data(), static_cast<std::size_t>(size));
   return text;
 }

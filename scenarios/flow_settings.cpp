@@ -21,6 +21,13 @@ io::SettingsTable output_settings() {
        .range = io::positive(),
        .doc = "Time on the clock between two checkpoints; the results do not depend on it.",
        .matters = false},
+      {.key = "output.trajectory_interval",
+       .unit = "s",
+       .range = io::positive(),
+       .doc =
+           "Simulated time between two frames of trajectory.h5 (docs/files.md). By default there "
+           "is none.",
+       .matters = false},
   };
 }
 

@@ -6,8 +6,10 @@
 // contact laws, too (docs/extending.md).
 #pragma once
 
+#include "engine/bead_column.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/impact.hpp"
+#include "engine/rigid_column.hpp"
 #include "engine/state.hpp"
 #include "io/settings.hpp"
 
@@ -35,7 +37,16 @@ struct ImpactCurve {
   std::vector<Point> points;
 };
 
-using Problem = std::variant<Flow, ImpactCurve>;
+/// A column of beads dropped on a plate, once for each gap between the beads.
+struct ColumnCurve {
+  ColumnSetup setup;
+  RigidColumn rigid;               ///< what it tends to for wide gaps
+  std::vector<double> gap_ratios;  ///< gap over velocity times collision time
+
+  double gap(double ratio) const { return ratio * setup.velocity * setup.collision_time; }  ///< m
+};
+
+using Problem = std::variant<Flow, ImpactCurve, ColumnCurve>;
 
 struct Scenario {
   std::string name;

@@ -8,6 +8,7 @@ namespace riesel::scenarios {
 
 Scenario single_wall_grain();
 Scenario wall_array();
+Scenario bead_column();
 Scenario periodic_tube();
 
 namespace {
@@ -16,6 +17,7 @@ struct Registry {
   std::vector<Scenario> scenarios = {
       single_wall_grain(),
       wall_array(),
+      bead_column(),
       periodic_tube(),
   };
   std::vector<Law> laws;

@@ -78,7 +78,7 @@ ContactColumns::ContactColumns(Original& engine)
     const double a = meeting.mass_first, b = meeting.mass_second;
     body_[0][i] = live.first(i);
     body_[1][i] = live.second(i);
-    const std::array constants = {meeting.reach, a * b / (a + b), 1.0 / a, 1.0 / b};
+    const std::array constants = {meeting.reach(), a * b / (a + b), 1.0 / a, 1.0 / b};
     for (std::size_t m = 0; m < constants.size(); ++m) constants_[m][i] = constants[m];
     const auto life = life_of(live.contact(i));
     for (std::size_t m = 0; m < life.size(); ++m) life_[m][i] = life[m];
@@ -117,9 +117,9 @@ bool ContactColumns::agrees(Original& engine) const {
   for (std::size_t i = 0; same && i < size_; ++i) {
     const auto life = life_of(live.contact(i));
     for (std::size_t m = 0; m < life.size(); ++m) same = same && life_[m][i] == life[m];
-    const ContactKick kick = live.kick(i);
-    same = same && kick_[0][i] == kick.first_x && kick_[1][i] == kick.first_y
-           && kick_[2][i] == kick.second_x && kick_[3][i] == kick.second_y;
+    const BodyKick first = live.kick_of_first(i), second = live.kick_of_second(i);
+    same = same && kick_[0][i] == first.x && kick_[1][i] == first.y && kick_[2][i] == second.x
+           && kick_[3][i] == second.y;
   }
   return same;
 }

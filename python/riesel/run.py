@@ -16,6 +16,7 @@ import yaml
 from numpy.typing import NDArray
 
 from .table import NotThere, Table, opened, part, table_of, text
+from .trajectory import Trajectory
 from .tree import Tree
 
 
@@ -154,6 +155,11 @@ class Run:
                               width=float(group.attrs["box_width"]),
                               length=float(group.attrs["box_length"]), grains=table_of(group),
                               contacts=table_of(group["contacts"]), walls=table_of(group["walls"]))
+
+    @cached_property
+    def trajectory(self) -> Trajectory:
+        """The frames of trajectory.h5, if the run was told to write some."""
+        return Trajectory(self.directory / "trajectory.h5")
 
     @cached_property
     def curve(self) -> Table:

@@ -29,7 +29,7 @@ class Flow(CommandTest):
     @classmethod
     def setUpClass(cls):
         maker = cls.maker()
-        directory = maker.run_small_tube("run")
+        directory = maker.run_small_tube("run", "--set", "output.trajectory_interval=1 ms")
         maker.resume_to_end(directory, "--set", "run.duration=30 ms")
         cls.directory = directory
         cls.run_of_it = riesel.Run(directory)
@@ -97,6 +97,23 @@ class Flow(CommandTest):
         self.assertEqual(final.grains["velocity"].shape, (self.run_of_it.summary["grains"], 2))
         self.assertTrue(np.all(np.diff(final.grains["id"]) > 0))
 
+    def test_the_trajectory(self):
+        trajectory, final = self.run_of_it.trajectory, self.run_of_it.final
+        with h5py.File(self.directory / "trajectory.h5", "r") as file:
+            written = file["particles/grains"]
+            self.assertEqual(len(trajectory), len(written["position/time"]))
+            np.testing.assert_array_equal(trajectory[-2].position,
+                                          written["position/value"][-2, :, :2])
+            self.assertEqual([frame.step for frame in trajectory],
+                             written["velocity/step"][()].tolist())
+        self.assertGreater(len(trajectory), 20)
+        self.assertEqual(len(trajectory[3:5]), 2)
+        self.assertEqual(trajectory[4].time, trajectory.time[4])
+        np.testing.assert_array_equal(trajectory.radius, final.grains["radius"])
+        self.assertEqual(trajectory.wall_position.shape, (sum(final.walls["count"]), 2))
+        with self.assertRaises(IndexError):
+            trajectory[len(trajectory)]
+
     def test_histograms(self):
         with self.file() as file:
             self.assertEqual(sorted(self.run_of_it.histograms), sorted(file["histograms"]))
@@ -133,7 +150,7 @@ class Impacts(CommandTest):
             np.testing.assert_array_equal(run.curve[name], [point[name] for point in points])
         self.assertEqual(run.curve["verdict"].tolist(), [0.0, 2.0])
         self.assertEqual([point["verdict"] for point in points], ["valid", "unphysical"])
-        for part in ("profiles", "histograms", "final", "validity"):
+        for part in ("profiles", "histograms", "final", "validity", "trajectory"):
             with self.assertRaisesRegex(riesel.NotThere, "out.*; "):
                 getattr(run, part)
 

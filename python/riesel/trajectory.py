@@ -1,0 +1,67 @@
+"""The frames of a run, one at a time: they may be more than fit into the memory."""
+
+from __future__ import annotations
+
+import pathlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .table import opened
+
+_REMEDY = "give the run a setting output.trajectory_interval"
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Grains at one moment, in the order of their ids: arrays of the shape (grains, 2), x across and
+    y along the tube, in [0, length)."""
+
+    time: float  #: s
+    step: int
+    position: NDArray[np.float32]  #: m
+    velocity: NDArray[np.float32]  #: m/s
+
+
+class Trajectory(Sequence[Frame]):
+    """trajectory.h5: len(), [i] and iteration give frames, read when they are asked for."""
+
+    def __init__(self, path: pathlib.Path) -> None:
+        self._path = path
+        with opened(path, _REMEDY) as file:
+            grains = file["particles/grains"]
+            self.time: NDArray[np.float64] = grains["position/time"][()]  #: s, of all frames
+            self.step: NDArray[np.int64] = grains["position/step"][()]
+            self.radius: NDArray[np.float64] = grains["radius"][()]  #: m
+            self.mass: NDArray[np.float64] = grains["mass"][()]  #: kg
+            walls = file["particles/walls"]
+            self.wall_position: NDArray[np.float64] = walls["position"][:, :2]  #: m, of wall grains
+            self.wall_radius: NDArray[np.float64] = walls["radius"][()]  #: m
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @overload
+    def __getitem__(self, index: int) -> Frame: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Frame]: ...
+
+    def __getitem__(self, index: int | slice) -> Frame | list[Frame]:
+        with opened(self._path, _REMEDY) as file:
+            if isinstance(index, slice):
+                return [self._frame(file, i) for i in range(*index.indices(len(self)))]
+            return self._frame(file, range(len(self))[index])
+
+    def __iter__(self) -> Iterator[Frame]:
+        with opened(self._path, _REMEDY) as file:
+            yield from (self._frame(file, i) for i in range(len(self)))
+
+    def _frame(self, file: Any, index: int) -> Frame:
+        grains = file["particles/grains"]
+        return Frame(time=float(self.time[index]), step=int(self.step[index]),
+                     position=grains["position/value"][index, :, :2],
+                     velocity=grains["velocity/value"][index, :, :2])
