@@ -17,7 +17,8 @@ int run(const RunOptions& options, const Arguments& arguments) {
 
   if (auto* flow = std::get_if<scenarios::Flow>(&problem))
     return run_flow(settings, std::move(*flow), std::move(directory), arguments, options.flow);
-  return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments);
+  return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments,
+                   options.flow.verbosity);
 }
 
 }  // namespace riesel::app
