@@ -97,4 +97,15 @@ void print_summary(const io::CurveSummary& s, const std::filesystem::path& direc
   print_common(s.run, directory);
 }
 
+void print_summary(const io::ColumnSummary& s, const std::filesystem::path& directory) {
+  fmt::print("{}: {} beads, {} drops\n", s.run.scenario, s.run.grains, s.column.size());
+  fmt::print("  {:<22}{}\n", "hard beads", description_of(s.rigid));
+  for (const io::ColumnPoint* p : {&s.column.front(), &s.column.back()})
+    fmt::print("  {:<22}effective restitution {:.4g} at gaps of {:.3g} v t_col\n", "these beads",
+               p->restitution, p->gap_ratio);
+  fmt::print("  {:<22}{}\n", "validity", count_of_verdicts(s));
+  fmt::print("  {:<22}{}\n", "contacts", where_hard(s));
+  print_common(s.run, directory);
+}
+
 }  // namespace riesel::app

@@ -126,11 +126,14 @@ std::string to_json(const FlowSummary& s) {
   json["balance"] = balance(s.balance);
   json["grain_contact_rate"] = measured(s.grain_contact_rate);
   json["braking_force"] = braking_force(s.braking_force);
-  json["energy"] = {
-      {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},
-      {"elastic", s.energy.elastic},         {"gravity_work", s.energy.gravity_work},
-      {"normal_loss", s.energy.normal_loss}, {"friction_loss", s.energy.friction_loss},
-      {"residual", s.energy.residual}};
+  json["energy"] = {{"initial", s.energy.initial},
+                    {"kinetic", s.energy.kinetic},
+                    {"rotational", s.energy.rotational},
+                    {"elastic", s.energy.elastic},
+                    {"gravity_work", s.energy.gravity_work},
+                    {"normal_loss", s.energy.normal_loss},
+                    {"friction_loss", s.energy.friction_loss},
+                    {"residual", s.energy.residual}};
   json["wall_visits"] = wall_visits(s.wall_visits);
   json["validity"] = validity(s);
   return text_of(json);
@@ -153,6 +156,28 @@ std::string to_json(const CurveSummary& s) {
                      {"brake_failure_fraction", p.brake_failure_fraction},
                      {"verdict", name(p.verdict)}});
   json["curve"] = curve;
+  return text_of(json);
+}
+
+std::string to_json(const ColumnSummary& s) {
+  Json json = common_part(s.run);
+  json["t_col"] = s.t_col;
+  json["rigid"] = {{"restitution", s.rigid.restitution},
+                   {"rebound", s.rigid.rebound},
+                   {"collisions", s.rigid.collisions},
+                   {"collapsed", s.rigid.collapsed}};
+  Json column = Json::array();
+  for (const ColumnPoint& p : s.column)
+    column.push_back({{"gap_ratio", p.gap_ratio},
+                      {"gap", p.gap},
+                      {"restitution", p.restitution},
+                      {"rebound", p.rebound},
+                      {"detachment", p.detachment},
+                      {"contacts", p.contacts},
+                      {"contact_time", p.contact_time},
+                      {"max_overlap", p.max_overlap},
+                      {"verdict", name(p.verdict)}});
+  json["column"] = column;
   return text_of(json);
 }
 

@@ -12,6 +12,7 @@
 #include "scenarios/run_length.hpp"
 #include "scenarios/run_limits.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/size_distribution.hpp"
 
 #include <fmt/core.h>
 
@@ -30,28 +31,6 @@ using std::numbers::pi;
 
 io::SettingsTable flow_settings() {
   return {
-      {.key = "grains.diameter",
-       .unit = "m",
-       .fallback = "1 mm",
-       .range = io::positive(),
-       .doc = "Mean diameter of the free grains."},
-      {.key = "grains.mass",
-       .unit = "kg",
-       .fallback = "1 mg",
-       .range = io::positive(),
-       .doc = "Mass of a free grain of the mean diameter; others in proportion to their area."},
-      {.key = "grains.polydispersity",
-       .unit = "1",
-       .fallback = "0.05",
-       .range = io::between(0.0, 0.3),
-       .doc = "Relative spread of the diameters: half width of the uniform distribution, standard "
-              "deviation of the truncated normal one."},
-      {.key = "grains.size_distribution",
-       .kind = io::Kind::choice,
-       .fallback = "uniform",
-       .choices = {"uniform", "truncated_normal"},
-       .doc = "Distribution of the diameters; the normal one is cut off at three standard "
-              "deviations."},
       {.key = "grains.area_fraction",
        .unit = "1",
        .fallback = "0.55",
@@ -137,8 +116,9 @@ io::SettingsTable output_settings() {
 }
 
 io::SettingsTable own_settings() {
-  io::SettingsTable table = flow_settings();
-  for (const auto& rows : {run_length_settings(), run_limits_settings(), output_settings()})
+  io::SettingsTable table = size_settings();
+  for (const auto& rows :
+       {flow_settings(), run_length_settings(), run_limits_settings(), output_settings()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }
@@ -155,34 +135,17 @@ State empty_tube(const io::Settings& settings) {
   state.walls = {{.line = 0.0, .radius = radius, .count = count},
                  {.line = state.box.width, .radius = radius, .count = count}};
   state.gravity = settings.number("gravity");
+  state.grains.inertia = inertia(settings);
   return state;
 }
 
-/// Relative to the mean diameter.
-double relative_diameter(const io::Settings& settings, const RandomStream& stream,
-                         std::uint64_t grain) {
-  const double spread = settings.number("grains.polydispersity");
-  if (settings.text("grains.size_distribution") == "uniform")
-    return 1.0 + spread * (2.0 * stream.uniform(grain)[0] - 1.0);
-  for (std::uint32_t draw = 0;; ++draw) {
-    const double deviation = stream.normal(grain, draw)[0];
-    if (std::abs(deviation) <= 3.0) return 1.0 + spread * deviation;
-  }
-}
-
-double largest_relative_diameter(const io::Settings& settings) {
-  const double spread = settings.number("grains.polydispersity");
-  return 1.0 + (settings.text("grains.size_distribution") == "uniform" ? spread : 3.0 * spread);
-}
-
 /// As many grains as bring their area closest to the fraction.
-std::vector<double> draw_radii(const io::Settings& settings, const Box& box) {
-  const RandomStream stream(static_cast<std::uint64_t>(settings.integer("seed")), Use::radius);
+std::vector<double> draw_radii(const io::Settings& settings, const SizeDistribution& sizes,
+                               const Box& box) {
   const double wanted = settings.number("grains.area_fraction") * box.width * box.length;
   std::vector<double> radii;
   for (double area = 0.0;;) {
-    const double radius = 0.5 * settings.number("grains.diameter")
-                          * relative_diameter(settings, stream, radii.size());
+    const double radius = 0.5 * sizes.diameter(radii.size());
     const double next = area + pi * radius * radius;
     const bool closer_without = next - wanted > wanted - area;
     if (closer_without && !radii.empty()) return radii;
@@ -191,8 +154,7 @@ std::vector<double> draw_radii(const io::Settings& settings, const Box& box) {
   }
 }
 
-void reject_what_has_no_room(const io::Settings& settings, const State& empty) {
-  const double largest = settings.number("grains.diameter") * largest_relative_diameter(settings);
+void reject_what_has_no_room(const io::Settings& settings, double largest, const State& empty) {
   const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
   if (free_width < largest)
     settings.reject(
@@ -235,8 +197,9 @@ void set_velocities(const io::Settings& settings, std::vector<Grain>& grains) {
   }
 }
 
-std::vector<Grain> start_grains(const io::Settings& settings, const State& empty) {
-  const std::vector<double> radii = draw_radii(settings, empty.box);
+std::vector<Grain> start_grains(const io::Settings& settings, const SizeDistribution& sizes,
+                                const State& empty) {
+  const std::vector<double> radii = draw_radii(settings, sizes, empty.box);
   const auto places = pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
   if (!places)
     settings.reject("grains.area_fraction", "no start without overlaps was found",
@@ -263,7 +226,7 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
   const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
   const double shortest = collision_time(settings, model, 0.5 * *lightest);
   collision_time(settings, model, *heaviest);
-  state.time_step = time_step(settings, shortest);
+  state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
   constexpr double most_steps = 1e15;  // far below what a counter holds
   const RunLength length = run_length(settings);
   if (length.at_most / state.time_step > most_steps)
@@ -271,8 +234,9 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
                     fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
 }
 
-Problem start_afresh(const io::Settings& settings, const ContactModel& model, State state) {
-  const std::vector<Grain> grains = start_grains(settings, state);
+Problem start_afresh(const io::Settings& settings, const SizeDistribution& sizes,
+                     const ContactModel& model, State state) {
+  const std::vector<Grain> grains = start_grains(settings, sizes, state);
   std::vector<double> masses;
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
@@ -289,10 +253,11 @@ Problem continue_run(const io::Settings& settings, const ContactModel& model, St
 
 Problem prepare(const io::Settings& settings) {
   State state = empty_tube(settings);
-  reject_what_has_no_room(settings, state);
+  const SizeDistribution sizes(settings);
+  reject_what_has_no_room(settings, sizes.largest(), state);
   const ContactModel model = contact_model(settings);
   const bool fresh = settings.text("start.kind") == "fresh";
-  return fresh ? start_afresh(settings, model, std::move(state))
+  return fresh ? start_afresh(settings, sizes, model, std::move(state))
                : continue_run(settings, model, std::move(state));
 }
 

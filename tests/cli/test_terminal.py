@@ -10,7 +10,7 @@ import struct
 import termios
 import time
 
-from riesel_command import SMALL_TUBE, CommandTest
+from riesel_command import PATIENCE, SMALL_TUBE, CommandTest
 
 LONG_TUBE = SMALL_TUBE.replace("5 ms", "1000 s")
 IMPACT = """\
@@ -25,7 +25,7 @@ class Terminal(CommandTest):
     def test_away_from_a_terminal_there_are_plain_lines_only(self):
         self.write("tube.yaml", SMALL_TUBE)
         process = self.start("run", "tube.yaml", "--out", "out", "--threads", 1, text=False)
-        stdout, stderr = process.communicate(timeout=60)
+        stdout, stderr = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 0)
         self.assertEqual(stderr, b"")
         for sign in (b"\r", b"\x1b", b"\b"):
@@ -123,7 +123,7 @@ class Terminal(CommandTest):
         process.send_signal(signal.SIGINT)
         after = self.read_until(keyboard, lambda text: b"riesel resume" in text)
         self.assertIn(b"\r\ninterrupted at", after)  # on a line of its own
-        self.assertEqual(process.communicate(timeout=60)[0], b"")
+        self.assertEqual(process.communicate(timeout=PATIENCE)[0], b"")
         self.assertEqual(process.returncode, 130)
 
     def read_until(self, terminal, enough):

@@ -80,7 +80,17 @@ TEST_CASE("every law of the contact goes as by brute force") {
   SECTION("literal sign of the slip") { model.slip = LiteralSlip{}; }
   SECTION("viscous slip") { model.slip = ViscousSlip{1e5}; }
   SECTION("no attraction") { model.attraction = Attraction::clip; }
+  SECTION("tangential spring") { model.slip = SpringSlip{800.0, 3e3}; }
   CHECK(agree(small_tube(4), 300, model).pairs_begun > 10);
+}
+
+TEST_CASE("grains that rotate go as by brute force") {
+  ContactModel model = rolling_model();
+  SECTION("spring and resistance to rolling") {}
+  SECTION("capped slip") { model.slip = CappedSlip{}; }
+  SECTION("literal sign of the slip") { model.slip = LiteralSlip{}; }
+  SECTION("viscous slip") { model.slip = ViscousSlip{3e4}; }
+  CHECK(agree(small_tube(4, 40, disc), 300, model).pairs_begun > 10);
 }
 
 TEST_CASE("a cluster in a large box goes as by brute force") {
@@ -139,6 +149,27 @@ TEST_CASE("grains of very different size go as by brute force") {
       {.left = 0, .right = 12e-3, .low = 0, .high = 16e-3, .speed = 3.0, .mean_radius = 0.1e-3},
       dice);
   CHECK(agree(state, 400).pairs_begun > 20);
+}
+
+TEST_CASE("a crowded tube of grains of two sizes goes as by brute force") {
+  const std::uint64_t seed = GENERATE(as<std::uint64_t>{}, 1, 2);
+  State state = empty_box(10e-3, 14.4e-3);
+  state.gravity = 10.0;
+  add_walls(state, 18);
+  Dice dice(seed);
+  for (const auto& [grains, mean_radius] : {std::pair{5, 1e-3}, std::pair{110, 0.2e-3}})
+    throw_grains(state, static_cast<std::size_t>(grains),
+                 {.left = 0.0,
+                  .right = 10e-3,
+                  .low = 0.0,
+                  .high = 14.4e-3,
+                  .speed = 3.0,
+                  .common_vy = 2.0,
+                  .mean_radius = mean_radius},
+                 dice);
+  const Events events = agree(state, 500);
+  CHECK(events.pairs_begun > 40);
+  CHECK(events.walls_begun > 5);
 }
 
 TEST_CASE("a single grain goes as by brute force") {
