@@ -10,7 +10,7 @@ build_packages=(
   libudunits2-dev librandom123-dev catch2
   python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
 # Read what riesel writes, in the tests only.
-test_packages=(python3-netcdf4)
+test_packages=(python3-netcdf4 python3-jsonschema python3-yaml)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen)
 # Shows the pages of riesel report to the tests, which are skipped without it.

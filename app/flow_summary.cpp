@@ -161,6 +161,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   const Energies& e = last.energies;
   s.energy = {.initial = state.origin.energy,
               .kinetic = e.kinetic,
+              .rotational = e.rotational,
               .elastic = e.elastic,
               .gravity_work = e.gravity_work,
               .normal_loss = e.normal_loss,

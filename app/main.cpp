@@ -67,11 +67,13 @@ public:
     add_directory("status", "Tell how far a sweep has come", "the sweep", app::sweep_status);
     add_directory("collect", "Gather the results of a sweep into one table", "the sweep",
                   app::sweep_collect);
+    add_new();
     program_.add_subcommand("scenarios", "List the scenarios")->callback([this] {
       command_ = app::list_scenarios;
     });
     program_.add_subcommand("settings", "Print the reference of all settings, in Markdown")
         ->callback([this] { command_ = app::print_settings; });
+    add_schema();
   }
 
   CLI::App& program() { return program_; }
@@ -132,6 +134,23 @@ private:
     set_command(*task, *index, [this] { return app::sweep_task(task_); });
   }
 
+  void add_new() {
+    CLI::App* made = program_.add_subcommand("new", "Write a settings file to begin with");
+    CLI::Option* scenario =
+        made->add_option("SCENARIO", new_file_.scenario, "See 'riesel scenarios'");
+    made->add_option("FILE", new_file_.file, "Where to [SCENARIO.yaml]");
+    set_command(*made, *scenario, [this] { return app::new_file(new_file_); });
+  }
+
+  void add_schema() {
+    CLI::App* schema = program_.add_subcommand(
+        "schema",
+        "Print the JSON Schema of settings files, for editors that complete and check YAML");
+    schema->add_flag("--sweep", schema_of_sweeps_, "That of sweep files");
+    schema->callback(
+        [this] { command_ = [this] { return app::print_schema(schema_of_sweeps_); }; });
+  }
+
   /// A subcommand whose only argument is the directory of something that was made.
   void add_directory(const std::string& name, const std::string& what, const std::string& of,
                      int (*act)(const std::filesystem::path&)) {
@@ -157,7 +176,9 @@ private:
   app::CheckOptions check_;
   app::SweepOptions sweep_;
   app::SweepTaskOptions task_;
+  app::NewFileOptions new_file_;
   std::filesystem::path directory_;
+  bool schema_of_sweeps_ = false;
   std::function<int()> command_;
 };
 

@@ -74,13 +74,16 @@ io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::strin
 }
 
 std::vector<EnergyPart> parts_of(const io::FlowSummary::Energy& e) {
-  return {{"kinetic, at the start", e.initial, true},
-          {"work of gravity", e.gravity_work, true},
-          {"kinetic, at the end", e.kinetic, false},
-          {"elastic, at the end", e.elastic, false},
-          {"lost by normal damping", e.normal_loss, false},
-          {"lost by friction", e.friction_loss, false},
-          {"residual", e.residual, false}};
+  std::vector<EnergyPart> parts = {{"kinetic, at the start", e.initial, true},
+                                   {"work of gravity", e.gravity_work, true},
+                                   {"kinetic, at the end", e.kinetic, false},
+                                   {"elastic, at the end", e.elastic, false},
+                                   {"lost by normal damping", e.normal_loss, false},
+                                   {"lost by friction", e.friction_loss, false},
+                                   {"residual", e.residual, false}};
+  if (e.rotational != 0.0)
+    parts.insert(parts.begin() + 3, {"of rotation, at the end", e.rotational, false});
+  return parts;
 }
 
 io::Svg draw_energy(const std::vector<EnergyPart>& parts) {

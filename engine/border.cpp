@@ -62,6 +62,7 @@ Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, Fixed falle
     m.uy = wrapped_sum(m.uy, m.kick_y);
     m.x = wrapped_sum(m.x, m.ux);
     m.y = wrapped_sum(m.y, wrapped_sum(m.uy, fallen));
+    m.spin = wrapped_sum(m.spin, m.spin_kick);
   });
   return m;
 }

@@ -22,7 +22,7 @@ namespace riesel {
 /// What contacts of one slice do to a grain of another: a kick, a beginning, an end.
 struct Deed {
   std::uint32_t slot;
-  Fixed kick_x, kick_y;
+  BodyKick kick;
   std::int32_t contacts;  ///< this many more
 };
 

@@ -206,8 +206,9 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
 void Candidates::list_received(const Grains& grains, Slice& mine) {
   mine.received.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    if (grains.kick_x[i] != 0 || grains.kick_y[i] != 0)
-      mine.received.push_back({static_cast<std::uint32_t>(i), grains.kick_x[i], grains.kick_y[i]});
+    if (const BodyKick by{grains.kick_x[i], grains.kick_y[i], grains.spin_kick_of(i)};
+        by.x != 0 || by.y != 0 || by.spin != 0)
+      mine.received.push_back({static_cast<std::uint32_t>(i), by});
 }
 
 /// Of the displacement per step relative to the drift, with or without the kick in the store: in
@@ -299,10 +300,14 @@ void Candidates::end_lost_contacts(const State& state) {
   for (Slice& owner : slices_)
     for (Contact& contact : owner.lasting) {
       if (!is_lost(contact)) continue;
-      const Encounter e = encounter(contact.name, state, slot_of_, units);
-      contact.friction_loss +=
-          loss_by_friction(contact.friction_x, contact.friction_y, e, units.dt);
-      owner.tally.end(contact, e.reach);
+      const Meeting meeting = meeting_of(contact.name, state, slot_of_);
+      const Bodies b = bodies(state.grains);
+      contact.friction_loss += loss_by_friction(contact.friction_x, contact.friction_y,
+                                                encounter(meeting, b, units), units.dt);
+      if (b.rotate())
+        contact.friction_loss += loss_by_torques(contact.torque, contact.rolling_torque,
+                                                 turning(meeting, b, 0.0, units), units.dt);
+      owner.tally.end(contact, meeting.reach());
     }
 }
 

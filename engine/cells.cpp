@@ -83,6 +83,8 @@ void Cells::permute(AlignedVector<T>& values) {
 
 void Cells::permute(Grains& g) {
   for (auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) permute(*component);
+  if (g.rotate())
+    for (auto* component : {&g.spin, &g.spin_kick}) permute(*component);
   permute(g.radius);
   permute(g.mass);
   permute(g.id);

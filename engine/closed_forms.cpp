@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -55,6 +56,13 @@ double collision_time(const NormalLaw& normal, double reduced_mass, double speed
         return elastic_collision_time(law.elastic_line(), reduced_mass, speed);
       },
       normal);
+}
+
+double spring_time(const SlipLaw& slip, double inertia, double reduced_mass) {
+  const auto* spring = std::get_if<SpringSlip>(&slip);
+  if (spring == nullptr) return std::numeric_limits<double>::infinity();
+  const double slip_mass = inertia > 0.0 ? reduced_mass / (1.0 + 1.0 / inertia) : reduced_mass;
+  return pi * std::sqrt(slip_mass / spring->k_t);
 }
 
 double chord(double reach, double impact_height) {

@@ -26,11 +26,11 @@ struct Contact {
   double begin = 0.0;                 ///< s, since step 0
   double end = 0.0;                   ///< s, when the contact ends, or a step from now
   double entry_rate = 0.0;            ///< m/s, normal approach velocity at the beginning
-  double entry_slip = 0.0;            ///< m/s, slip velocity at the beginning
+  double entry_slip = 0.0;            ///< m/s, slip velocity of the centres at the beginning
   double overlap = 0.0;               ///< m, now
   double max_overlap = 0.0;           ///< m
-  double slip_path = 0.0;             ///< m, integral of |slip velocity|
-  double elastic_energy = 0.0;        ///< J, stored now
+  double slip_path = 0.0;             ///< m, integral of |slip velocity| of the surfaces
+  double elastic_energy = 0.0;        ///< J, stored now, in the tangential spring too
   double normal_loss = 0.0;           ///< J, dissipated by the normal damping so far
   double friction_loss = 0.0;         ///< J, dissipated by friction before this step
   double impulse_x = 0.0;             ///< kg m/s, given to `grain` across the tube so far
@@ -38,6 +38,9 @@ struct Contact {
   double impulse_y_times_step = 0.0;  ///< that, each step's part times the number of the step
   double friction_x = 0.0;            ///< N, friction on `grain` in this step, across the tube
   double friction_y = 0.0;            ///< N, the same along y
+  double spring = 0.0;                ///< m, elongation of the tangential spring, along s
+  double torque = 0.0;          ///< N m, of the friction in this step, on both grains together
+  double rolling_torque = 0.0;  ///< N m, of the resistance to rolling in this step, on `grain`
 
   double duration() const { return end - begin; }  ///< s
 };

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace riesel {
 
@@ -29,18 +30,46 @@ struct Encounter {
   double reduced_mass;      ///< kg
 };
 
+/// The turning of two bodies in contact, seen from the first one. The surfaces meet on the line of
+/// centres, which the contact point divides as the radii do: so the two torques of a tangential
+/// force and that of the force pair on the orbit add up to zero, whatever the overlap.
+struct Turning {
+  double roll, half_roll;  ///< 1/s, (r_i w_i + r_j w_j) / reach, at the full step and before
+  double spin, half_spin;  ///< rad/s, w_i - w_j, likewise
+  double inertia;          ///< moment of inertia of a grain over m r^2
+  double part_first, part_second;                ///< of the reach, which is each body's radius
+  double per_inertia_first, per_inertia_second;  ///< 1/(kg m^2); 0: a wall grain
+  double rolling_arm;                            ///< m, largest rolling torque per normal force
+};
+
+/// Of grains that do not rotate.
+struct NoTurning {};
+
+/// The tangential spring of a contact, for laws that have one.
+struct Stretch {
+  double spring = 0.0;  ///< m, its elongation a step before
+  double time = 0.0;    ///< s, for which the slip has stretched it since
+};
+
 /// What the contact does in this step.
 struct Touch {
   double fx, fy;                  ///< N, on the first body; the second gets the opposite
   double friction_x, friction_y;  ///< N, the part of it that is friction
   double overlap;                 ///< m
   double rate;                    ///< m/s, d(overlap)/dt: positive while approaching
-  double slip;   ///< m/s, along s = n turned by 90 degrees, of the first relative to the second
-  double since;  ///< s, in touch since; dt if longer than the last step
-  double until;  ///< s, in touch for; dt if longer than the next step
+  double slip;  ///< m/s, of the surfaces, of the first relative to the second, along s = n turned
+                ///< by 90 degrees
+  double centre_slip;     ///< m/s, that of the centres alone
+  double since;           ///< s, in touch since; dt if longer than the last step
+  double until;           ///< s, in touch for; dt if longer than the next step
   double elastic_energy;  ///< J
   double normal_power;    ///< W, dissipated by the normal damping (negative where a clipped force
                           ///< gives back)
+  double spring;          ///< m, elongation of the tangential spring; 0 without
+  double spring_energy;   ///< J, the part of the elastic energy that is in it
+  double torque;          ///< N m, of the friction, on both bodies together: each has its part of
+                          ///< the reach
+  double rolling_torque;  ///< N m, on the first body; the second gets the opposite
 };
 
 /// J, what friction (N, on the first body) took from two bodies in the step before the present one.
@@ -50,6 +79,13 @@ struct Touch {
                                                       double dt) {
   const double mean_vx = 2.0 * e.half_vx - e.vx, mean_vy = 2.0 * e.half_vy - e.vy;
   return (fx * mean_vx + fy * mean_vy) * dt;
+}
+
+/// J, the same for the torques (N m, as in Touch) that friction and rolling resistance exerted.
+[[gnu::always_inline]] inline double loss_by_torques(double torque, double rolling_torque,
+                                                     const Turning& t, double dt) {
+  const double mean_roll = 2.0 * t.half_roll - t.roll, mean_spin = 2.0 * t.half_spin - t.spin;
+  return -(torque * mean_roll + rolling_torque * mean_spin) * dt;
 }
 
 /// How much of the last and of the next time step two bodies spend in the overlap: s, at most dt.
@@ -76,19 +112,45 @@ struct Passage {
 /// the contact begins (or ends) in it; then there is no other kick to stand for the rest.
 inline double kick_time(double in_touch, double dt) { return in_touch < dt ? in_touch : 0.5 * dt; }
 
-/// Without branches and inlined, so that a loop over contacts can be vectorised.
-template <class Normal, class Slip>
-[[gnu::always_inline]] inline Touch touch(const Encounter& e, const Normal& normal,
-                                          const Slip& slip_law, double mu, Attraction attraction,
-                                          double dt) {
+/// kg, what opposes a change of the slip: a tangential force moves the centres, and turns grains
+/// that rotate.
+[[gnu::always_inline]] inline double slip_mass(const Encounter& e, double distance,
+                                               const Turning& t) {
+  const double arm = distance / e.reach;
+  return e.reduced_mass / (1.0 + arm * arm / t.inertia);
+}
+[[gnu::always_inline]] inline double slip_mass(const Encounter& e, double, const NoTurning&) {
+  return e.reduced_mass;
+}
+
+/// N m, on the first body: model A of Ai, Chen, Rotter and Ooi, Powder Technology 206, 269 (2011),
+/// mu_r R |F_N| against the relative spin, R = r_i r_j / (r_i + r_j); but, as CappedSlip, never
+/// more than what stops it within the step.
+[[gnu::always_inline]] inline double rolling_resistance(const Turning& t, double f_n, double dt) {
+  const double stops = t.half_spin / ((t.per_inertia_first + t.per_inertia_second) * dt);
+  return -between(t.rolling_arm * std::abs(f_n), stops);
+}
+
+/// Without branches and inlined, so that a loop over contacts can be vectorised. `Turn` is Turning
+/// or NoTurning.
+template <class Turn, class Normal, class Slip>
+[[gnu::always_inline]] inline Touch
+touch(const Encounter& e, const Turn& turn, const Stretch& stretch, const Normal& normal,
+      const Slip& slip_law, double mu, Attraction attraction, double dt) {
+  constexpr bool turns = std::is_same_v<Turn, Turning>;
   const double distance = std::sqrt(e.x * e.x + e.y * e.y);
   const double per_distance = 1.0 / distance;
   const double nx = e.x * per_distance, ny = e.y * per_distance;
 
-  Touch t;
+  Touch t{};
   t.overlap = e.reach - distance;
   t.rate = -(e.vx * nx + e.vy * ny);
-  t.slip = e.vx * ny - e.vy * nx;
+  t.slip = t.centre_slip = e.vx * ny - e.vy * nx;
+  double half_step_slip = e.half_vx * ny - e.half_vy * nx;
+  if constexpr (turns) {
+    t.slip += distance * turn.roll;
+    half_step_slip += distance * turn.half_roll;
+  }
 
   const double elastic = normal.elastic(t.overlap);
   const double damping = normal.damping(t.overlap, t.rate, e.reduced_mass);
@@ -100,8 +162,15 @@ template <class Normal, class Slip>
   double f_n = elastic + weight * damping;
   if (attraction == Attraction::clip) f_n = elastic + damping < 0.0 ? 0.0 : std::max(f_n, 0.0);
 
-  const double half_step_slip = e.half_vx * ny - e.half_vy * nx;
-  const double f_s = slip_law.force(mu * std::abs(f_n), t.slip, half_step_slip, e.reduced_mass, dt);
+  const Sliding sliding{.limit = mu * std::abs(f_n),
+                        .slip = t.slip,
+                        .half_step_slip = half_step_slip,
+                        .spring = stretch.spring + half_step_slip * stretch.time,
+                        .damping_weight = weight,
+                        .reduced_mass = e.reduced_mass,
+                        .slip_mass = slip_mass(e, distance, turn),
+                        .dt = dt};
+  const double f_s = slip_law.force(sliding);
 
   // n = (nx, ny), s = (-ny, nx)
   t.friction_x = -f_s * ny;
@@ -109,6 +178,15 @@ template <class Normal, class Slip>
   t.fx = t.friction_x - f_n * nx;
   t.fy = t.friction_y - f_n * ny;
   t.elastic_energy = normal.stored_energy(t.overlap);
+  if constexpr (Slip::has_spring) {
+    t.spring = slip_law.elongation(sliding, f_s);
+    t.spring_energy = slip_law.stored_energy(t.spring);
+    t.elastic_energy += t.spring_energy;
+  }
+  if constexpr (turns) {
+    t.torque = distance * f_s;
+    t.rolling_torque = rolling_resistance(turn, f_n, dt);
+  }
   t.normal_power = (f_n - elastic) * t.rate;
   return t;
 }

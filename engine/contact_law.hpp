@@ -7,7 +7,12 @@
 //   stored_energy(xi)              J
 //   elastic_line()                 k and alpha of elastic(xi) = k xi^alpha, for the contact time
 // with xi > 0 the overlap in m, `rate` = d(xi)/dt in m/s and m_red the reduced mass in kg. To add a
-// slip law: the same with SlipLaw; a type provides force(limit, slip, half_step_slip, m_red, dt).
+// slip law: the same with SlipLaw; a type provides
+//   force(sliding)                 N along s, on the first body
+//   has_spring                     whether its contacts have a history, the elongation of a spring;
+// and if they have
+//   elongation(sliding, force)     m, what the force leaves of it
+//   stored_energy(elongation)      J
 //
 // Source, unless said otherwise: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
 #pragma once
@@ -63,32 +68,77 @@ struct HertzKuwabaraKonoLaw {
 
 using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw>;
 
+/// What a slip law sees of a contact. The slip is that of the surfaces, of the first body relative
+/// to the second, along s.
+struct Sliding {
+  double limit;           ///< N, mu |F_N|
+  double slip;            ///< m/s, at the full step
+  double half_step_slip;  ///< m/s, half a step before
+  double spring;          ///< m, elongation of the tangential spring by the slip so far
+  double damping_weight;  ///< the part of the step in which the bodies are in touch
+  double reduced_mass;    ///< kg
+  double slip_mass;       ///< kg, inertia of the slip: m_red, and less where the bodies can turn
+  double dt;              ///< s
+};
+
+[[gnu::always_inline]] inline double between(double limit, double force) {
+  return std::max(-limit, std::min(limit, force));
+}
+
 /// Eq. (2), F_S = -limit sgn(v_S), but never more than the force that stops the slip within the
 /// step: what the equation means as dt -> 0. The slip that a step's kick can stop is that of the
 /// leapfrog velocity.
 struct CappedSlip {
-  double force(double limit, double, double half_step_slip, double m_red, double dt) const {
-    return -std::max(-limit, std::min(limit, m_red * half_step_slip / dt));
+  static constexpr bool has_spring = false;
+
+  double force(const Sliding& s) const {
+    return -between(s.limit, s.slip_mass * s.half_step_slip / s.dt);
   }
 };
 
 /// Eq. (2) taken literally: at zero slip the sign chatters by limit dt / m_red each step.
 struct LiteralSlip {
-  double force(double limit, double, double half_step_slip, double, double) const {
-    return half_step_slip == 0.0 ? 0.0 : -std::copysign(limit, half_step_slip);
+  static constexpr bool has_spring = false;
+
+  double force(const Sliding& s) const {
+    return s.half_step_slip == 0.0 ? 0.0 : -std::copysign(s.limit, s.half_step_slip);
   }
 };
 
 /// F_S = -min(limit, gamma_t m_red |v_S|) sgn(v_S): eq. (2) made smooth at small slip.
 struct ViscousSlip {
+  static constexpr bool has_spring = false;
+
   double gamma_t;  ///< 1/s
 
-  double force(double limit, double slip, double, double m_red, double) const {
-    return -std::max(-limit, std::min(limit, gamma_t * m_red * slip));
+  double force(const Sliding& s) const {
+    return -between(s.limit, gamma_t * s.reduced_mass * s.slip);
   }
 };
 
-using SlipLaw = std::variant<CappedSlip, LiteralSlip, ViscousSlip>;
+/// F_S = -(k_t zeta + gamma_t m_red v_S), at most the limit: Cundall and Strack, Geotechnique 29,
+/// 47 (1979). The elongation zeta of the spring is the way that the contact has slipped. Where it
+/// slides, zeta is what goes with the limit: Luding, Granular Matter 10, 235 (2008).
+struct SpringSlip {
+  static constexpr bool has_spring = true;
+
+  double k_t;      ///< N/m
+  double gamma_t;  ///< 1/s
+
+  double force(const Sliding& s) const { return -between(s.limit, k_t * s.spring + damping(s)); }
+  double elongation(const Sliding& s, double force) const {
+    const bool slides = std::abs(k_t * s.spring + damping(s)) > s.limit;
+    return slides ? (-force - damping(s)) / k_t : s.spring;
+  }
+  double stored_energy(double elongation) const { return 0.5 * k_t * elongation * elongation; }
+
+private:
+  double damping(const Sliding& s) const {
+    return s.damping_weight * (gamma_t * s.reduced_mass * s.slip);
+  }
+};
+
+using SlipLaw = std::variant<CappedSlip, LiteralSlip, ViscousSlip, SpringSlip>;
 
 /// Near the end of a contact the damping of eq. (1) pulls: either as the equation says, or cut off
 /// at zero.
@@ -100,6 +150,7 @@ struct ContactModel {
   SlipLaw slip;
   double friction = 0.0;  ///< mu
   Attraction attraction = Attraction::keep;
+  double rolling_friction = 0.0;  ///< mu_r, of grains that rotate
 };
 
 }  // namespace riesel

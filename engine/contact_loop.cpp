@@ -1,6 +1,5 @@
 #include "engine/contact_loop.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace riesel {
@@ -31,34 +30,13 @@ void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
 }  // namespace
 
 Meeting meeting_of_pair(const Slice& slice, const Grains& g, std::uint32_t pair) {
-  const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
-  const auto [a, b] = std::minmax(g.id[i], g.id[j]);
-  return {.name = {no_wall, a, b},
-          .candidate = pair,
-          .first = i,
-          .second = j,
-          .line = 0,
-          .y = 0,
-          .reach = g.radius[i] + g.radius[j],
-          .mass_first = g.mass[i],
-          .mass_second = g.mass[j],
-          .turned = g.id[i] != a};
+  return meeting_of_grains(g, slice.pairs.first[pair], slice.pairs.second[pair], pair);
 }
 
 Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t near_wall,
                         std::int64_t k) {
   const NearWall& near = slice.near_walls[near_wall];
-  const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
-  const Grains& g = state.grains;
-  return {.name = {near.wall, g.id[near.slot], static_cast<std::int32_t>(k)},
-          .candidate = near_wall,
-          .first = near.slot,
-          .second = near.slot,
-          .line = state.box.fixed_x(wall.line),
-          .y = wall.place(k),
-          .reach = g.radius[near.slot] + wall.radius,
-          .mass_first = g.mass[near.slot],
-          .mass_second = 0.0};
+  return meeting_with_wall(state, near.slot, near.wall, k, near_wall);
 }
 
 void note_lasting(Slice& slice, const Meeting& meeting) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/contact_law.hpp"
-#include "engine/encounter.hpp"
+#include "engine/meeting.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 #include "engine/wall_lattice.hpp"
@@ -46,28 +46,24 @@ template <class Ended>
 void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
   if (contacts.trouble()) slice.trouble = contacts.trouble();
   for (const std::size_t i : contacts.ended()) {
-    slice.tally.end(contacts.contact(i), contacts.meeting(i).reach);
+    slice.tally.end(contacts.contact(i), contacts.meeting(i).reach());
     note_over(slice, contacts.meeting(i));
     ended(i);
     contacts.remove(i);
   }
 }
 
-/// Calls kick(place, x, y) for what the last step of the contacts of `slice` gives to their bodies,
-/// in quanta; the place is that in the Bodies of that step.
+/// Calls kick(place, body_kick) for what the last step of the contacts of `slice` gives to their
+/// bodies; the place is that in the Bodies of that step.
 template <class GiveKick>
 void for_each_kick(const Slice& slice, GiveKick kick) {
   const LiveContacts& pairs = slice.pair_contacts;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ContactKick k = pairs.kick(i);
-    kick(pairs.first(i), k.first_x, k.first_y);
-    kick(pairs.second(i), k.second_x, k.second_y);
+    kick(pairs.first(i), pairs.kick_of_first(i));
+    kick(pairs.second(i), pairs.kick_of_second(i));
   }
   const LiveContacts& walls = slice.wall_contacts;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const ContactKick k = walls.kick(i);
-    kick(walls.first(i), k.first_x, k.first_y);
-  }
+  for (std::size_t i = 0; i < walls.size(); ++i) kick(walls.first(i), walls.kick_of_first(i));
 }
 
 /// One step of the contacts of `slice`: those that last, and those that begin among its hits. The

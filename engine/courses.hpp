@@ -19,7 +19,7 @@ namespace riesel {
 
 /// Position, displacement per step and kick of one grain, in quanta; as in Grains.
 struct Motion {
-  Fixed x, y, ux, uy, kick_x, kick_y;
+  Fixed x, y, ux, uy, kick_x, kick_y, spin, spin_kick;
 };
 
 class Courses {
@@ -61,7 +61,9 @@ public:
             .ux = grains_.ux[slot],
             .uy = grains_.uy[slot],
             .kick_x = grains_.kick_x[slot],
-            .kick_y = grains_.kick_y[slot]};
+            .kick_y = grains_.kick_y[slot],
+            .spin = grains_.spin_of(slot),
+            .spin_kick = grains_.spin_kick_of(slot)};
   }
 
   /// From `step` on the grain is expected to go on like this.
@@ -72,6 +74,10 @@ public:
     grains_.uy[slot] = m.uy;
     grains_.kick_x[slot] = m.kick_x;
     grains_.kick_y[slot] = m.kick_y;
+    if (grains_.rotate()) {
+      grains_.spin[slot] = m.spin;
+      grains_.spin_kick[slot] = m.spin_kick;
+    }
     since_[slot] = static_cast<std::int32_t>(step - sorted_at_);
   }
 

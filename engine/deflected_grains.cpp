@@ -61,6 +61,8 @@ DeflectedGrains::Place DeflectedGrains::take(std::uint32_t slot, const Motion& m
     contacts_.push_back(0);
     if (strays_.size() < padded_size()) {
       for (auto& column : columns_) column.resize(2 * padded_size());
+      if (rotate())
+        for (auto* column : {&spin_, &spin_kick_}) column->resize(2 * padded_size());
       strays_.resize(2 * padded_size());
       stray_blocks_.resize(2 * padded_size() / lanes);
     }
@@ -77,11 +79,14 @@ void DeflectedGrains::put(Place place, const Motion& motion) {
   const std::array values{motion.x, motion.y, motion.ux, motion.uy, motion.kick_x, motion.kick_y};
   for (std::size_t c = 0; c < column_count; ++c)
     columns_[c][place] = c < values.size() ? values[c] : 0;
+  if (!rotate()) return;
+  spin_[place] = motion.spin;
+  spin_kick_[place] = motion.spin_kick;
 }
 
 void DeflectedGrains::release(Place place) {
   slots_[place] = no_slot;
-  for (auto& column : columns_) column[place] = 0;
+  put(place, {});
   free_.push_back(place);
 }
 
@@ -90,6 +95,7 @@ void DeflectedGrains::clear() {
   contacts_.clear();
   free_.clear();
   for (auto& column : columns_) std::fill(column.begin(), column.end(), 0);
+  for (auto* column : {&spin_, &spin_kick_}) std::fill(column->begin(), column->end(), 0);
 }
 
 Motion DeflectedGrains::motion(Place place) const {
@@ -98,7 +104,9 @@ Motion DeflectedGrains::motion(Place place) const {
           .ux = columns_[at_ux][place],
           .uy = columns_[at_uy][place],
           .kick_x = columns_[at_kick_x][place],
-          .kick_y = columns_[at_kick_y][place]};
+          .kick_y = columns_[at_kick_y][place],
+          .spin = rotate() ? spin_[place] : 0,
+          .spin_kick = rotate() ? spin_kick_[place] : 0};
 }
 
 Bodies DeflectedGrains::bodies() const {
@@ -107,7 +115,10 @@ Bodies DeflectedGrains::bodies() const {
           .ux = columns_[at_ux].data(),
           .uy = columns_[at_uy].data(),
           .kick_x = columns_[at_kick_x].data(),
-          .kick_y = columns_[at_kick_y].data()};
+          .kick_y = columns_[at_kick_y].data(),
+          .spin = spin_.data(),
+          .spin_kick = spin_kick_.data(),
+          .inertia = inertia_};
 }
 
 void DeflectedGrains::move(Fixed fallen) {
@@ -116,11 +127,13 @@ void DeflectedGrains::move(Fixed fallen) {
                     c[off_ux].data(), c[off_x].data());
   move_lanes<lanes>(padded_size(), fallen, c[at_kick_y].data(), c[at_uy].data(), c[at_y].data(),
                     c[off_uy].data(), c[off_y].data());
+  for (std::size_t i = 0; i < spin_.size(); ++i) spin_[i] = wrapped_sum(spin_[i], spin_kick_[i]);
 }
 
 void DeflectedGrains::clear_kicks() {
   for (const Column c : {at_kick_x, at_kick_y})
     std::fill_n(columns_[c].begin(), padded_size(), Fixed{0});
+  std::fill(spin_kick_.begin(), spin_kick_.end(), 0);
 }
 
 /// The next move takes up the kick: the course is that of then.

@@ -20,6 +20,9 @@ class DeflectedGrains {
 public:
   using Place = std::uint32_t;
 
+  /// `inertia` as in Grains.
+  explicit DeflectedGrains(double inertia) : inertia_(inertia) {}
+
   /// Takes up a grain that is on its course. Returns its place.
   Place take(std::uint32_t slot, const Motion& motion);
   /// What stands there moves like this now, on its course.
@@ -42,10 +45,11 @@ public:
   /// From one step to the next: velocities take up the kicks. `fallen` is the fall in this step.
   void move(Fixed fallen);
   void clear_kicks();
-  void add_kick(std::int64_t place, Fixed x, Fixed y) {
+  void add_kick(std::int64_t place, const BodyKick& kick) {
     const auto at = static_cast<std::size_t>(place);
-    columns_[at_kick_x][at] = wrapped_sum(columns_[at_kick_x][at], x);
-    columns_[at_kick_y][at] = wrapped_sum(columns_[at_kick_y][at], y);
+    columns_[at_kick_x][at] = wrapped_sum(columns_[at_kick_x][at], kick.x);
+    columns_[at_kick_y][at] = wrapped_sum(columns_[at_kick_y][at], kick.y);
+    if (rotate()) spin_kick_[at] = wrapped_sum(spin_kick_[at], kick.spin);
   }
 
   /// From here on the course is the present motion, the kick included.
@@ -72,6 +76,7 @@ private:
     column_count
   };
 
+  bool rotate() const { return inertia_ > 0.0; }
   std::size_t padded_size() const { return (slots_.size() + lanes - 1) / lanes * lanes; }
 
   std::vector<std::uint32_t> slots_;
@@ -79,6 +84,8 @@ private:
   std::array<AlignedVector<Fixed>, column_count> columns_;  // free places and padding: motionless
   AlignedVector<std::int64_t> strays_, stray_blocks_;  // flags, of places and of `lanes` places
   std::vector<Place> free_, straying_;
+  const double inertia_;
+  AlignedVector<Fixed> spin_, spin_kick_;  // as columns_; empty if grains do not rotate
 };
 
 }  // namespace riesel

@@ -18,7 +18,9 @@ struct StepUnits {
         velocity_x(metre_x / dt),
         velocity_y(metre_y / dt),
         kick_x(dt * dt / metre_x),
-        kick_y(dt * dt / metre_y) {
+        kick_y(dt * dt / metre_y),
+        spin(quantum_of_angle / dt),
+        spin_kick(dt * dt / quantum_of_angle) {
     move_to(state.step);
   }
 
@@ -33,6 +35,8 @@ struct StepUnits {
   double metre_x, metre_y;        ///< m per quantum
   double velocity_x, velocity_y;  ///< m/s per quantum per step
   double kick_x, kick_y;          ///< quanta per step^2 over m/s^2
+  double spin;                    ///< rad/s per quantum of angle per step
+  double spin_kick;               ///< quanta per step^2 over rad/s^2
 
   double step;   ///< steps done
   double time;   ///< s
@@ -42,6 +46,15 @@ struct StepUnits {
 /// The motion of bodies, by place in these arrays; as in Grains.
 struct Bodies {
   const Fixed *x, *y, *ux, *uy, *kick_x, *kick_y;
+  const Fixed *spin, *spin_kick;  ///< null where they do not rotate
+  double inertia;
+
+  bool rotate() const { return inertia > 0.0; }
+};
+
+/// What the contacts of a step add to the displacement and to the turn per step of a body, quanta.
+struct BodyKick {
+  Fixed x, y, spin;
 };
 
 inline Bodies bodies(const Grains& g) {
@@ -50,7 +63,10 @@ inline Bodies bodies(const Grains& g) {
           .ux = g.ux.data(),
           .uy = g.uy.data(),
           .kick_x = g.kick_x.data(),
-          .kick_y = g.kick_y.data()};
+          .kick_y = g.kick_y.data(),
+          .spin = g.spin.data(),
+          .spin_kick = g.spin_kick.data(),
+          .inertia = g.inertia};
 }
 
 /// Position and motion of one body relative to another, in quanta.
@@ -96,27 +112,40 @@ relative_motion(const Bodies& b, std::int64_t i, Fixed line, Fixed y, const Step
           .reduced_mass = reduced_mass};
 }
 
-/// Of the two bodies of a contact, seen from the free grain that names it; slots[id] is where a
-/// grain stands in the store.
-template <class Slots>
-Encounter encounter(const ContactName& name, const State& state, const Slots& slots,
-                    const StepUnits& units) {
-  const Grains& g = state.grains;
-  const auto slot = [&](std::int32_t id) {
-    return static_cast<std::size_t>(slots[static_cast<std::size_t>(id)]);
-  };
-  const std::size_t i = slot(name.grain);
-  const auto first = static_cast<std::int64_t>(i);
-  if (name.wall == no_wall) {
-    const std::size_t j = slot(name.partner);
-    return encounter(relative_motion(bodies(g), first, static_cast<std::int64_t>(j)),
-                     g.radius[i] + g.radius[j], g.mass[i] * g.mass[j] / (g.mass[i] + g.mass[j]),
-                     units);
-  }
-  const WallLattice& wall = state.walls[static_cast<std::size_t>(name.wall)];
-  const RelativeMotion motion = relative_motion(bodies(g), first, state.box.fixed_x(wall.line),
-                                                wall.place(name.partner), units);
-  return encounter(motion, g.radius[i] + wall.radius, g.mass[i], units);
+/// The spin of a body in rad/s, at the full step and half a step before.
+struct Spin {
+  double now = 0.0, half = 0.0;  // zero: a wall grain
+};
+
+[[gnu::always_inline]] inline Spin spin_of(const Bodies& b, std::int64_t i,
+                                           const StepUnits& units) {
+  const double half = real(b.spin[i]) * units.spin;
+  return {half + 0.5 * (real(b.spin_kick[i]) * units.spin), half};
+}
+
+/// What does not change of two bodies while they are in contact.
+struct BodyPair {
+  double radius_first, radius_second;      ///< m
+  double per_mass_first, per_mass_second;  ///< 1/kg; 0: a wall grain
+};
+
+/// `inertia` is the moment of inertia over m r^2. The same bits for the bodies exchanged, but for
+/// the signs of `spin` and `half_spin`.
+[[gnu::always_inline]] inline Turning turning(const BodyPair& b, const Spin& first,
+                                              const Spin& second, double inertia,
+                                              double rolling_friction) {
+  const double reach = b.radius_first + b.radius_second;
+  const double part_first = b.radius_first / reach, part_second = b.radius_second / reach;
+  return {.roll = part_first * first.now + part_second * second.now,
+          .half_roll = part_first * first.half + part_second * second.half,
+          .spin = first.now - second.now,
+          .half_spin = first.half - second.half,
+          .inertia = inertia,
+          .part_first = part_first,
+          .part_second = part_second,
+          .per_inertia_first = b.per_mass_first / (inertia * (b.radius_first * b.radius_first)),
+          .per_inertia_second = b.per_mass_second / (inertia * (b.radius_second * b.radius_second)),
+          .rolling_arm = rolling_friction * (b.radius_first * b.radius_second / reach)};
 }
 
 /// Whether two bodies, the second at (x, y) from the first, touch: the one test that decides about

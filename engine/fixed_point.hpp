@@ -13,6 +13,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <numbers>
 
 namespace riesel {
 
@@ -21,6 +22,9 @@ using Fixed = std::int64_t;
 
 /// 2^-64: the length quantum of an axis is its range times this.
 inline constexpr double two_to_minus_64 = 0x1p-64;
+
+/// rad, the quantum of angles: a whole turn is 2^64 of them.
+inline constexpr double quantum_of_angle = 2.0 * std::numbers::pi * two_to_minus_64;
 
 constexpr Fixed wrapped_sum(Fixed a, Fixed b) {
   return static_cast<Fixed>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));

@@ -35,6 +35,7 @@ FlightRegion::FlightRegion(Airspace& airspace, std::size_t index)
       tolerance_y_(
           nearest_fixed(airspace.tolerance * std::sqrt(0.5) / airspace.state.box.quantum_y())),
       border_(slice_, airspace.courses, airspace.announcements, index),
+      deflected_(airspace.state.grains.inertia),
       skin_guard_(airspace.state, airspace.candidates, airspace.courses, airspace.tolerance),
       appointments_(airspace.state, slice_, airspace.courses, border_, airspace.tolerance) {}
 
@@ -209,13 +210,13 @@ void FlightRegion::step_contacts(std::int64_t step) {
   });
   LiveContacts& walls = slice_.wall_contacts;
   complete_step(slice_, walls, [&](std::size_t i) { let_go(walls.first(i)); });
-  for_each_kick(slice_,
-                [&](std::int64_t place, Fixed x, Fixed y) { deflected_.add_kick(place, x, y); });
+  for_each_kick(
+      slice_, [&](std::int64_t place, const BodyKick& kick) { deflected_.add_kick(place, kick); });
 
   for (const DeflectedGrains::Place guest : guests_) {
     const Motion m = deflected_.motion(guest);
     border_.mine().deeds.push_back(
-        {.slot = deflected_.slot(guest), .kick_x = m.kick_x, .kick_y = m.kick_y, .contacts = 0});
+        {.slot = deflected_.slot(guest), .kick = {m.kick_x, m.kick_y, m.spin_kick}, .contacts = 0});
   }
 }
 
@@ -226,7 +227,7 @@ void FlightRegion::suffer(std::int64_t step) {
     for (const Deed& deed : other.deeds) {
       if (!border_.owns(deed.slot)) continue;
       const DeflectedGrains::Place place = deflect(deed.slot, step);
-      deflected_.add_kick(place, deed.kick_x, deed.kick_y);
+      deflected_.add_kick(place, deed.kick);
       deflected_.contacts(place) += deed.contacts;
       if (deed.contacts < 0) let_go_.push_back(place);
     }
@@ -313,8 +314,7 @@ void FlightRegion::let_go(std::int64_t body) {
 void FlightRegion::change_contacts(DeflectedGrains::Place place, std::int32_t by) {
   deflected_.contacts(place) += by;
   if (is_guest(place))
-    border_.mine().deeds.push_back(
-        {.slot = deflected_.slot(place), .kick_x = 0, .kick_y = 0, .contacts = by});
+    border_.mine().deeds.push_back({.slot = deflected_.slot(place), .kick = {}, .contacts = by});
 }
 
 void FlightRegion::release(DeflectedGrains::Place place) {
@@ -335,7 +335,9 @@ void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step) {
                          .ux = wrapped_sum(m.ux, m.kick_x),
                          .uy = wrapped_sum(m.uy, m.kick_y),
                          .kick_x = 0,
-                         .kick_y = 0},
+                         .kick_y = 0,
+                         .spin = wrapped_sum(m.spin, m.spin_kick),
+                         .spin_kick = 0},
                         step);
   deflected_.set_course(place);
   std::int64_t& hold_until = border_.mine().hold_until;

@@ -34,6 +34,7 @@ State start(const ImpactSetup& setup, const Impact& impact) {
   state.box = {.width = scale, .length = length};
   state.walls = {{.line = 0.0, .radius = setup.wall_grain_radius, .count = wall_grains}};
   state.time_step = impact.time_step;
+  state.grains.inertia = setup.inertia;
   add_grain(state, {.x = impact.x,
                     .y = impact.y,
                     .vx = -impact.v_x,

@@ -17,6 +17,7 @@ struct ImpactSetup {
   double wall_grain_radius;  ///< m
   double wall_spacing;       ///< m; a value <= 0 stands for a single wall grain
   ContactModel model;
+  double inertia = 0.0;   ///< moment of inertia of the grain over m r^2; 0: it does not rotate
   double collision_time;  ///< s, of a head-on contact: the scale for giving up
 
   double reach() const { return grain_radius + wall_grain_radius; }  ///< m

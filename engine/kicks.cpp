@@ -8,33 +8,41 @@ namespace riesel {
 
 void take_up_kicks(Grains& grains, const Slice& mine) {
   for (const Kick& kick : mine.received) {
-    grains.ux[kick.slot] = wrapped_sum(grains.ux[kick.slot], kick.x);
-    grains.uy[kick.slot] = wrapped_sum(grains.uy[kick.slot], kick.y);
+    grains.ux[kick.slot] = wrapped_sum(grains.ux[kick.slot], kick.by.x);
+    grains.uy[kick.slot] = wrapped_sum(grains.uy[kick.slot], kick.by.y);
   }
+  if (!grains.rotate()) return;
+  for (const Kick& kick : mine.received)
+    grains.spin[kick.slot] = wrapped_sum(grains.spin[kick.slot], kick.by.spin);
 }
 
 void give_away_kicks(Slice& mine) {
   mine.given_away.clear();
-  for_each_kick(mine, [&](std::int64_t place, Fixed x, Fixed y) {
+  for_each_kick(mine, [&](std::int64_t place, const BodyKick& kick) {
     const auto slot = static_cast<std::uint32_t>(place);
-    if (!mine.owns(slot)) mine.given_away.push_back({slot, x, y});
+    if (!mine.owns(slot)) mine.given_away.push_back({slot, kick});
   });
 }
 
 void receive_kicks(Grains& grains, const std::vector<Slice>& givers, Slice& mine) {
   for (const Kick& old : mine.received) grains.kick_x[old.slot] = grains.kick_y[old.slot] = 0;
+  if (grains.rotate())
+    for (const Kick& old : mine.received) grains.spin_kick[old.slot] = 0;
   mine.received.clear();
   const auto receive = [&](const Kick& kick) {
     if (!mine.owns(kick.slot)) return;
-    grains.kick_x[kick.slot] = wrapped_sum(grains.kick_x[kick.slot], kick.x);
-    grains.kick_y[kick.slot] = wrapped_sum(grains.kick_y[kick.slot], kick.y);
+    grains.kick_x[kick.slot] = wrapped_sum(grains.kick_x[kick.slot], kick.by.x);
+    grains.kick_y[kick.slot] = wrapped_sum(grains.kick_y[kick.slot], kick.by.y);
     mine.received.push_back(kick);
   };
-  for_each_kick(mine, [&](std::int64_t place, Fixed x, Fixed y) {
-    receive({static_cast<std::uint32_t>(place), x, y});
+  for_each_kick(mine, [&](std::int64_t place, const BodyKick& kick) {
+    receive({static_cast<std::uint32_t>(place), kick});
   });
   for (const Slice& giver : givers)
     if (&giver != &mine) std::for_each(giver.given_away.begin(), giver.given_away.end(), receive);
+  if (!grains.rotate()) return;
+  for (const Kick& kick : mine.received)
+    grains.spin_kick[kick.slot] = wrapped_sum(grains.spin_kick[kick.slot], kick.by.spin);
 }
 
 }  // namespace riesel

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <type_traits>
 
 namespace riesel {
 
@@ -23,8 +24,13 @@ Contact seen_from(const Meeting& meeting, Contact contact) {
   if (meeting.turned) {
     contact.friction_x = -contact.friction_x;
     contact.friction_y = -contact.friction_y;
+    contact.rolling_torque = -contact.rolling_torque;
   }
   return contact;
+}
+
+bool is_rich(const Contact& contact) {
+  return contact.spring != 0.0 || contact.torque != 0.0 || contact.rolling_torque != 0.0;
 }
 
 /// What a step finds of a contact.
@@ -38,6 +44,8 @@ struct LiveContacts::Columns {
   const double *reach, *reduced_mass, *per_mass_first, *per_mass_second;
   std::array<double*, life_members> life;
   std::array<Fixed*, 4> kick;
+  std::array<const double*, 2> radius;
+  std::array<Fixed*, 2> spin_kick;
   std::int64_t *flags, *block_flags;
 };
 
@@ -54,12 +62,58 @@ template <LiveContacts::Partner partner, class Columns>
                      c.reduced_mass[i], units);
 }
 
+template <LiveContacts::Partner partner, class Turn, class Columns>
+[[gnu::always_inline]] inline Turn turning_of(const Columns& c, std::size_t i, const Bodies& bodies,
+                                              double rolling_friction, const StepUnits& units) {
+  if constexpr (std::is_same_v<Turn, Turning>) {
+    Spin second;
+    if constexpr (partner == LiveContacts::Partner::grain)
+      second = spin_of(bodies, c.second[i], units);
+    return turning({.radius_first = c.radius[0][i],
+                    .radius_second = c.radius[1][i],
+                    .per_mass_first = c.per_mass_first[i],
+                    .per_mass_second = c.per_mass_second[i]},
+                   spin_of(bodies, c.first[i], units), second, bodies.inertia, rolling_friction);
+  } else {
+    return {};
+  }
+}
+
+/// The spring is stretched from the very beginning of the contact on.
+template <class Slip, class Columns>
+[[gnu::always_inline]] inline Stretch stretch_of(const Columns& c, std::size_t i,
+                                                 const StepUnits& u) {
+  if constexpr (Slip::has_spring)
+    return {.spring = c.life[RIESEL_LIFE(spring)][i],
+            .time = std::min(u.dt, u.time - c.life[RIESEL_LIFE(begin)][i])};
+  else
+    return {};
+}
+
+/// What friction took in the step before, as Contact has it: without what went to the spring, with
+/// what is left in it when the contact is over.
+template <class Turn, class Slip, class Columns>
+[[gnu::always_inline]] inline double loss_before(const Columns& c, std::size_t i, bool touching,
+                                                 const Encounter& e, const Turn& turn,
+                                                 const Touch& t, const Slip& slip, double dt) {
+  double loss = loss_by_friction(c.life[RIESEL_LIFE(friction_x)][i],
+                                 c.life[RIESEL_LIFE(friction_y)][i], e, dt);
+  if constexpr (std::is_same_v<Turn, Turning>)
+    loss += loss_by_torques(c.life[RIESEL_LIFE(torque)][i], c.life[RIESEL_LIFE(rolling_torque)][i],
+                            turn, dt);
+  if constexpr (Slip::has_spring) {
+    const double now = touching ? t.spring_energy : 0.0;
+    loss -= now - slip.stored_energy(c.life[RIESEL_LIFE(spring)][i]);
+  }
+  return loss;
+}
+
 /// Carries the life of contact i on by one step, if it is one.
 /// The loss by friction in the step before is added even if it is over.
-template <LiveContacts::Partner partner, class Columns>
+template <LiveContacts::Partner partner, class Turn, class Slip, class Columns>
 [[gnu::always_inline]] inline void carry_on(const Columns& c, std::size_t i, bool touching,
-                                            const Encounter& e, const Touch& t,
-                                            const StepUnits& u) {
+                                            const Encounter& e, const Turn& turn, const Touch& t,
+                                            const Slip& slip, const StepUnits& u) {
   const auto set = [&](std::size_t member, double value) {
     const double before = c.life[member][i];
     c.life[member][i] = touching ? value : before;
@@ -67,8 +121,7 @@ template <LiveContacts::Partner partner, class Columns>
   const auto add = [&](std::size_t member, double value) {
     c.life[member][i] += touching ? value : 0.0;
   };
-  c.life[RIESEL_LIFE(friction_loss)][i] += loss_by_friction(
-      c.life[RIESEL_LIFE(friction_x)][i], c.life[RIESEL_LIFE(friction_y)][i], e, u.dt);
+  c.life[RIESEL_LIFE(friction_loss)][i] += loss_before(c, i, touching, e, turn, t, slip, u.dt);
   set(RIESEL_LIFE(friction_x), t.friction_x);
   set(RIESEL_LIFE(friction_y), t.friction_y);
   const double deepest = c.life[RIESEL_LIFE(max_overlap)][i];
@@ -82,6 +135,11 @@ template <LiveContacts::Partner partner, class Columns>
     add(RIESEL_LIFE(impulse_x), t.fx * u.dt);
     add(RIESEL_LIFE(impulse_y), t.fy * u.dt);
     add(RIESEL_LIFE(impulse_y_times_step), t.fy * u.dt * u.step);
+  }
+  if constexpr (Slip::has_spring) set(RIESEL_LIFE(spring), t.spring);
+  if constexpr (std::is_same_v<Turn, Turning>) {
+    set(RIESEL_LIFE(torque), t.torque);
+    set(RIESEL_LIFE(rolling_torque), t.rolling_torque);
   }
 }
 
@@ -106,11 +164,36 @@ template <LiveContacts::Partner partner, class Columns>
   return size;
 }
 
+/// Likewise for the torques, if the bodies turn.
+template <LiveContacts::Partner partner, class Turn, class Columns>
+[[gnu::always_inline]] inline double twist_bodies(const Columns& c, std::size_t i, bool touching,
+                                                  const Turn& turn, const Touch& t,
+                                                  const StepUnits& u) {
+  double size = 0.0;
+  if constexpr (std::is_same_v<Turn, Turning>) {
+    const double torque = touching ? t.torque : 0.0;
+    const double rolling = touching ? t.rolling_torque : 0.0;
+    const double first =
+        (turn.part_first * torque + rolling) * turn.per_inertia_first * u.spin_kick;
+    c.spin_kick[0][i] = nearest_fixed(first);
+    size = std::abs(first);
+    if constexpr (partner == LiveContacts::Partner::grain) {
+      const double second =
+          (turn.part_second * torque - rolling) * turn.per_inertia_second * u.spin_kick;
+      c.spin_kick[1][i] = nearest_fixed(second);
+      size += std::abs(second);
+    }
+  }
+  return size;
+}
+
 /// One step of `count` contacts, a multiple of `lanes`. Lanes that do not touch compute nonsense,
 /// which is not kept.
-template <LiveContacts::Partner partner, std::size_t lanes, class Columns, class Normal, class Slip>
+template <LiveContacts::Partner partner, class Turn, std::size_t lanes, class Columns, class Normal,
+          class Slip>
 RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, StepUnits u,
-                                     Normal normal, Slip slip, double mu, Attraction attraction) {
+                                     Normal normal, Slip slip, double mu, double rolling_friction,
+                                     Attraction attraction) {
   for (std::size_t block = 0; block < count; block += lanes) {
     std::int64_t any = 0;
 #pragma omp simd reduction(| : any)
@@ -118,9 +201,11 @@ RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, Ste
       const std::size_t i = block + lane;
       const Encounter e = encounter_of<partner>(c, i, b, u);
       const bool touching = e.x * e.x + e.y * e.y < e.reach * e.reach;
-      const Touch t = touch(e, normal, slip, mu, attraction, u.dt);
-      carry_on<partner>(c, i, touching, e, t, u);
-      const double size = kick_bodies<partner>(c, i, touching, t, u);
+      const Turn turn = turning_of<partner, Turn>(c, i, b, rolling_friction, u);
+      const Touch t = touch(e, turn, stretch_of<Slip>(c, i, u), normal, slip, mu, attraction, u.dt);
+      carry_on<partner>(c, i, touching, e, turn, t, slip, u);
+      const double size = kick_bodies<partner>(c, i, touching, t, u)
+                          + twist_bodies<partner>(c, i, touching, turn, t, u);
       // Kicks are integers: what is not a number, or beyond all bounds, must not become one.
       const std::int64_t bad = size < 0x1p62 ? 0 : unusable;
       const std::int64_t over = touching ? 0 : apart;
@@ -144,6 +229,8 @@ LiveContacts::Columns LiveContacts::columns() {
             .per_mass_second = per_mass_[1].data(),
             .life = {},
             .kick = {},
+            .radius = {radius_[0].data(), radius_[1].data()},
+            .spin_kick = {spin_kick_[0].data(), spin_kick_[1].data()},
             .flags = flags_.data(),
             .block_flags = block_flags_.data()};
   std::transform(life_.begin(), life_.end(), c.life.begin(), [](auto& a) { return a.data(); });
@@ -153,7 +240,8 @@ LiveContacts::Columns LiveContacts::columns() {
 
 Contact LiveContacts::contact(std::size_t i) const {
   auto words = std::bit_cast<Words>(Contact{.name = meetings_[i].name});
-  for (std::size_t m = 0; m < life_members; ++m) words[life_begin + m] = life_[m][i];
+  const std::size_t members = rich_ ? life_members : poor_life_members;
+  for (std::size_t m = 0; m < members; ++m) words[life_begin + m] = life_[m][i];
   return seen_from(meetings_[i], std::bit_cast<Contact>(words));
 }
 
@@ -164,9 +252,23 @@ void LiveContacts::for_each_array(Visit visit) {
   visit(reach_);
   visit(reduced_mass_);
   for (auto& a : per_mass_) visit(a);
-  for (auto& a : life_) visit(a);
+  for (std::size_t m = 0; m < poor_life_members; ++m) visit(life_[m]);
   for (auto& a : kick_) visit(a);
   visit(flags_);
+  if (!rich_) return;
+  for (std::size_t m = poor_life_members; m < life_members; ++m) visit(life_[m]);
+  for (auto& a : radius_) visit(a);
+  for (auto& a : spin_kick_) visit(a);
+}
+
+void LiveContacts::become_rich() {
+  if (rich_) return;
+  rich_ = true;
+  for_each_array([&](auto& a) { a.resize(reach_.size()); });
+  for (std::size_t i = 0; i < size(); ++i) {
+    radius_[0][i] = meetings_[i].radius_first;
+    radius_[1][i] = meetings_[i].radius_second;
+  }
 }
 
 /// Room for whole vectors; what is beyond size() is zero.
@@ -184,6 +286,7 @@ void LiveContacts::clear() {
 }
 
 void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
+  if (is_rich(contact)) become_rich();
   const std::size_t i = size();
   meetings_.push_back(meeting);
   pad();
@@ -191,13 +294,17 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   body_[1][i] = meeting.second;
   wall_place_[0][i] = meeting.line;
   wall_place_[1][i] = meeting.y;
-  reach_[i] = meeting.reach;
-  const double a = meeting.mass_first, b = meeting.mass_second;
-  reduced_mass_[i] = partner_ == Partner::grain ? a * b / (a + b) : a;
-  per_mass_[0][i] = 1.0 / a;
-  per_mass_[1][i] = partner_ == Partner::grain ? 1.0 / b : 0.0;
+  reach_[i] = meeting.reach();
+  reduced_mass_[i] = meeting.reduced_mass();
+  const BodyPair bodies = meeting.bodies();
+  per_mass_[0][i] = bodies.per_mass_first;
+  per_mass_[1][i] = bodies.per_mass_second;
   const auto words = std::bit_cast<Words>(seen_from(meeting, contact));
-  for (std::size_t m = 0; m < life_members; ++m) life_[m][i] = words[life_begin + m];
+  const std::size_t members = rich_ ? life_members : poor_life_members;
+  for (std::size_t m = 0; m < members; ++m) life_[m][i] = words[life_begin + m];
+  if (!rich_) return;
+  radius_[0][i] = bodies.radius_first;
+  radius_[1][i] = bodies.radius_second;
 }
 
 void LiveContacts::remove(std::size_t i) {
@@ -210,33 +317,43 @@ void LiveContacts::remove(std::size_t i) {
   });
 }
 
-template <LiveContacts::Partner partner, class Normal, class Slip>
+template <LiveContacts::Partner partner, class Turn, class Normal, class Slip>
 void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const ContactModel& model,
                         const Normal& normal, const Slip& slip) {
   const Columns c = columns();
   for (std::size_t i = size() - beginning_; i < size(); ++i) {
-    const Touch t = touch(encounter_of<partner>(c, i, bodies, units), normal, slip, model.friction,
-                          model.attraction, units.dt);
+    const Touch t = touch(encounter_of<partner>(c, i, bodies, units),
+                          turning_of<partner, Turn>(c, i, bodies, 0.0, units), Stretch{}, normal,
+                          slip, model.friction, model.attraction, units.dt);
     c.life[RIESEL_LIFE(begin)][i] = units.time - t.since;
     c.life[RIESEL_LIFE(entry_rate)][i] = t.rate;
-    c.life[RIESEL_LIFE(entry_slip)][i] = t.slip;
+    c.life[RIESEL_LIFE(entry_slip)][i] = t.centre_slip;
   }
   beginning_ = 0;
-  step_lanes<partner, lanes>(c, (size() + lanes - 1) / lanes * lanes, bodies, units, normal, slip,
-                             model.friction, model.attraction);
+  step_lanes<partner, Turn, lanes>(c, (size() + lanes - 1) / lanes * lanes, bodies, units, normal,
+                                   slip, model.friction, model.rolling_friction, model.attraction);
+}
+
+template <LiveContacts::Partner partner>
+void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const ContactModel& model) {
+  std::visit(
+      [&](const auto& normal, const auto& slip) {
+        if (bodies.rotate() || slip.has_spring) become_rich();
+        if (bodies.rotate())
+          step<partner, Turning>(bodies, units, model, normal, slip);
+        else
+          step<partner, NoTurning>(bodies, units, model, normal, slip);
+      },
+      model.normal, model.slip);
 }
 
 void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const ContactModel& model) {
   ended_.clear();
   if (size() == 0) return;
-  std::visit(
-      [&](const auto& normal, const auto& slip) {
-        if (partner_ == Partner::grain)
-          step<Partner::grain>(bodies, units, model, normal, slip);
-        else
-          step<Partner::wall>(bodies, units, model, normal, slip);
-      },
-      model.normal, model.slip);
+  if (partner_ == Partner::grain)
+    step<Partner::grain>(bodies, units, model);
+  else
+    step<Partner::wall>(bodies, units, model);
   for (std::size_t block = 0; block < size(); block += lanes) {
     if (block_flags_[block / lanes] == 0) continue;
     for (std::size_t i = block; i < std::min(block + lanes, size()); ++i) {

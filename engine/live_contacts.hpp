@@ -9,7 +9,7 @@
 #include "engine/aligned.hpp"
 #include "engine/contact.hpp"
 #include "engine/contact_law.hpp"
-#include "engine/encounter.hpp"
+#include "engine/meeting.hpp"
 
 #include <array>
 #include <cstddef>
@@ -18,24 +18,6 @@
 #include <vector>
 
 namespace riesel {
-
-/// Two bodies in contact: what does not change while it lasts.
-struct Meeting {
-  ContactName name;
-  std::uint32_t candidate;  ///< index among the candidates, for whoever looks for contacts
-  std::int64_t first;       ///< place of the first body in Bodies, at the beginning
-  std::int64_t second;      ///< of the second body; unused for a wall grain
-  Fixed line, y;            ///< where the wall grain is; unused for free grains
-  double reach;             ///< m, sum of the radii
-  double mass_first;        ///< kg
-  double mass_second;       ///< kg; unused for a wall grain
-  bool turned = false;      ///< the first body is not name.grain, but name.partner
-};
-
-/// What a contact adds to the displacements per step of its bodies, in quanta.
-struct ContactKick {
-  Fixed first_x, first_y, second_x, second_y;
-};
 
 class LiveContacts {
 public:
@@ -48,8 +30,12 @@ public:
   Contact contact(std::size_t i) const;
   std::int64_t first(std::size_t i) const { return body_[0][i]; }
   std::int64_t second(std::size_t i) const { return body_[1][i]; }
-  ContactKick kick(std::size_t i) const {
-    return {kick_[0][i], kick_[1][i], kick_[2][i], kick_[3][i]};
+  /// What the last step() gives to the bodies.
+  BodyKick kick_of_first(std::size_t i) const {
+    return {kick_[0][i], kick_[1][i], rich_ ? spin_kick_[0][i] : 0};
+  }
+  BodyKick kick_of_second(std::size_t i) const {
+    return {kick_[2][i], kick_[3][i], rich_ ? spin_kick_[1][i] : 0};
   }
 
   void clear();
@@ -85,12 +71,18 @@ private:
   /// The life of a contact without its name: one array for each member of Contact.
   static constexpr std::size_t life_members =
       (sizeof(Contact) - offsetof(Contact, begin)) / sizeof(double);
+  /// Those from here on are of springs and torques.
+  static constexpr std::size_t poor_life_members =
+      (offsetof(Contact, spring) - offsetof(Contact, begin)) / sizeof(double);
 
   struct Columns;  // pointers to the arrays, for the loop
   Columns columns();
-  template <Partner partner, class Normal, class Slip>
+  template <Partner partner, class Turn, class Normal, class Slip>
   void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model,
             const Normal& normal, const Slip& slip);
+  template <Partner partner>
+  void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
+  void become_rich();
   void pad();
   template <class Visit>
   void for_each_array(Visit visit);
@@ -104,6 +96,9 @@ private:
   std::array<AlignedVector<double>, 2> per_mass_;  // 1/kg, of first and second
   std::array<AlignedVector<double>, life_members> life_;
   std::array<AlignedVector<Fixed>, 4> kick_;
+  bool rich_ = false;  // there are springs or torques; else the arrays for them are empty
+  std::array<AlignedVector<double>, 2> radius_;    // m, of first and second
+  std::array<AlignedVector<Fixed>, 2> spin_kick_;  // likewise
   AlignedVector<std::int64_t> flags_,
       block_flags_;  // of the last step: contacts, and `lanes` of them
   std::vector<std::size_t> ended_;

@@ -35,6 +35,25 @@ RIESEL_VECTOR_KERNEL GrainSums sum_over_grains(const State& state) {
   return {value(0), value(1), value(2), value(3), value(4), value(5), value(6), outside};
 }
 
+/// Sums over all grains, 0 if they do not rotate.
+struct SpinSums {
+  double spin, temperature, energy;
+};
+
+SpinSums sum_over_spins(const State& state) {
+  ExactSum spin, temperature, energy;
+  const GrainView grains(state);
+  for (std::size_t i = 0; state.grains.rotate() && i < state.grains.size(); ++i) {
+    const Grain g = grains[i];
+    const double surface_speed = g.radius * g.spin;
+    const double twice_per_mass = state.grains.inertia * (surface_speed * surface_speed);
+    spin.add(g.spin);
+    temperature.add(twice_per_mass);
+    energy.add(0.5 * g.mass * twice_per_mass);
+  }
+  return {spin.value(), temperature.value(), energy.value()};
+}
+
 /// The tally with the lasting contacts in it, as if they ended now.
 ContactTally all_contacts(const State& state, bool of_walls) {
   ContactTally sum = of_walls ? state.tally.walls : state.tally.grains;
@@ -79,11 +98,13 @@ double standard_deviation(double sum, double sum_of_squares, double n) {
 
 Origin origin_of(const State& state) {
   const GrainSums sums = sum_over_grains(state);
-  return {.energy = sums.kinetic + stored_energy(state), .momentum_y = sums.momentum_y};
+  return {.energy = sums.kinetic + sum_over_spins(state).energy + stored_energy(state),
+          .momentum_y = sums.momentum_y};
 }
 
 Observables observe(const State& state) {
   const GrainSums sums = sum_over_grains(state);
+  const SpinSums spins = sum_over_spins(state);
   const ContactTally among_grains = all_contacts(state, false);
   const ContactTally at_walls = all_contacts(state, true);
   const auto n = static_cast<double>(state.grains.size());
@@ -95,14 +116,18 @@ Observables observe(const State& state) {
   o.sigma_vx = standard_deviation(sums.vx, sums.vx2, n);
   o.sigma_vy = standard_deviation(sums.vy, sums.vy2, n);
   o.granular_temperature = 0.5 * (o.sigma_vx * o.sigma_vx + o.sigma_vy * o.sigma_vy);
+  o.mean_spin = spins.spin / n;
+  o.rotational_temperature = spins.temperature / n;
   o.energies.kinetic = sums.kinetic;
+  o.energies.rotational = spins.energy;
   o.energies.elastic = stored_energy(state);
   o.energies.gravity_work = work_of_gravity(state, sums.mass, at_walls);
   o.energies.normal_loss = among_grains.normal_loss.value() + at_walls.normal_loss.value();
   o.energies.friction_loss = among_grains.friction_loss.value() + at_walls.friction_loss.value();
   o.energies.won = among_grains.energy_won.value() + at_walls.energy_won.value();
   o.energies.residual = state.origin.energy + o.energies.gravity_work - o.energies.kinetic
-                        - o.energies.elastic - o.energies.normal_loss - o.energies.friction_loss;
+                        - o.energies.rotational - o.energies.elastic - o.energies.normal_loss
+                        - o.energies.friction_loss;
   o.contacts = static_cast<double>(state.contacts.size()) / n;
   o.grain_contacts_begun = static_cast<double>(among_grains.begun);
   o.wall_contacts_begun = static_cast<double>(at_walls.begun);

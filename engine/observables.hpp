@@ -11,11 +11,12 @@ namespace riesel {
 
 /// Cumulative since step 0 unless said otherwise.
 struct Energies {
-  double kinetic = 0.0;        ///< J, now
+  double kinetic = 0.0;        ///< J, now, of the motion of the centres
+  double rotational = 0.0;     ///< J, now
   double elastic = 0.0;        ///< J, stored in contacts now
   double gravity_work = 0.0;   ///< J, done by gravity
   double normal_loss = 0.0;    ///< J, dissipated by the normal damping
-  double friction_loss = 0.0;  ///< J, dissipated by friction
+  double friction_loss = 0.0;  ///< J, dissipated by friction and by resistance to rolling
   double won = 0.0;            ///< J, by contacts whose losses together are negative
   double residual = 0.0;  ///< J, origin + gravity work - all the rest: the error of the time step
 };
@@ -25,6 +26,8 @@ struct Observables {
   double mean_vx = 0.0, mean_vy = 0.0;    ///< m/s, over grains
   double sigma_vx = 0.0, sigma_vy = 0.0;  ///< m/s, standard deviations over grains
   double granular_temperature = 0.0;      ///< (m/s)^2, (sigma_vx^2 + sigma_vy^2) / 2
+  double mean_spin = 0.0;                 ///< rad/s, over grains; 0 where they do not rotate
+  double rotational_temperature = 0.0;    ///< (m/s)^2, mean of I w^2 / m
   Energies energies;
   double contacts = 0.0;              ///< per grain, now
   double grain_contacts_begun = 0.0;  ///< cumulative count

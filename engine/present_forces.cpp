@@ -1,6 +1,6 @@
 #include "engine/present_forces.hpp"
 
-#include "engine/encounter.hpp"
+#include "engine/meeting.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,10 +10,16 @@ namespace riesel {
 std::vector<PresentForce> present_forces(const State& state, const ContactModel& model) {
   const StepUnits units(state);
   const std::vector<std::size_t> slots = slots_by_id(state.grains);
-  const auto touch_of = [&](const Encounter& e) {
+  const Bodies b = bodies(state.grains);
+  const auto touch_of = [&](const Contact& contact, const Meeting& meeting, const Encounter& e) {
     return std::visit(
         [&](const auto& normal, const auto& slip) {
-          return touch(e, normal, slip, model.friction, model.attraction, units.dt);
+          const Stretch spring{.spring = contact.spring};
+          const auto touch_of_turning = [&](const auto& turn) {
+            return touch(e, turn, spring, normal, slip, model.friction, model.attraction, units.dt);
+          };
+          return b.rotate() ? touch_of_turning(turning(meeting, b, model.rolling_friction, units))
+                            : touch_of_turning(NoTurning{});
         },
         model.normal, model.slip);
   };
@@ -23,8 +29,9 @@ std::vector<PresentForce> present_forces(const State& state, const ContactModel&
   std::vector<PresentForce> forces;
   forces.reserve(state.contacts.size());
   for (const Contact& contact : state.contacts) {
-    const Encounter e = encounter(contact.name, state, slots, units);
-    const Touch t = touch_of(e);
+    const Meeting meeting = meeting_of(contact.name, state, slots);
+    const Encounter e = encounter(meeting, b, units);
+    const Touch t = touch_of(contact, meeting, e);
     forces.push_back(
         {.x = x(contact.name.grain), .branch_x = -e.x, .branch_y = -e.y, .fx = t.fx, .fy = t.fy});
   }

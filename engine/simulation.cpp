@@ -28,6 +28,9 @@ void check_grains(const Grains& g) {
     require(id < g.size() && !seen[id], "ids must be a permutation");
     seen[id] = true;
   }
+  const std::size_t spins = g.rotate() ? g.size() : 0;
+  require(g.inertia >= 0.0 && g.spin.size() == spins && g.spin_kick.size() == spins,
+          "grains that rotate, and no others, must have spins");
 }
 
 void check_contacts(const State& state) {

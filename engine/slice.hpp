@@ -61,7 +61,7 @@ struct NearWall {
 /// What one contact adds to the velocity of one grain in one step.
 struct Kick {
   std::uint32_t slot;
-  Fixed x, y;
+  BodyKick by;
 };
 
 /// Starts on a cache line, and so does what other threads read of it in each step: a thread that

@@ -11,6 +11,17 @@ void add(Hash& hash, const Grains& g, std::size_t i) {
     hash.add((*component)[i]);
   hash.add(g.radius[i]);
   hash.add(g.mass[i]);
+  if (!g.rotate()) return;
+  hash.add(g.spin[i]);
+  hash.add(g.spin_kick[i]);
+}
+
+/// What only some models have is in the hash only where it is.
+void add_torques_and_spring(Hash& hash, const Contact& c) {
+  if (c.spring != 0.0) hash.add(c.spring);
+  if (c.torque == 0.0 && c.rolling_torque == 0.0) return;
+  hash.add(c.torque);
+  hash.add(c.rolling_torque);
 }
 
 void add(Hash& hash, const Contact& c) {
@@ -19,6 +30,7 @@ void add(Hash& hash, const Contact& c) {
                           c.normal_loss, c.friction_loss, c.impulse_x, c.impulse_y,
                           c.impulse_y_times_step, c.friction_x, c.friction_y})
     hash.add(part);
+  add_torques_and_spring(hash, c);
 }
 
 void add(Hash& hash, const ExactSum& sum) {
@@ -68,6 +80,9 @@ void Grains::resize(std::size_t n) {
   radius.resize(n);
   mass.resize(n);
   id.resize(n);
+  if (!rotate()) return;
+  spin.resize(n);
+  spin_kick.resize(n);
 }
 
 Fixed fall_per_step(const State& state) {
@@ -86,6 +101,7 @@ void add_grain(State& state, const Grain& grain) {
   g.radius[i] = grain.radius;
   g.mass[i] = grain.mass;
   g.id[i] = static_cast<std::int32_t>(i);
+  if (g.rotate()) g.spin[i] = nearest_fixed(grain.spin * state.time_step / quantum_of_angle);
 }
 
 GrainView::GrainView(const State& state)
@@ -94,7 +110,8 @@ GrainView::GrainView(const State& state)
       fall_(fall_per_step(state)),
       fallen_(wrapped_product(fall_, state.step)),
       to_vx_(state.box.quantum_x() / state.time_step),
-      to_vy_(state.box.quantum_y() / state.time_step) {}
+      to_vy_(state.box.quantum_y() / state.time_step),
+      to_spin_(quantum_of_angle / state.time_step) {}
 
 std::vector<std::size_t> slots_by_id(const Grains& grains) {
   std::vector<std::size_t> slots(grains.size());
@@ -119,6 +136,7 @@ double total_mass(const Grains& grains) {
 
 Grains ordered_by_id(const Grains& grains) {
   Grains ordered;
+  ordered.inertia = grains.inertia;
   ordered.resize(grains.size());
   for (std::size_t slot = 0; slot < grains.size(); ++slot) {
     const auto i = static_cast<std::size_t>(grains.id[slot]);
@@ -131,6 +149,9 @@ Grains ordered_by_id(const Grains& grains) {
     ordered.radius[i] = grains.radius[slot];
     ordered.mass[i] = grains.mass[slot];
     ordered.id[i] = grains.id[slot];
+    if (!grains.rotate()) continue;
+    ordered.spin[i] = grains.spin[slot];
+    ordered.spin_kick[i] = grains.spin_kick[slot];
   }
   return ordered;
 }
@@ -149,6 +170,7 @@ std::uint64_t state_hash(const State& state) {
     hash.add(wall.radius);
     hash.add(wall.count);
   }
+  if (state.grains.rotate()) hash.add(state.grains.inertia);
   const Grains ordered = ordered_by_id(state.grains);
   for (std::size_t i = 0; i < ordered.size(); ++i) add(hash, ordered, i);
   for (const Contact& contact : state.contacts) add(hash, contact);

@@ -10,6 +10,10 @@
 //
 // In free flight U does not change: a flying grain is three additions, and crossing several steps
 // at once is exact. See docs/architecture.md for why these are integers.
+//
+// Where grains rotate the same holds for the spin: the angle per step S, which is the angular
+// leapfrog velocity times dt, and the kick J that the next step adds to it. Nothing depends on the
+// angle itself, as the grains are round; in free flight the spin does not change.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -27,7 +31,7 @@ namespace riesel {
 
 /// The free grains, a structure of arrays. The slot of a grain changes when the store is sorted,
 /// its id does not. Invariants: all arrays have the same size; ids are a permutation of 0 ...
-/// size-1; radius and mass are positive.
+/// size-1; radius and mass are positive. Grains that do not rotate have no arrays of spin.
 struct Grains {
   AlignedVector<Fixed> x, y;            ///< position, quanta of the box's axes
   AlignedVector<Fixed> ux, uy;          ///< U: displacement per step in the falling frame, quanta
@@ -35,8 +39,13 @@ struct Grains {
   AlignedVector<double> radius;         ///< m
   AlignedVector<double> mass;           ///< kg
   AlignedVector<std::int32_t> id;
+  AlignedVector<Fixed> spin, spin_kick;  ///< S and J: counter-clockwise, quanta of angle
+  double inertia = 0.0;  ///< moment of inertia over m r^2, the same for all; 0: no rotation
 
   std::size_t size() const { return x.size(); }
+  bool rotate() const { return inertia > 0.0; }
+  Fixed spin_of(std::size_t slot) const { return rotate() ? spin[slot] : 0; }
+  Fixed spin_kick_of(std::size_t slot) const { return rotate() ? spin_kick[slot] : 0; }
   void resize(std::size_t n);
 };
 
@@ -63,10 +72,11 @@ struct State {
 
 /// One grain in SI units, to put grains in and to look at them.
 struct Grain {
-  double x, y;    ///< m
-  double vx, vy;  ///< m/s
-  double radius;  ///< m
-  double mass;    ///< kg
+  double x, y;        ///< m
+  double vx, vy;      ///< m/s
+  double radius;      ///< m
+  double mass;        ///< kg
+  double spin = 0.0;  ///< rad/s, counter-clockwise; without meaning where grains do not rotate
 };
 
 /// Adds a grain that touches nothing; its id is the number of grains before it. At step 0 only.
@@ -90,6 +100,9 @@ public:
               * to_vy_,
         .radius = g.radius[slot],
         .mass = g.mass[slot],
+        .spin =
+            (static_cast<double>(g.spin_of(slot)) + 0.5 * static_cast<double>(g.spin_kick_of(slot)))
+            * to_spin_,
     };
   }
 
@@ -98,6 +111,7 @@ private:
   Box box_;
   Fixed fall_, fallen_;   // per step, and so far: quanta per step
   double to_vx_, to_vy_;  // m/s per quantum per step
+  double to_spin_;        // rad/s per quantum per step
 };
 
 /// The slots of the grains in the order of their ids.

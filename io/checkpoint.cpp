@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 5;
+constexpr std::int64_t format_version = 6;
 constexpr auto kind = "checkpoint";
 
 // --- one part of the checkpoint after the other, written and read ---
@@ -38,17 +38,15 @@ void write(Hdf5Group group, const Grains& grains, const Box& box) {
   const auto slots = slots_by_id(grains);
   for_each_array(grains, [&](const char* name, const char* unit, const auto& array) {
     using T = typename std::remove_cvref_t<decltype(array)>::value_type;
-    std::vector<T> ordered(slots.size());
-    for (std::size_t i = 0; i < slots.size(); ++i) ordered[i] = array[slots[i]];
+    std::vector<T> ordered(array.size());
+    for (std::size_t i = 0; i < array.size(); ++i) ordered[i] = array[slots[i]];
     write_column<T>(group, name, unit, ordered);
   });
 }
 
-Grains read_grains(const StoredGroup& group) {
-  Grains grains;
+void read_grains(const StoredGroup& group, Grains& grains) {
   for_each_array(
       grains, [&](const char* name, const char*, auto& array) { read_column(group, name, array); });
-  return grains;
 }
 
 template <Hdf5Number T>
@@ -118,7 +116,7 @@ void write(Hdf5Group root, const State& state) {
 State read_state(const StoredGroup& root) {
   State state;
   for_each_scalar(state, [&](const char* name, auto& value) { read_value(root, name, value); });
-  state.grains = read_grains(root.group("grains"));
+  read_grains(root.group("grains"), state.grains);
   state.walls = read_records<WallLattice>(root.group("walls"));
   state.contacts = read_records<Contact>(root.group("contacts"));
   state.open_visits = read_records<WallVisit>(root.group("open_visits"));

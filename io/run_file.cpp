@@ -77,7 +77,7 @@ Hdf5Group replace_group(Hdf5Group parent, const std::string& name) {
 
 void write_grains(Hdf5Group& group, const State& state) {
   const auto slots = slots_by_id(state.grains);
-  std::vector<double> position, velocity, radius, mass;
+  std::vector<double> position, velocity, radius, mass, spin;
   std::vector<std::int32_t> id;
   for (const auto slot : slots) {
     const Grain grain = grain_at(state, slot);
@@ -85,6 +85,7 @@ void write_grains(Hdf5Group& group, const State& state) {
     velocity.insert(velocity.end(), {grain.vx, grain.vy});
     radius.push_back(grain.radius);
     mass.push_back(grain.mass);
+    spin.push_back(grain.spin);
     id.push_back(state.grains.id[slot]);
   }
   write_column<double>(group, "position", "m", position, 2);
@@ -92,6 +93,7 @@ void write_grains(Hdf5Group& group, const State& state) {
   write_column<double>(group, "radius", "m", radius);
   write_column<double>(group, "mass", "kg", mass);
   write_column<std::int32_t>(group, "id", "1", id);
+  if (state.grains.rotate()) write_column<double>(group, "spin", "rad/s", spin);
 }
 
 void write_profile(Hdf5Group& group, const TubeProfile& profile) {

@@ -8,6 +8,8 @@ const When linear_law = {"contact.law", {"linear"}};
 const When power_law = {"contact.law", {"power"}};
 const When nonlinear_law = {"contact.law", {"power", "hertz"}};
 const When viscous_slip = {"contact.slip", {"viscous"}};
+const When spring_slip = {"contact.slip", {"spring"}};
+const When rotating = {"grains.rotation", {"disc", "sphere"}};
 
 /// F_N = k xi^alpha + gamma xi^beta (d xi/dt)^g, written with the reduced mass for the linear law
 /// (see the manual's physics page).
@@ -21,6 +23,7 @@ SettingsTable normal_force_settings() {
               "exponents, or `hertz` for Hertz-Kuwabara-Kono (exponents 3/2, 1/2 and 1)."},
       {.key = "contact.stiffness",
        .unit = "N/m",
+       .starter = "2000 N/m",
        .required = true,
        .range = positive(),
        .doc = "Stiffness k_N of the linear law.",
@@ -43,6 +46,7 @@ SettingsTable normal_force_settings() {
        .only_when = nonlinear_law},
       {.key = "contact.restitution",
        .unit = "1",
+       .starter = "0.9",
        .range = above_up_to(0.0, 1.0),
        .doc = "Coefficient of normal restitution, from which the damping follows. Give this or "
               "`contact.damping`.",
@@ -100,15 +104,28 @@ SettingsTable friction_settings() {
       {.key = "contact.slip",
        .kind = Kind::choice,
        .fallback = "cap",
-       .choices = {"cap", "literal", "viscous"},
+       .choices = {"cap", "literal", "viscous", "spring"},
        .doc = "Friction near zero slip: `cap` it at the force that stops the slip within one step, "
-              "take the sign of the slip `literal`ly, or limit it by a `viscous` force."},
+              "take the sign of the slip `literal`ly, limit it by a `viscous` force, or by a "
+              "tangential `spring` that remembers the way slipped."},
       {.key = "contact.slip_damping",
        .unit = "1/s",
        .required = true,
        .range = positive(),
        .doc = "Coefficient gamma_t of the viscous limit, per reduced mass.",
        .only_when = viscous_slip},
+      {.key = "contact.slip_stiffness",
+       .unit = "N/m",
+       .required = true,
+       .range = positive(),
+       .doc = "Stiffness k_t of the tangential spring.",
+       .only_when = spring_slip},
+      {.key = "contact.slip_damping",
+       .unit = "1/s",
+       .fallback = "0 1/s",
+       .range = non_negative(),
+       .doc = "Damping gamma_t of the tangential spring, per reduced mass.",
+       .only_when = spring_slip},
   };
 }
 
@@ -138,6 +155,25 @@ SettingsTable run_settings() {
   };
 }
 
+SettingsTable rotation_settings() {
+  return {
+      {.key = "grains.rotation",
+       .kind = Kind::choice,
+       .fallback = "none",
+       .choices = {"none", "disc", "sphere"},
+       .doc =
+           "Whether the free grains rotate (`none`: they do not, as in the paper), and with what "
+           "moment of inertia: m r^2/2 of a `disc` or 2/5 m r^2 of a `sphere`. Wall grains do "
+           "not rotate."},
+      {.key = "contact.rolling_friction",
+       .unit = "1",
+       .fallback = "0",
+       .range = non_negative(),
+       .doc = "Coefficient mu_r of the resistance to rolling, relative to r_i r_j/(r_i + r_j).",
+       .only_when = rotating},
+  };
+}
+
 void append(SettingsTable& table, const SettingsTable& rows) {
   table.insert(table.end(), rows.begin(), rows.end());
 }
@@ -159,6 +195,7 @@ SettingsTable common_settings() {
   append(table, normal_force_settings());
   append(table, friction_settings());
   append(table, run_settings());
+  append(table, rotation_settings());
   return table;
 }
 

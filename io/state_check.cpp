@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -45,9 +46,12 @@ std::string flaw_of_walls(const State& state) {
 }
 
 std::string flaw_of_grains(const Grains& grains) {
+  if (!std::isfinite(grains.inertia) || grains.inertia < 0.0)
+    return "the moment of inertia is negative";
   bool equal_sizes = true;
-  for_each_array(grains, [&](const char*, const char*, const auto& array) {
-    equal_sizes = equal_sizes && array.size() == grains.size();
+  for_each_array(grains, [&](std::string_view name, const char*, const auto& array) {
+    const bool is_there = grains.rotate() || !name.starts_with("spin");
+    equal_sizes = equal_sizes && array.size() == (is_there ? grains.size() : 0);
   });
   if (!equal_sizes) return "not all grains have all values";
 

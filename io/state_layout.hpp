@@ -13,10 +13,11 @@
 
 namespace riesel::io {
 
-/// Calls visit(name, unit, array) for each array of the grains (const or not).
+/// Calls visit(name, unit, array) for each array of the grains (const or not). Those of spins come
+/// last, and are empty where the grains do not rotate.
 template <class AnyGrains, class Visit>
 void for_each_array(AnyGrains& grains, Visit visit) {
-  auto& [x, y, ux, uy, kick_x, kick_y, radius, mass, id] = grains;
+  auto& [x, y, ux, uy, kick_x, kick_y, radius, mass, id, spin, spin_kick, inertia] = grains;
   visit("x", "quantum_x", x);
   visit("y", "quantum_y", y);
   visit("ux", "quantum_x / step", ux);
@@ -26,12 +27,14 @@ void for_each_array(AnyGrains& grains, Visit visit) {
   visit("radius", "m", radius);
   visit("mass", "kg", mass);
   visit("id", "1", id);
+  visit("spin", "2 pi / 2^64 / step", spin);
+  visit("spin_kick", "2 pi / 2^64 / step^2", spin_kick);
 }
 
 /// Calls visit(name, unit, member) for each member of a contact; member(contact) is the member.
 template <std::same_as<Contact> Record, class Visit>
 void for_each_member(Visit visit) {
-  static_assert(sizeof(Contact) == 16 + 15 * sizeof(double));
+  static_assert(sizeof(Contact) == 16 + 18 * sizeof(double));
   visit(
       "wall", "1", [](auto& c) -> auto& { return c.name.wall; });
   visit(
@@ -68,6 +71,12 @@ void for_each_member(Visit visit) {
       "friction_x", "N", [](auto& c) -> auto& { return c.friction_x; });
   visit(
       "friction_y", "N", [](auto& c) -> auto& { return c.friction_y; });
+  visit(
+      "spring", "m", [](auto& c) -> auto& { return c.spring; });
+  visit(
+      "torque", "N m", [](auto& c) -> auto& { return c.torque; });
+  visit(
+      "rolling_torque", "N m", [](auto& c) -> auto& { return c.rolling_torque; });
 }
 
 /// Calls visit(name, unit, member) for each member of an open visit; member(visit) is the member.
@@ -191,6 +200,7 @@ void for_each_scalar(AnyState& state, Visit visit) {
   visit("step", step);
   visit("origin_energy", energy);
   visit("origin_momentum_y", momentum_y);
+  visit("inertia", grains.inertia);
 }
 
 }  // namespace riesel::io

@@ -126,11 +126,14 @@ std::string to_json(const FlowSummary& s) {
   json["balance"] = balance(s.balance);
   json["grain_contact_rate"] = measured(s.grain_contact_rate);
   json["braking_force"] = braking_force(s.braking_force);
-  json["energy"] = {
-      {"initial", s.energy.initial},         {"kinetic", s.energy.kinetic},
-      {"elastic", s.energy.elastic},         {"gravity_work", s.energy.gravity_work},
-      {"normal_loss", s.energy.normal_loss}, {"friction_loss", s.energy.friction_loss},
-      {"residual", s.energy.residual}};
+  json["energy"] = {{"initial", s.energy.initial},
+                    {"kinetic", s.energy.kinetic},
+                    {"rotational", s.energy.rotational},
+                    {"elastic", s.energy.elastic},
+                    {"gravity_work", s.energy.gravity_work},
+                    {"normal_loss", s.energy.normal_loss},
+                    {"friction_loss", s.energy.friction_loss},
+                    {"residual", s.energy.residual}};
   json["wall_visits"] = wall_visits(s.wall_visits);
   json["validity"] = validity(s);
   return text_of(json);

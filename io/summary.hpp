@@ -80,10 +80,10 @@ struct FlowSummary {
     double weight = unknown;                                   ///< N, of all grains
   } braking_force;
 
-  /// J; since the start, but kinetic and elastic energy are those at the end.
+  /// J; since the start, but kinetic, rotational and elastic energy are those at the end.
   struct Energy {
-    double initial = 0.0, kinetic = 0.0, elastic = 0.0, gravity_work = 0.0, normal_loss = 0.0,
-           friction_loss = 0.0, residual = 0.0;
+    double initial = 0.0, kinetic = 0.0, rotational = 0.0, elastic = 0.0, gravity_work = 0.0,
+           normal_loss = 0.0, friction_loss = 0.0, residual = 0.0;
   } energy;
 
   /// What grains do at a wall between coming and going.

@@ -64,6 +64,7 @@ FlowSummary::BrakingForce read_braking_force(const Json& summary) {
 FlowSummary::Energy read_energy(const Json& json) {
   return {.initial = number(json, "initial"),
           .kinetic = number(json, "kinetic"),
+          .rotational = json.contains("rotational") ? number(json, "rotational") : 0.0,
           .elastic = number(json, "elastic"),
           .gravity_work = number(json, "gravity_work"),
           .normal_loss = number(json, "normal_loss"),

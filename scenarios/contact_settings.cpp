@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace riesel::scenarios {
@@ -39,6 +40,9 @@ SlipLaw slip_law(const io::Settings& settings) {
   const std::string& slip = settings.text("contact.slip");
   if (slip == "literal") return LiteralSlip{};
   if (slip == "viscous") return ViscousSlip{.gamma_t = settings.number("contact.slip_damping")};
+  if (slip == "spring")
+    return SpringSlip{.k_t = settings.number("contact.slip_stiffness"),
+                      .gamma_t = settings.number("contact.slip_damping")};
   return CappedSlip{};
 }
 
@@ -59,7 +63,15 @@ ContactModel contact_model(const io::Settings& settings) {
           .slip = slip_law(settings),
           .friction = settings.number("contact.friction"),
           .attraction =
-              settings.text("contact.attraction") == "clip" ? Attraction::clip : Attraction::keep};
+              settings.text("contact.attraction") == "clip" ? Attraction::clip : Attraction::keep,
+          .rolling_friction =
+              inertia(settings) > 0.0 ? settings.number("contact.rolling_friction") : 0.0};
+}
+
+double inertia(const io::Settings& settings) {
+  const std::string& rotation = settings.text("grains.rotation");
+  if (rotation == "disc") return 0.5;
+  return rotation == "sphere" ? 0.4 : 0.0;
 }
 
 double collision_time(const io::Settings& settings, const ContactModel& model,
@@ -73,8 +85,11 @@ double collision_time(const io::Settings& settings, const ContactModel& model,
                                 settings.number("contact.impact_speed"));
 }
 
-double time_step(const io::Settings& settings, double collision_time) {
-  return collision_time / settings.number("run.steps_per_collision");
+double time_step(const io::Settings& settings, const ContactModel& model, double collision_time,
+                 double reduced_mass) {
+  const double shortest =
+      std::min(collision_time, spring_time(model.slip, inertia(settings), reduced_mass));
+  return shortest / settings.number("run.steps_per_collision");
 }
 
 }  // namespace riesel::scenarios

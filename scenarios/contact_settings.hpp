@@ -10,7 +10,12 @@ namespace riesel::scenarios {
 /// that would not rebound.
 double collision_time(const io::Settings& settings, const ContactModel& model, double reduced_mass);
 
-/// s, collision time divided by run.steps_per_collision.
-double time_step(const io::Settings& settings, double collision_time);
+/// s, collision time divided by run.steps_per_collision; or half a period of the tangential spring
+/// of the same two bodies, where that is shorter.
+double time_step(const io::Settings& settings, const ContactModel& model, double collision_time,
+                 double reduced_mass);
+
+/// Moment of inertia of the grains over m r^2; 0: they do not rotate.
+double inertia(const io::Settings& settings);
 
 }  // namespace riesel::scenarios

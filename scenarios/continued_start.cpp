@@ -40,8 +40,10 @@ void reject_other_grains_or_tube(const io::Settings& settings, const io::Setting
 }
 
 /// As the new run sees it: its clock starts now, and what the contact did belongs to the old one.
-Contact carried_over(const Contact& contact, double now, const NormalLaw& law) {
+Contact carried_over(const Contact& contact, double now, const ContactModel& model) {
   const auto stored = [&](const auto& normal) { return normal.stored_energy(contact.overlap); };
+  const auto* spring = std::get_if<SpringSlip>(&model.slip);
+  const double elongation = spring != nullptr ? contact.spring : 0.0;
   return {.name = contact.name,
           .begin = contact.begin - now,
           .end = contact.end - now,
@@ -49,9 +51,13 @@ Contact carried_over(const Contact& contact, double now, const NormalLaw& law) {
           .entry_slip = contact.entry_slip,
           .overlap = contact.overlap,
           .max_overlap = contact.overlap,
-          .elastic_energy = std::visit(stored, law),
+          .elastic_energy = std::visit(stored, model.normal)
+                            + (spring != nullptr ? spring->stored_energy(elongation) : 0.0),
           .friction_x = contact.friction_x,
-          .friction_y = contact.friction_y};
+          .friction_y = contact.friction_y,
+          .spring = elongation,
+          .torque = contact.torque,
+          .rolling_torque = contact.rolling_torque};
 }
 
 }  // namespace
@@ -81,9 +87,12 @@ void take_over(const State& earlier, const ContactModel& model, State& state) {
     g.kick_y[i] = rescaled(earlier.grains.kick_y[i]);
     g.ux[i] -= g.kick_x[i] / 2;
     g.uy[i] -= g.kick_y[i] / 2;
+    if (!g.rotate()) continue;
+    g.spin_kick[i] = rescaled(earlier.grains.spin_kick[i]);
+    g.spin[i] -= g.spin_kick[i] / 2;
   }
   for (const Contact& contact : earlier.contacts)
-    state.contacts.push_back(carried_over(contact, earlier.time(), model.normal));
+    state.contacts.push_back(carried_over(contact, earlier.time(), model));
 }
 
 bool can_continue_along(const std::string& key) {

@@ -40,18 +40,20 @@ ImpactCurve empty_curve(const io::Settings& settings, double wall_spacing) {
   setup.wall_grain_radius = 0.5 * settings.number("wall.grain_diameter");
   setup.wall_spacing = wall_spacing;
   setup.model = contact_model(settings);
+  setup.inertia = inertia(settings);
   setup.collision_time = collision_time(settings, setup.model, setup.grain_mass);
   return curve;
 }
 
 void add_point(const io::Settings& settings, ImpactCurve& curve, double v_x, double v_y, double x,
                const std::vector<double>& starts, double chord) {
-  const double shortest = std::min(curve.setup.collision_time, chord / v_y);
+  const ImpactSetup& setup = curve.setup;
+  const double dt = time_step(settings, setup.model, std::min(setup.collision_time, chord / v_y),
+                              setup.grain_mass);
   curve.points.push_back(
       {.v_x = v_x, .v_y = v_y, .first_impact = curve.impacts.size(), .impacts = starts.size()});
   for (const double y : starts)
-    curve.impacts.push_back(
-        {.x = x, .y = y, .v_x = v_x, .v_y = v_y, .time_step = time_step(settings, shortest)});
+    curve.impacts.push_back({.x = x, .y = y, .v_x = v_x, .v_y = v_y, .time_step = dt});
 }
 
 }  // namespace riesel::scenarios

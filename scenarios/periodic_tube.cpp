@@ -150,6 +150,7 @@ State empty_tube(const io::Settings& settings) {
   state.walls = {{.line = 0.0, .radius = radius, .count = count},
                  {.line = state.box.width, .radius = radius, .count = count}};
   state.gravity = settings.number("gravity");
+  state.grains.inertia = inertia(settings);
   return state;
 }
 
@@ -244,7 +245,7 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
   const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
   const double shortest = collision_time(settings, model, 0.5 * *lightest);
   collision_time(settings, model, *heaviest);
-  state.time_step = time_step(settings, shortest);
+  state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
   constexpr double most_steps = 1e15;  // far below what a counter holds
   const RunLength length = run_length(settings);
   if (length.at_most / state.time_step > most_steps)

@@ -2,7 +2,7 @@
 
 from riesel_command import BAD_INPUT, SHIPPED, CommandTest
 
-SUBCOMMANDS = ["run", "resume", "check", "report", "scenarios", "settings"]
+SUBCOMMANDS = ["run", "resume", "check", "report", "scenarios", "settings", "schema"]
 
 
 class Usage(CommandTest):

@@ -6,7 +6,7 @@
 // numbers in tests/physics.
 #pragma once
 
-#include "engine/contact_force.hpp"
+#include "engine/encounter.hpp"
 #include "engine/state.hpp"
 
 #include <Eigen/Core>
@@ -27,6 +27,8 @@ struct Body {
   Vector2d half_step_velocity;  ///< m/s
   Vector2d acceleration;        ///< m/s^2
   double radius, mass;
+  Spin spin;               ///< rad/s
+  double spin_rate = 0.0;  ///< rad/s^2
 };
 
 /// What was seen of one contact from its first to its last step.
@@ -34,6 +36,8 @@ struct Life {
   std::int64_t first_step, last_step;
   double max_overlap = 0.0;  ///< m
   double slip_path = 0.0;    ///< m
+  double begin = 0.0;        ///< s
+  double spring = 0.0;       ///< m, elongation
 };
 
 class Stepper {
@@ -45,6 +49,7 @@ public:
         gravity_(0.0, state.gravity),
         dt_(state.time_step),
         model_(model),
+        inertia_(state.grains.inertia),
         bodies_(state.grains.size()),
         impulse_of_wall_(walls_.size(), Vector2d::Zero()) {
     for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
@@ -54,7 +59,8 @@ public:
               .half_step_velocity = Vector2d(g.vx, g.vy) - 0.5 * dt_ * gravity_,
               .acceleration = gravity_,
               .radius = g.radius,
-              .mass = g.mass};
+              .mass = g.mass,
+              .spin = {.now = g.spin, .half = g.spin}};
     }
   }
 
@@ -63,12 +69,15 @@ public:
     for (Body& body : bodies_) {
       body.half_step_velocity += dt_ * body.acceleration;
       body.position += dt_ * body.half_step_velocity;
+      body.spin.half += dt_ * body.spin_rate;
+      body.spin.now = body.spin.half + 0.5 * dt_ * body.spin_rate;
     }
+    for (Body& body : bodies_) body.spin_rate = 0.0;
     std::vector<Vector2d> accelerations(bodies_.size(), gravity_);
     std::map<ContactName, Life> now;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
-        const Body &a = bodies_[i], &b = bodies_[j];
+        Body &a = bodies_[i], &b = bodies_[j];
         const auto t = try_touch(a, b, a.mass * b.mass / (a.mass + b.mass), name(-1, i, j), now);
         accelerations[i] += t / a.mass;
         accelerations[j] -= t / b.mass;
@@ -76,7 +85,8 @@ public:
       for (std::size_t w = 0; w < walls_.size(); ++w)
         for (std::int64_t k = 0; k < walls_[w].count; ++k) {
           const auto who = name(static_cast<int>(w), i, static_cast<std::size_t>(k));
-          const auto t = try_touch(bodies_[i], wall_grain(walls_[w], k), bodies_[i].mass, who, now);
+          Body fixed = wall_grain(walls_[w], k);
+          const auto t = try_touch(bodies_[i], fixed, bodies_[i].mass, who, now);
           accelerations[i] += t / bodies_[i].mass;
           impulse_of_wall_[w] += dt_ * t;
         }
@@ -116,11 +126,19 @@ private:
             .half_step_velocity = Vector2d::Zero(),
             .acceleration = Vector2d::Zero(),
             .radius = wall.radius,
-            .mass = 0.0};
+            .mass = 0.0,
+            .spin = {}};
   }
 
-  /// The force on `a`, and an entry in `now` if the two overlap.
-  Vector2d try_touch(const Body& a, const Body& b, double reduced_mass, const ContactName& who,
+  /// rad/s^2 per N m; 0: a wall grain, or no rotation.
+  double per_inertia(const Body& body) const {
+    return body.mass == 0.0 || inertia_ == 0.0
+               ? 0.0
+               : 1.0 / (inertia_ * body.mass * body.radius * body.radius);
+  }
+
+  /// The force on `a`, and an entry in `now` if the two overlap, which may begin to spin.
+  Vector2d try_touch(Body& a, Body& b, double reduced_mass, const ContactName& who,
                      std::map<ContactName, Life>& now) {
     Vector2d separation = b.position - a.position;
     separation.y() = std::remainder(separation.y(), box_.length);
@@ -129,20 +147,47 @@ private:
 
     const Vector2d half_step = b.half_step_velocity - a.half_step_velocity;
     const Vector2d velocity = half_step + 0.5 * dt_ * (b.acceleration - a.acceleration);
-    const Touch t = std::visit(
-        [&](const auto& normal, const auto& slip) {
-          return touch({separation.x(), separation.y(), velocity.x(), velocity.y(), half_step.x(),
-                        half_step.y(), reach, reduced_mass},
-                       normal, slip, model_.friction, model_.attraction, dt_);
-        },
-        model_.normal, model_.slip);
+    const Encounter e{separation.x(), separation.y(), velocity.x(), velocity.y(),
+                      half_step.x(),  half_step.y(),  reach,        reduced_mass};
+    const auto touch_of = [&](const auto& turn, const Stretch& stretch) {
+      return std::visit(
+          [&](const auto& normal, const auto& slip) {
+            return touch(e, turn, stretch, normal, slip, model_.friction, model_.attraction, dt_);
+          },
+          model_.normal, model_.slip);
+    };
+    const auto touch_now = [&](const Stretch& stretch) {
+      if (inertia_ == 0.0) return touch_of(NoTurning{}, stretch);
+      const double i = a.radius / reach, j = b.radius / reach;
+      return touch_of(Turning{.roll = i * a.spin.now + j * b.spin.now,
+                              .half_roll = i * a.spin.half + j * b.spin.half,
+                              .spin = a.spin.now - b.spin.now,
+                              .half_spin = a.spin.half - b.spin.half,
+                              .inertia = inertia_,
+                              .part_first = i,
+                              .part_second = j,
+                              .per_inertia_first = per_inertia(a),
+                              .per_inertia_second = per_inertia(b),
+                              .rolling_arm = model_.rolling_friction * i * b.radius},
+                      stretch);
+    };
 
     const auto before = touching_.find(who);
-    Life life = before != touching_.end() ? before->second : Life{step_, step_};
+    const double time = static_cast<double>(step_) * dt_;
+    Life life =
+        before != touching_.end()
+            ? before->second
+            : Life{.first_step = step_, .last_step = step_, .begin = time - touch_now({}).since};
+    const Touch t = touch_now({.spring = life.spring, .time = std::min(dt_, time - life.begin)});
+    life.spring = t.spring;
+    a.spin_rate += (a.radius / reach * t.torque + t.rolling_torque) * per_inertia(a);
+    b.spin_rate += (b.radius / reach * t.torque - t.rolling_torque) * per_inertia(b);
     life.last_step = step_;
     life.max_overlap = std::max(life.max_overlap, reach - separation.norm());
     const Vector2d along_s(-separation.y(), separation.x());
-    life.slip_path += dt_ * std::abs(velocity.dot(along_s)) / separation.norm();
+    const double rolled = (a.radius * a.spin.now + b.radius * b.spin.now) / reach;
+    life.slip_path +=
+        dt_ * std::abs(velocity.dot(along_s) / separation.norm() - rolled * separation.norm());
     now[who] = life;
     return {t.fx, t.fy};
   }
@@ -152,6 +197,7 @@ private:
   Vector2d gravity_;
   double dt_;
   ContactModel model_;
+  double inertia_;                         // of a grain, over m r^2; 0: no rotation
   std::vector<Body> bodies_;               // by id
   std::vector<Vector2d> impulse_of_wall_;  // kg m/s, on the grains
   std::int64_t step_ = 0;

@@ -15,7 +15,8 @@ using namespace riesel;
 inline auto all_of(const Contact& c) {
   return std::tie(c.name, c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
                   c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
-                  c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y);
+                  c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y, c.spring,
+                  c.torque, c.rolling_torque);
 }
 
 inline auto all_of(const ContactTally& t) {
@@ -50,6 +51,7 @@ inline bool same(const State& a, const State& b) {
   const Grains g = ordered_by_id(a.grains), h = ordered_by_id(b.grains);
   return a.step == b.step && g.x == h.x && g.y == h.y && g.ux == h.ux && g.uy == h.uy
          && g.kick_x == h.kick_x && g.kick_y == h.kick_y && g.radius == h.radius && g.mass == h.mass
+         && g.spin == h.spin && g.spin_kick == h.spin_kick && g.inertia == h.inertia
          && same(a.contacts, b.contacts) && same(a.open_visits, b.open_visits)
          && all_of(a.tally.grains) == all_of(b.tally.grains)
          && all_of(a.tally.walls) == all_of(b.tally.walls)

@@ -31,6 +31,14 @@ inline ContactModel paper_model() {
   return {LinearLaw{stiffness, damping}, CappedSlip{}, friction, Attraction::keep};
 }
 
+/// Of grains that rotate: a spring that is stretched and slides, and resistance to rolling.
+inline ContactModel rolling_model() {
+  return {LinearLaw{stiffness, damping}, SpringSlip{0.4 * stiffness, 0.3 * damping}, friction,
+          Attraction::keep, 0.1};
+}
+
+inline constexpr double disc = 0.5, sphere = 0.4;  // moments of inertia over m r^2
+
 inline ContactModel frictionless(double gamma_n) {
   return {LinearLaw{stiffness, gamma_n}, CappedSlip{}, 0.0, Attraction::keep};
 }
@@ -91,18 +99,20 @@ struct Throw {
   double mean_radius = radius;  ///< m
 };
 
-/// Adds grains at random places where they touch nothing.
+/// Adds grains at random places where they touch nothing. If they rotate, their surfaces are as
+/// fast as they are.
 inline void throw_grains(State& state, std::size_t count, const Throw& where, Dice& dice) {
   for (int attempts = 0; count > 0; ++attempts) {
     if (attempts > 1'000'000) throw std::runtime_error("there is no room for so many grains");
     const double size = dice.between(1.0 - where.polydispersity, 1.0 + where.polydispersity);
     const double r = where.mean_radius * size;
-    const Grain g{.x = dice.between(where.left, where.right),
-                  .y = dice.between(where.low, where.high),
-                  .vx = dice.between(-where.speed, where.speed),
-                  .vy = where.common_vy + dice.between(-where.speed, where.speed),
-                  .radius = r,
-                  .mass = mass * r * r / (radius * radius)};
+    Grain g{.x = dice.between(where.left, where.right),
+            .y = dice.between(where.low, where.high),
+            .vx = dice.between(-where.speed, where.speed),
+            .vy = where.common_vy + dice.between(-where.speed, where.speed),
+            .radius = r,
+            .mass = mass * r * r / (radius * radius)};
+    if (state.grains.rotate()) g.spin = dice.between(-where.speed, where.speed) / r;
     if (!room_for(state, g)) continue;
     add_grain(state, g);
     --count;
@@ -110,9 +120,10 @@ inline void throw_grains(State& state, std::size_t count, const Throw& where, Di
 }
 
 /// A crowded piece of the corrugated tube, in which every grain soon touches others and the walls.
-inline State small_tube(std::uint64_t seed, std::size_t grains = 40) {
+inline State small_tube(std::uint64_t seed, std::size_t grains = 40, double inertia = 0.0) {
   State state = empty_box(8e-3, 9.6e-3);
   state.gravity = 10.0;
+  state.grains.inertia = inertia;
   add_walls(state, 8);
   Dice dice(seed);
   throw_grains(state, grains,
@@ -139,6 +150,9 @@ inline State shuffled(State state, std::uint64_t seed) {
     std::swap(g.radius[a], g.radius[b]);
     std::swap(g.mass[a], g.mass[b]);
     std::swap(g.id[a], g.id[b]);
+    if (!g.rotate()) continue;
+    std::swap(g.spin[a], g.spin[b]);
+    std::swap(g.spin_kick[a], g.spin_kick[b]);
   }
   return state;
 }

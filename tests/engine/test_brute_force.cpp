@@ -80,7 +80,17 @@ TEST_CASE("every law of the contact goes as by brute force") {
   SECTION("literal sign of the slip") { model.slip = LiteralSlip{}; }
   SECTION("viscous slip") { model.slip = ViscousSlip{1e5}; }
   SECTION("no attraction") { model.attraction = Attraction::clip; }
+  SECTION("tangential spring") { model.slip = SpringSlip{800.0, 3e3}; }
   CHECK(agree(small_tube(4), 300, model).pairs_begun > 10);
+}
+
+TEST_CASE("grains that rotate go as by brute force") {
+  ContactModel model = rolling_model();
+  SECTION("spring and resistance to rolling") {}
+  SECTION("capped slip") { model.slip = CappedSlip{}; }
+  SECTION("literal sign of the slip") { model.slip = LiteralSlip{}; }
+  SECTION("viscous slip") { model.slip = ViscousSlip{3e4}; }
+  CHECK(agree(small_tube(4, 40, disc), 300, model).pairs_begun > 10);
 }
 
 TEST_CASE("a cluster in a large box goes as by brute force") {

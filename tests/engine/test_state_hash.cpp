@@ -62,6 +62,23 @@ TEST_CASE("the hash notices the life of a contact") {
   CHECK(noticed([](State& s) { s.contacts[0].friction_loss += 1e-20; }));
 }
 
+TEST_CASE("the hash notices spins, and springs where there are any") {
+  const State rotating = advanced(small_tube(41, 40, disc), rolling_model(), 300);
+  REQUIRE_FALSE(rotating.contacts.empty());
+  const auto noticed_of_rotating = [&](const std::function<void(State&)>& change) {
+    State changed = rotating;
+    change(changed);
+    return state_hash(changed) != state_hash(rotating);
+  };
+  CHECK(state_hash(shuffled(rotating, 1)) == state_hash(rotating));
+  CHECK(noticed_of_rotating([](State& s) { ++s.grains.spin[3]; }));
+  CHECK(noticed_of_rotating([](State& s) { ++s.grains.spin_kick[3]; }));
+  CHECK(noticed_of_rotating([](State& s) { s.grains.inertia = sphere; }));
+  CHECK(noticed_of_rotating([](State& s) { s.contacts[0].spring += 1e-15; }));
+  CHECK(noticed_of_rotating([](State& s) { s.contacts[0].torque *= 2.0; }));
+  CHECK(noticed_of_rotating([](State& s) { s.contacts[0].rolling_torque *= 2.0; }));
+}
+
 TEST_CASE("the hash notices every sum of the tally") {
   CHECK(noticed([](State& s) { ++s.tally.walls.begun; }));
   CHECK(noticed([](State& s) { ++s.tally.walls.ended; }));
@@ -112,4 +129,5 @@ TEST_CASE("grains ordered by id are the same grains") {
     CHECK(ordered.kick_y[id] == state().grains.kick_y[slot]);
     CHECK(ordered.mass[id] == state().grains.mass[slot]);
   }
+  CHECK(ordered.spin.empty());
 }

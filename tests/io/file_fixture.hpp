@@ -111,7 +111,8 @@ inline riesel::Contact contact(riesel::ContactName name, double first) {
        {&contact.begin, &contact.end, &contact.entry_rate, &contact.entry_slip, &contact.overlap,
         &contact.max_overlap, &contact.slip_path, &contact.elastic_energy, &contact.normal_loss,
         &contact.friction_loss, &contact.impulse_x, &contact.impulse_y,
-        &contact.impulse_y_times_step, &contact.friction_x, &contact.friction_y}) {
+        &contact.impulse_y_times_step, &contact.friction_x, &contact.friction_y, &contact.spring,
+        &contact.torque, &contact.rolling_torque}) {
     *member = value;
     value = value * -1.3 + 0.1;
   }
@@ -167,7 +168,7 @@ inline riesel::Tally whole_tally() {
 
 /// A state of `n` >= 4 grains, in the order of their ids, with numbers that a careless format would
 /// lose: the extremes of the integers, denormals, negative zeros, numbers with no short decimals.
-inline riesel::State special_state(std::size_t n = 4) {
+inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
   constexpr auto least = std::numeric_limits<riesel::Fixed>::min();
   constexpr auto most = std::numeric_limits<riesel::Fixed>::max();
   constexpr auto denormal = std::numeric_limits<double>::denorm_min();
@@ -179,6 +180,7 @@ inline riesel::State special_state(std::size_t n = 4) {
   state.time_step = 1e-6 / 3.0;
   state.step = most;
   auto& grains = state.grains;
+  grains.inertia = inertia;
   grains.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto k = static_cast<std::uint64_t>(i + 1) * 0x9e3779b97f4a7c15U;
@@ -188,6 +190,8 @@ inline riesel::State special_state(std::size_t n = 4) {
     grains.uy[i] = static_cast<riesel::Fixed>(k * 5);
     grains.kick_x[i] = static_cast<riesel::Fixed>(k * 7);
     grains.kick_y[i] = static_cast<riesel::Fixed>(k * 11);
+    if (grains.rotate()) grains.spin[i] = static_cast<riesel::Fixed>(k * 13);
+    if (grains.rotate()) grains.spin_kick[i] = static_cast<riesel::Fixed>(k * 17);
     grains.radius[i] = 5e-4 + 1e-6 / (3.0 + static_cast<double>(i));
     grains.mass[i] = 1e-6 / (7.0 + static_cast<double>(i));
     grains.id[i] = static_cast<std::int32_t>(i);
@@ -208,7 +212,7 @@ inline riesel::State special_state(std::size_t n = 4) {
 /// The same state with the grains stored the other way round.
 inline riesel::State reversed(riesel::State state) {
   auto& g = state.grains;
-  for (auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) {
+  for (auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y, &g.spin, &g.spin_kick}) {
     std::reverse(array->begin(), array->end());
   }
   std::reverse(g.radius.begin(), g.radius.end());
@@ -269,7 +273,8 @@ public:
     add_all(std::vector{c.name.wall, c.name.grain, c.name.partner});
     add_all(std::vector{c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
                         c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
-                        c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y});
+                        c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y, c.spring,
+                        c.torque, c.rolling_torque});
   }
   const std::string& value() const { return bits_; }
 
@@ -287,7 +292,9 @@ inline std::string bits_of(const riesel::State& state) {
     bits.add(wall.count);
   }
   const auto& g = state.grains;
-  for (const auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) bits.add_all(*array);
+  for (const auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y, &g.spin, &g.spin_kick})
+    bits.add_all(*array);
+  bits.add(g.inertia);
   bits.add_all(g.radius);
   bits.add_all(g.mass);
   bits.add_all(g.id);

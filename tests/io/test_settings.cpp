@@ -138,6 +138,7 @@ run:
   stepping: auto
 
 grains:
+  rotation: none
   diameter: 0.001  # m
   polydispersity: 0.05
 

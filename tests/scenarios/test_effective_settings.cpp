@@ -31,7 +31,16 @@ bool same(const NormalLaw& a, const NormalLaw& b) {
 
 bool same(const SlipLaw& a, const SlipLaw& b) {
   if (a.index() != b.index()) return false;
-  const auto force = [](const auto& law) { return law.force(1e9, 0.1, 0.1, 1e-6, 1e-6); };
+  const auto force = [](const auto& law) {
+    return law.force({.limit = 1e9,
+                      .slip = 0.1,
+                      .half_step_slip = 0.1,
+                      .spring = 1e-6,
+                      .damping_weight = 1.0,
+                      .reduced_mass = 1e-6,
+                      .slip_mass = 1e-6,
+                      .dt = 1e-6});
+  };
   return std::visit(force, a) == std::visit(force, b);
 }
 
@@ -40,6 +49,7 @@ void check_same(const ContactModel& a, const ContactModel& b) {
   CHECK(same(a.slip, b.slip));
   CHECK(a.friction == b.friction);
   CHECK((a.attraction == b.attraction));
+  CHECK(a.rolling_friction == b.rolling_friction);
 }
 
 void check_same(const scenarios::Flow& a, const scenarios::Flow& b) {
@@ -55,8 +65,8 @@ void check_same(const scenarios::Flow& a, const scenarios::Flow& b) {
 
 void check_same(const scenarios::ImpactCurve& a, const scenarios::ImpactCurve& b) {
   const auto numbers = [](const ImpactSetup& s) {
-    return std::vector{s.grain_radius, s.grain_mass, s.wall_grain_radius, s.wall_spacing,
-                       s.collision_time};
+    return std::vector{s.grain_radius, s.grain_mass, s.wall_grain_radius,
+                       s.wall_spacing, s.inertia,    s.collision_time};
   };
   CHECK(numbers(a.setup) == numbers(b.setup));
   check_same(a.setup.model, b.setup.model);
@@ -113,6 +123,10 @@ TEST_CASE("tubes of all kinds come back from their effective settings") {
       Overrides{}, Overrides{"contact.law=power", "contact.stiffness=1e5", "contact.damping=0.1"},
       Overrides{"contact.law=hertz", "contact.stiffness=3.3e5", "contact.damping=1.7"},
       Overrides{"contact.slip=viscous", "contact.slip_damping=1e5 1/s", "contact.attraction=clip"},
+      Overrides{"contact.slip=spring", "contact.slip_stiffness=700 N/m", "grains.rotation=disc"},
+      Overrides{"contact.slip=spring", "contact.slip_stiffness=9 kN/m",
+                "contact.slip_damping=2e3 1/s", "grains.rotation=sphere",
+                "contact.rolling_friction=0.05"},
       Overrides{"grains.size_distribution=truncated_normal", "grains.polydispersity=7 %"},
       Overrides{"grains.size_distribution=bidisperse", "grains.size_ratio=2.5",
                 "grains.large_fraction=0.3"},
@@ -130,6 +144,8 @@ TEST_CASE("a restitution comes back from the effective settings as the same damp
 
 TEST_CASE("impacts of all kinds come back from their effective settings") {
   check_comes_back(read(single_yaml, {"impact.height=0.7 mm", "impact.axial_velocity=3 m/s"}));
+  check_comes_back(read(single_yaml, {"grains.rotation=sphere", "contact.slip=spring",
+                                      "contact.slip_stiffness=40 kN/m"}));
   check_comes_back(read(array_yaml, {"wall.spacing=0.9 mm", "impact.starts=7",
                                      "impact.normal_velocity=[10 cm/s, 0.7]"}));
 }

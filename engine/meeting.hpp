@@ -1,0 +1,99 @@
+// Two bodies that meet: who they are, and what does not change while they are in contact.
+#pragma once
+
+#include "engine/contact.hpp"
+#include "engine/encounter.hpp"
+#include "engine/state.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace riesel {
+
+struct Meeting {
+  ContactName name;
+  std::uint32_t candidate;  ///< index among the candidates, for whoever looks for contacts
+  std::int64_t first;       ///< place of the first body in Bodies, at the beginning
+  std::int64_t second;      ///< of the second body; that of the first for a wall grain
+  Fixed line, y;            ///< where the wall grain is; unused for free grains
+  double radius_first;      ///< m
+  double radius_second;     ///< m
+  double mass_first;        ///< kg
+  double mass_second;       ///< kg; unused for a wall grain
+  bool turned = false;      ///< the first body is not name.grain, but name.partner
+
+  bool with_wall() const { return name.wall != no_wall; }
+  double reach() const { return radius_first + radius_second; }  ///< m
+  double reduced_mass() const {                                  ///< kg
+    return with_wall() ? mass_first : mass_first * mass_second / (mass_first + mass_second);
+  }
+  BodyPair bodies() const {
+    return {.radius_first = radius_first,
+            .radius_second = radius_second,
+            .per_mass_first = 1.0 / mass_first,
+            .per_mass_second = with_wall() ? 0.0 : 1.0 / mass_second};
+  }
+};
+
+/// Two free grains, in slots i and j.
+inline Meeting meeting_of_grains(const Grains& g, std::uint32_t i, std::uint32_t j,
+                                 std::uint32_t candidate) {
+  const bool turned = g.id[j] < g.id[i];
+  return {.name = {no_wall, turned ? g.id[j] : g.id[i], turned ? g.id[i] : g.id[j]},
+          .candidate = candidate,
+          .first = i,
+          .second = j,
+          .line = 0,
+          .y = 0,
+          .radius_first = g.radius[i],
+          .radius_second = g.radius[j],
+          .mass_first = g.mass[i],
+          .mass_second = g.mass[j],
+          .turned = turned};
+}
+
+/// The free grain in `slot` and grain `k` of a wall.
+inline Meeting meeting_with_wall(const State& state, std::uint32_t slot, std::int32_t wall,
+                                 std::int64_t k, std::uint32_t candidate) {
+  const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
+  const Grains& g = state.grains;
+  return {.name = {wall, g.id[slot], static_cast<std::int32_t>(k)},
+          .candidate = candidate,
+          .first = slot,
+          .second = slot,
+          .line = state.box.fixed_x(lattice.line),
+          .y = lattice.place(k),
+          .radius_first = g.radius[slot],
+          .radius_second = lattice.radius,
+          .mass_first = g.mass[slot],
+          .mass_second = 0.0};
+}
+
+/// The bodies of a contact, seen from the free grain that names it; slots[id] is where a grain
+/// stands in the store.
+template <class Slots>
+Meeting meeting_of(const ContactName& name, const State& state, const Slots& slots) {
+  const auto slot = [&](std::int32_t id) {
+    return static_cast<std::uint32_t>(slots[static_cast<std::size_t>(id)]);
+  };
+  constexpr std::uint32_t none = 0;  // nobody looks for it
+  return name.wall == no_wall
+             ? meeting_of_grains(state.grains, slot(name.grain), slot(name.partner), none)
+             : meeting_with_wall(state, slot(name.grain), name.wall, name.partner, none);
+}
+
+/// Seen from the first body; `b` holds the bodies where the meeting says.
+inline Encounter encounter(const Meeting& m, const Bodies& b, const StepUnits& units) {
+  const RelativeMotion motion = m.with_wall() ? relative_motion(b, m.first, m.line, m.y, units)
+                                              : relative_motion(b, m.first, m.second);
+  return encounter(motion, m.reach(), m.reduced_mass(), units);
+}
+
+/// The same of bodies that rotate.
+inline Turning turning(const Meeting& m, const Bodies& b, double rolling_friction,
+                       const StepUnits& units) {
+  const Spin second = m.with_wall() ? Spin{} : spin_of(b, m.second, units);
+  return turning(m.bodies(), spin_of(b, m.first, units), second, b.inertia, rolling_friction);
+}
+
+}  // namespace riesel
