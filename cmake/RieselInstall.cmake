@@ -6,7 +6,6 @@
 # targets: outside as inside, a header is `#include "engine/state.hpp"`.
 
 include(CMakePackageConfigHelpers)
-set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME riesel)
 
 set(riesel_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/riesel")
 set(riesel_scenarios_dir "${CMAKE_INSTALL_DATADIR}/riesel/scenarios")

@@ -82,11 +82,11 @@ public:
       else
         read_row(cells);
     }
-    if (rows_.empty())
+    if (cells_.lines.empty())
       throw SettingsError({*source_}, "", "has no rows",
                           "give a line with the columns " + names_of(*columns_)
                               + ", and a line for each row");
-    return {*source_, std::move(index_), std::move(rows_)};
+    return {*source_, std::move(index_), std::move(cells_)};
   }
 
 private:
@@ -120,10 +120,11 @@ private:
           at(cells.back()), "",
           fmt::format("has {} cells, and the first line {}", cells.size(), headings_.size()),
           "give each row a cell for each column");
-    CsvTable::Row row{.line = line_, .cells = {}};
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      row.cells.push_back({.value = value_of(cells[i], headings_[i]), .place = cells[i].place});
-    rows_.push_back(std::move(row));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      cells_.values.push_back(value_of(cells[i], headings_[i]));
+      cells_.places.push_back(cells[i].place);
+    }
+    cells_.lines.push_back(line_);
   }
 
   double value_of(const Text& cell, const Column& column) const {
@@ -154,7 +155,7 @@ private:
   int line_ = 0;
   std::vector<Column> headings_;
   CsvTable::Index index_;
-  std::vector<CsvTable::Row> rows_;
+  CsvTable::Cells cells_;
 };
 
 }  // namespace
@@ -167,19 +168,18 @@ CsvTable parse_csv(const std::string& text, const std::string& source,
 }
 
 double CsvTable::value(std::size_t row, const std::string& column) const {
-  return rows_.at(row).cells.at(index_.at(column)).value;
+  return cells_.values.at(cell(row, column));
 }
 
 void CsvTable::reject(std::size_t row, const std::string& column, const std::string& problem,
                       const std::string& remedy) const {
-  const Row& at = rows_.at(row);
-  throw SettingsError({source_, at.line, at.cells.at(index_.at(column)).place}, column, problem,
+  throw SettingsError({source_, line(row), cells_.places.at(cell(row, column))}, column, problem,
                       remedy);
 }
 
 CsvTable read_csv(const Settings& settings, const std::string& key,
                   const std::vector<CsvColumn>& columns) {
-  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
+  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 26;
   std::vector<char> bytes;
   try {
     bytes = read_whole_file(settings.text(key), most_bytes);

@@ -24,21 +24,20 @@ struct CsvColumn {
 
 class CsvTable {
 public:
-  struct Cell {
-    double value;  ///< in SI units
-    int place;     ///< column of its first character, from 1
-  };
-  struct Row {
-    int line;  ///< from 1
-    std::vector<Cell> cells;
-  };
   /// The place of each column in a row, by its name.
   using Index = std::map<std::string, std::size_t>;
 
-  CsvTable(std::string source, Index index, std::vector<Row> rows)
-      : source_(std::move(source)), index_(std::move(index)), rows_(std::move(rows)) {}
+  /// Row by row.
+  struct Cells {
+    std::vector<double> values;  ///< in SI units, finite
+    std::vector<int> places;     ///< column of the first character, from 1
+    std::vector<int> lines;      ///< of each row, from 1
+  };
 
-  std::size_t rows() const { return rows_.size(); }
+  CsvTable(std::string source, Index index, Cells cells)
+      : source_(std::move(source)), index_(std::move(index)), cells_(std::move(cells)) {}
+
+  std::size_t rows() const { return cells_.lines.size(); }
   bool has(const std::string& column) const { return index_.contains(column); }
   /// In SI units; of a column that it has.
   double value(std::size_t row, const std::string& column) const;
@@ -46,12 +45,16 @@ public:
   /// Throws the SettingsError "column: problem; remedy" at the cell.
   [[noreturn]] void reject(std::size_t row, const std::string& column, const std::string& problem,
                            const std::string& remedy) const;
-  int line(std::size_t row) const { return rows_.at(row).line; }
+  int line(std::size_t row) const { return cells_.lines.at(row); }
 
 private:
+  std::size_t cell(std::size_t row, const std::string& column) const {
+    return row * index_.size() + index_.at(column);
+  }
+
   std::string source_;
   Index index_;
-  std::vector<Row> rows_;
+  Cells cells_;
 };
 
 /// `source` stands for the file in errors. Throws SettingsError for a text without rows, columns
@@ -59,7 +62,8 @@ private:
 CsvTable parse_csv(const std::string& text, const std::string& source,
                    const std::vector<CsvColumn>& columns);
 
-/// The file that the setting `key`, a path, names. One that cannot be read is rejected at the key.
+/// The file that the setting `key`, a path, names. One that cannot be read, or is longer than 64
+/// MB, is rejected at the key.
 CsvTable read_csv(const Settings& settings, const std::string& key,
                   const std::vector<CsvColumn>& columns);
 

@@ -8,6 +8,7 @@
 #include "engine/random.hpp"
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/continued_start.hpp"
+#include "scenarios/grain_file.hpp"
 #include "scenarios/packing.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
@@ -28,6 +29,31 @@ namespace {
 
 using std::numbers::pi;
 
+/// First of all: what stands below depends on it.
+io::SettingsTable start_settings() {
+  return {
+      {.key = "start.kind",
+       .kind = io::Kind::choice,
+       .fallback = "fresh",
+       .choices = {"fresh", "continued", "file"},
+       .doc = "Grains at random places (`fresh`), those of another run where it ended "
+              "(`continued`), or those in a `file`."},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
+              "grains, the walls and the tube must be the same.",
+       .only_when = io::When{"start.kind", {"continued"}}},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "File of the grains, CSV with the columns `x (mm)`, `y (mm)`, `vx (m/s)`, `vy "
+              "(m/s)`, `diameter (mm)` and, if not in proportion to the area, `mass (mg)`, or "
+              "with other units (docs/files.md).",
+       .only_when = io::When{"start.kind", {"file"}}},
+  };
+}
+
 io::SettingsTable flow_settings() {
   return {
       {.key = "grains.area_fraction",
@@ -35,7 +61,8 @@ io::SettingsTable flow_settings() {
        .fallback = "0.55",
        .range = io::between(0.001, 0.9),
        .doc =
-           "Area of the free grains divided by width times length of the tube; met to one grain."},
+           "Area of the free grains divided by width times length of the tube; met to one grain.",
+       .only_when = io::When{"start.kind", {"fresh", "continued"}}},
       {.key = "wall.grain_diameter",
        .unit = "m",
        .fallback = "0.66 mm",
@@ -63,18 +90,6 @@ io::SettingsTable flow_settings() {
        .fallback = "10 m/s^2",
        .range = io::non_negative(),
        .doc = "Acceleration along the tube."},
-      {.key = "start.kind",
-       .kind = io::Kind::choice,
-       .fallback = "fresh",
-       .choices = {"fresh", "continued"},
-       .doc = "Grains at random places (`fresh`), or those of another run where it ended "
-              "(`continued`)."},
-      {.key = "start.from",
-       .kind = io::Kind::path,
-       .required = true,
-       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
-              "grains, the walls and the tube must be the same.",
-       .only_when = io::When{"start.kind", {"continued"}}},
       {.key = "start.axial_velocity",
        .unit = "m/s",
        .fallback = "1 m/s",
@@ -92,8 +107,8 @@ io::SettingsTable flow_settings() {
 }
 
 io::SettingsTable own_settings() {
-  io::SettingsTable table = size_settings();
-  for (const auto& rows : {flow_settings(), common_flow_settings()})
+  io::SettingsTable table = start_settings();
+  for (const auto& rows : {size_settings(), flow_settings(), common_flow_settings()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }
@@ -129,15 +144,19 @@ std::vector<double> draw_radii(const io::Settings& settings, const SizeDistribut
   }
 }
 
-void reject_what_has_no_room(const io::Settings& settings, double largest, const State& empty) {
-  const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
-  if (free_width < largest)
-    settings.reject(
-        "tube.width", "too narrow for the grains between the wall grains",
-        fmt::format("choose more than {:.6g} m", largest + empty.box.width - free_width));
+/// `largest`: diameter of a grain, m.
+void reject_narrow_tube(const io::Settings& settings, double largest, const State& empty) {
+  const double needed = largest + 2.0 * empty.walls.front().radius;
+  if (empty.box.width < needed)
+    settings.reject("tube.width", "too narrow for the grains between the wall grains",
+                    fmt::format("choose more than {:.6g} m", needed));
   if (empty.box.length < 4.0 * largest * (1.0 - 1e-12))
     settings.reject("tube.length", "too short for a periodic tube of grains of this size",
                     fmt::format("choose at least four grain diameters, {:.6g} m", 4.0 * largest));
+}
+
+void reject_overfilled_tube(const io::Settings& settings, const State& empty) {
+  const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
   const double densest = pi / std::sqrt(12.0);  // discs on a triangular lattice
   const double wanted = settings.number("grains.area_fraction");
   if (wanted * empty.box.width > densest * free_width)
@@ -209,14 +228,20 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
                     fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
 }
 
-Problem start_afresh(const io::Settings& settings, const SizeDistribution& sizes,
-                     const ContactModel& model, State state) {
-  const std::vector<Grain> grains = start_grains(settings, sizes, state);
+Problem start_with(const std::vector<Grain>& grains, const io::Settings& settings,
+                   const ContactModel& model, State state) {
   std::vector<double> masses;
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
   for (const Grain& grain : grains) add_grain(state, grain);
   return Flow{.state = std::move(state), .model = model};
+}
+
+Problem start_from_file(const io::Settings& settings, const ContactModel& model, State state) {
+  const std::vector<Grain> grains = grains_of_file(settings, state);
+  const double largest = 2.0 * std::ranges::max(grains, {}, &Grain::radius).radius;
+  reject_narrow_tube(settings, largest, state);
+  return start_with(grains, settings, model, std::move(state));
 }
 
 Problem continue_run(const io::Settings& settings, const ContactModel& model, State state) {
@@ -228,12 +253,15 @@ Problem continue_run(const io::Settings& settings, const ContactModel& model, St
 
 Problem prepare(const io::Settings& settings) {
   State state = empty_tube(settings);
-  const SizeDistribution sizes(settings);
-  reject_what_has_no_room(settings, sizes.largest(), state);
   const ContactModel model = contact_model(settings);
-  const bool fresh = settings.text("start.kind") == "fresh";
-  return fresh ? start_afresh(settings, sizes, model, std::move(state))
-               : continue_run(settings, model, std::move(state));
+  const std::string& kind = settings.text("start.kind");
+  if (kind == "file") return start_from_file(settings, model, std::move(state));
+  const SizeDistribution sizes(settings);
+  reject_narrow_tube(settings, sizes.largest(), state);
+  reject_overfilled_tube(settings, state);
+  if (kind == "continued") return continue_run(settings, model, std::move(state));
+  const std::vector<Grain> grains = start_grains(settings, sizes, state);
+  return start_with(grains, settings, model, std::move(state));
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ io::SettingsTable size_settings() {
        .choices = {"uniform", "truncated_normal", "bidisperse", "file"},
        .doc = "Distribution of the diameters: `uniform`, normal but cut off at three standard "
               "deviations (`truncated_normal`), of two sizes (`bidisperse`), or each drawn from "
-              "those in a `file`."},
+              "those in a `file`.",
+       .only_when = io::When{"start.kind", {"fresh", "continued"}}},
       {.key = "grains.polydispersity",
        .unit = "1",
        .fallback = "0.05",

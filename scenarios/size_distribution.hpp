@@ -9,7 +9,7 @@
 
 namespace riesel::scenarios {
 
-/// Rows of the section `grains` that say how large they are.
+/// Rows of the section `grains` that say how large they are; they depend on `start.kind`.
 io::SettingsTable size_settings();
 
 class SizeDistribution {
