@@ -9,7 +9,7 @@ namespace riesel::app {
 
 namespace {
 
-/// By the names that are used throughout, see main.cpp.
+/// By the names that are used throughout, see command.cpp.
 WordKind kind_of(const std::string& name) {
   static const std::map<std::string, WordKind> known = {
       {"FILE", WordKind::file}, {"DIR", WordKind::directory}, {"SCENARIO", WordKind::scenario},
