@@ -8,9 +8,10 @@ build_packages=(
   cmake ninja-build g++ git
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libudunits2-dev librandom123-dev catch2
-  python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
-# Read what riesel writes, and run its tasks, in the tests only; a shell that completes its command line.
-test_packages=(python3-netcdf4 python3-jsonschema python3-yaml parallel zsh)
+  python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib)
+# Read what riesel writes, in the tests only; a shell that completes its command line; what runs the
+# tasks of a sweep.
+test_packages=(python3-netcdf4 python3-jsonschema zsh parallel)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen mypy)
 # Shows the pages of riesel report to the tests, which are skipped without it.
@@ -48,8 +49,8 @@ Usage: ./setup.sh COMMAND
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
-  cluster    install Slurm and munge too: sweeps can be tested on them
   look       install ParaView and ffmpeg too, and test that they show trajectories
+  cluster    install Slurm and munge too: sweeps can be tested on them
   help       this text
 END
 }
@@ -150,10 +151,10 @@ lint() {
   cpp_files | xargs clang-format --dry-run -Werror || complaints+=("clang-format (try ./setup.sh format)")
   say "shellcheck"
   shellcheck setup.sh .ci/run docs/paper/reproduce.sh tests/package/clean_debian.sh || complaints+=(shellcheck)
-  say "mypy"
-  (cd python && mypy riesel) || complaints+=(mypy)
   say "doxygen"
   api || complaints+=(doxygen)
+  say "mypy"
+  (cd python && mypy riesel) || complaints+=(mypy)
   # What takes the time are the headers of libraries, so most checks read units of several sources.
   # A "redefinition" across two sources of a room wants another name, or SKIP_UNITY_BUILD_INCLUSION
   # as in the room's CMakeLists.txt. The analyzer and two checks look at the main file only: they read
@@ -215,12 +216,12 @@ case $command in
     ;;
   packages) install_packages "${build_packages[@]}" ;;
   browser) install_packages "${build_packages[@]}" "${browser_packages[@]}" ;;
-  cluster) install_packages "${build_packages[@]}" "${cluster_packages[@]}" ;;
   look)
     install_packages "${build_packages[@]}" "${test_packages[@]}" "${look_packages[@]}"
     build ci --target riesel
     ctest --preset ci -R 'cli/test_(trajectory|paraview|film)'
     ;;
+  cluster) install_packages "${build_packages[@]}" "${cluster_packages[@]}" ;;
   peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)
