@@ -9,10 +9,16 @@ build_packages=(
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libudunits2-dev librandom123-dev catch2
   python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
+# Read what riesel writes, in the tests only; a shell that completes its command line.
+test_packages=(python3-netcdf4 python3-jsonschema python3-yaml zsh)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
-lint_packages=(clang-format clang-tidy libomp-dev shellcheck)
+lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen)
 # Shows the pages of riesel report to the tests, which are skipped without it.
 browser_packages=(chromium)
+# Which lines the tests reach (docs/reliability.md).
+coverage_packages=(gcovr)
+# Show trajectories to the tests, which are skipped without them.
+look_packages=(paraview python3-paraview ffmpeg)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
 peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
@@ -30,11 +36,16 @@ Usage: ./setup.sh COMMAND
   test       install what is missing, build with warnings as errors, run all tests;
              further arguments go to ctest, e.g. -R engine
   build      install what is missing and build the release: $riesel
-  lint       check formatting, C++ and shell scripts (clang-format, clang-tidy, shellcheck)
+  lint       check formatting, C++, shell scripts and what is written about the API
+             (clang-format, clang-tidy, shellcheck, Doxygen)
+  api        the headers and the manual as pages: build/api/html/index.html
+  coverage   build for it, run the tests and tell which lines they do not reach;
+             further arguments go to ctest
   format     let clang-format rewrite the C++ sources
   packages   install the Debian packages that are missing
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
+  look       install ParaView and ffmpeg too, and test that they show trajectories
   help       this text
 END
 }
@@ -121,6 +132,11 @@ lint_units() { sed -n 's/.*"file": "\(.*\)".*/\1/p' build/lint/compile_commands.
 # As many processes as there are processors, each with the next file.
 tidy() { xargs -n 1 -P "$(nproc)" clang-tidy --quiet "$@"; }
 
+api() {
+  mkdir -p build
+  doxygen docs/Doxyfile
+}
+
 main_file_checks='-*,clang-analyzer-core.*,clang-analyzer-cplusplus.*,misc-unused-*-decls'
 
 # All checks, even if the first one complains.
@@ -130,6 +146,8 @@ lint() {
   cpp_files | xargs clang-format --dry-run -Werror || complaints+=("clang-format (try ./setup.sh format)")
   say "shellcheck"
   shellcheck setup.sh .ci/run docs/paper/reproduce.sh || complaints+=(shellcheck)
+  say "doxygen"
+  api || complaints+=(doxygen)
   # What takes the time are the headers of libraries, so most checks read units of several sources.
   # A "redefinition" across two sources of a room wants another name, or SKIP_UNITY_BUILD_INCLUSION
   # as in the room's CMakeLists.txt. The analyzer and two checks look at the main file only: they read
@@ -144,6 +162,16 @@ lint() {
   ((${#complaints[@]} == 0)) || die "complaints from: ${complaints[*]}"
 }
 
+# The tests of reliability do not count: they kill, and count the calls that write.
+coverage() {
+  build coverage
+  find build/coverage -name '*.gcda' -delete
+  ctest --preset coverage --label-exclude reliability --parallel "$(nproc)" "$@" || true
+  gcovr --root . --object-directory build/coverage --filter 'engine/' --filter 'io/' \
+    --filter 'scenarios/' --filter 'app/' --exclude '.*/include-rooms/' --print-summary \
+    --fail-under-line 95
+}
+
 command=${1:-help}
 shift || true
 case $command in
@@ -153,7 +181,7 @@ case $command in
     run_scenario
     ;;
   test)
-    install_packages "${build_packages[@]}"
+    install_packages "${build_packages[@]}" "${test_packages[@]}"
     build ci
     say "Testing"
     ctest --preset ci --parallel "$(nproc)" "$@"
@@ -166,12 +194,26 @@ case $command in
     install_packages "${build_packages[@]}" "${lint_packages[@]}"
     lint
     ;;
+  api)
+    install_packages "${lint_packages[@]}"
+    api
+    say "See build/api/html/index.html"
+    ;;
+  coverage)
+    install_packages "${build_packages[@]}" "${coverage_packages[@]}"
+    coverage "$@"
+    ;;
   format)
     install_packages "${lint_packages[@]}"
     cpp_files | xargs clang-format -i
     ;;
   packages) install_packages "${build_packages[@]}" ;;
   browser) install_packages "${build_packages[@]}" "${browser_packages[@]}" ;;
+  look)
+    install_packages "${build_packages[@]}" "${test_packages[@]}" "${look_packages[@]}"
+    build ci --target riesel
+    ctest --preset ci -R 'cli/test_(trajectory|paraview|film)'
+    ;;
   peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)

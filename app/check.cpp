@@ -2,9 +2,11 @@
 #include "app/commands.hpp"
 #include "app/cost.hpp"
 #include "app/exit_status.hpp"
+#include "app/plain_words.hpp"
 #include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
+#include "io/trajectory_file.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -87,6 +89,25 @@ void print_critical_velocity(double chord_length, double t_col, double fastest) 
          fastest);
 }
 
+void warn_of_open_walls(const State& state) {
+  const WallLattice& wall = state.walls.front();
+  const double gap = wall.spacing(state.box) - 2.0 * wall.radius;
+  const double smallest =
+      2.0 * *std::min_element(state.grains.radius.begin(), state.grains.radius.end());
+  if (smallest < gap)
+    warn("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may leave the tube; "
+         "choose wall.spacing below {:.3g} m",
+         smallest, gap, smallest + 2.0 * wall.radius);
+}
+
+void print_trajectory(const io::Settings& settings, const State& state, double steps) {
+  constexpr auto interval = "output.trajectory_interval";
+  if (!settings.has(interval)) return;
+  const double frames = std::floor(steps * state.time_step / settings.number(interval)) + 1.0;
+  line("trajectory", "{:.0f} frames, {:.3g} MB", frames,
+       frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
+}
+
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const State& state = flow.state;
   const Grains& grains = state.grains;
@@ -105,6 +126,7 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
        area / (state.box.width * state.box.length));
   line("wall grains", "{} per wall, spacing {:.6g} m", state.walls.front().count,
        state.walls.front().spacing(state.box));
+  warn_of_open_walls(state);
   print_contact("grain and grain", flow.model.normal, {0.5 * mass, fastest});
   print_contact("grain and wall", flow.model.normal, {mass, fastest});
   line("time step", "{:.4g} s", state.time_step);
@@ -126,10 +148,11 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
        precision ? "at most " : "", readable_time(n * steps / speed), threads,
        threads == 1 ? "" : "s", speed / 1e6);
   line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
+  print_trajectory(settings, flow.state, steps);
 }
 
-void print_cost(const io::Settings& settings, const scenarios::ImpactCurve& curve) {
-  constexpr std::size_t sample = 50;
+template <class Curve>
+void print_cost(const io::Settings& settings, const Curve& curve, std::size_t sample) {
   const int threads = threads_for_curve(settings);
   const CurveCost cost = measured_cost(curve, threads, sample);
   line("steps", "about {:.2g}", cost.steps);
@@ -162,7 +185,25 @@ void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& cur
                           : chord_of_impact(setup.reach(), fastest_normal, setup.collision_time);
   line("v_crit", "{:.3g} m/s: above it a grain passes a wall grain sooner than t_col",
        path / setup.collision_time);
-  print_cost(settings, curve);
+  print_cost(settings, curve, 50);
+}
+
+void check_column(const io::Settings& settings, const scenarios::ColumnCurve& curve) {
+  const ColumnSetup& setup = curve.setup;
+  const auto [smallest, widest] = std::ranges::minmax(curve.gap_ratios);
+  line("drops", "{} of {} beads, gaps of {:.3g} ... {:.3g} m", curve.gap_ratios.size(), setup.beads,
+       curve.gap(smallest), curve.gap(widest));
+  print_contact("bead and bead", setup.model.normal, {0.5 * setup.bead_mass, setup.velocity});
+  print_contact("bead and plate", setup.model.normal, {setup.bead_mass, setup.velocity});
+  line("time step", "{:.4g} s", setup.time_step);
+  warn_of_time_step(settings);
+  warn_of_overlap(setup.model.normal, {setup.bead_mass, setup.velocity}, 2.0 * setup.bead_radius);
+  line("hard beads", "{}", description_of(curve.rigid));
+  if (smallest < 1.0)
+    warn("t_col is longer than the time between two impacts at the plate, down to {:.2g} of it: "
+         "beads touch several others at once, and keep more energy than hard ones",
+         smallest);
+  print_cost(settings, curve, 5);
 }
 
 }  // namespace
@@ -174,6 +215,8 @@ int check(const CheckOptions& options) {
   fmt::print("{}: {}\n", options.file.string(), settings.scenario());
   if (const auto* flow = std::get_if<scenarios::Flow>(&problem))
     check_flow(settings, *flow);
+  else if (const auto* column = std::get_if<scenarios::ColumnCurve>(&problem))
+    check_column(settings, *column);
   else
     check_curve(settings, std::get<scenarios::ImpactCurve>(problem));
   return exit_done;

@@ -76,7 +76,18 @@ int report(const std::filesystem::path& directory);
 
 int list_scenarios();
 
+struct NewFileOptions {
+  std::string scenario;
+  std::optional<std::filesystem::path> file;  ///< [SCENARIO.yaml]
+};
+
+/// Writes a settings file to begin with.
+int new_file(const NewFileOptions& options);
+
 /// The reference page of the settings, in Markdown.
 int print_settings();
+
+/// The JSON Schema of settings files, or of sweep files.
+int print_schema(bool of_sweeps);
 
 }  // namespace riesel::app

@@ -70,6 +70,21 @@ CurveCost measured_cost(const scenarios::ImpactCurve& curve, int threads, std::s
   return {.steps = scale * steps, .seconds = scale * seconds_since(start)};
 }
 
+CurveCost measured_cost(const scenarios::ColumnCurve& curve, int threads, std::size_t sample) {
+  const std::size_t stride = curve.gap_ratios.size() / sample + 1;
+  std::vector<double> gaps;
+  for (std::size_t i = 0; i < curve.gap_ratios.size(); i += stride)
+    gaps.push_back(curve.gap(curve.gap_ratios[i]));
+
+  const auto start = Clock::now();
+  double steps = 0.0;
+  for (const ColumnResult& result : drop_all(curve.setup, gaps, threads))
+    steps += static_cast<double>(result.steps);
+  const double scale =
+      static_cast<double>(curve.gap_ratios.size()) / static_cast<double>(gaps.size());
+  return {.steps = scale * steps, .seconds = scale * seconds_since(start)};
+}
+
 std::string readable_time(double seconds) {
   if (seconds < 120.0) return fmt::format("{:.0f} s", std::max(1.0, seconds));
   if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);

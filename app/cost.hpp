@@ -27,6 +27,9 @@ struct CurveCost {
 /// Of all impacts, from about `sample` of them, evenly spread over the curve.
 CurveCost measured_cost(const scenarios::ImpactCurve& curve, int threads, std::size_t sample);
 
+/// Of all drops, likewise.
+CurveCost measured_cost(const scenarios::ColumnCurve& curve, int threads, std::size_t sample);
+
 /// "45 s", "12 min", "3.4 h"
 std::string readable_time(double seconds);
 

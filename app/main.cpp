@@ -1,6 +1,7 @@
 // The command riesel: reads the command line, calls a subcommand, turns errors into messages and
 // exit status.
 #include "app/commands.hpp"
+#include "app/completion.hpp"
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
 #include "app/walltime.hpp"
@@ -51,6 +52,16 @@ void add_flow_options(CLI::App& command, app::FlowOptions& options) {
       "Stop with a checkpoint before this time on the clock, such as '23.5 h', is over; for flows");
 }
 
+void add_verbosity(CLI::App& command, app::Verbosity& verbosity) {
+  const auto set = [&verbosity](app::Verbosity to) { return [&verbosity, to] { verbosity = to; }; };
+  CLI::Option* quiet = command.add_flag_callback("-q,--quiet", set(app::Verbosity::quiet),
+                                                 "Print errors only: the files tell the result");
+  command
+      .add_flag_callback("-v,--verbose", set(app::Verbosity::verbose),
+                         "Tell what the run begins with, and of each checkpoint")
+      ->excludes(quiet);
+}
+
 /// What the command line says: the subcommand, ready to be called, and its options.
 class CommandLine {
 public:
@@ -67,11 +78,17 @@ public:
     add_directory("status", "Tell how far a sweep has come", "the sweep", app::sweep_status);
     add_directory("collect", "Gather the results of a sweep into one table", "the sweep",
                   app::sweep_collect);
+    add_new();
     program_.add_subcommand("scenarios", "List the scenarios")->callback([this] {
       command_ = app::list_scenarios;
     });
     program_.add_subcommand("settings", "Print the reference of all settings, in Markdown")
         ->callback([this] { command_ = app::print_settings; });
+    add_schema();
+    add_completion();
+    program_.add_subcommand("man", "Print the manual page, in roff")->callback([this] {
+      command_ = [this] { return print(app::man_page(program_)); };
+    });
   }
 
   CLI::App& program() { return program_; }
@@ -85,6 +102,7 @@ private:
     add_overrides(*run, run_.overrides);
     add_threads(*run, run_.overrides);
     add_flow_options(*run, run_.flow);
+    add_verbosity(*run, run_.flow.verbosity);
     set_command(*run, *file, [this] { return app::run(run_, arguments_); });
   }
 
@@ -96,6 +114,7 @@ private:
     add_overrides(*resume, resume_.overrides);
     add_threads(*resume, resume_.overrides);
     add_flow_options(*resume, resume_.flow);
+    add_verbosity(*resume, resume_.flow.verbosity);
     set_command(*resume, *directory, [this] { return app::resume(resume_, arguments_); });
   }
 
@@ -132,6 +151,40 @@ private:
     set_command(*task, *index, [this] { return app::sweep_task(task_); });
   }
 
+  void add_new() {
+    CLI::App* made = program_.add_subcommand("new", "Write a settings file to begin with");
+    CLI::Option* scenario =
+        made->add_option("SCENARIO", new_file_.scenario, "See 'riesel scenarios'");
+    made->add_option("FILE", new_file_.file, "Where to [SCENARIO.yaml]");
+    set_command(*made, *scenario, [this] { return app::new_file(new_file_); });
+  }
+
+  void add_completion() {
+    CLI::App* completion = program_.add_subcommand(
+        "completion",
+        "Print a script that completes the command line: eval \"$(riesel completion bash)\"");
+    CLI::Option* shell = completion->add_option("SHELL", shell_, "bash or zsh")
+                             ->check(CLI::IsMember({"bash", "zsh"}));
+    set_command(*completion, *shell, [this] {
+      return print(shell_ == "bash" ? app::bash_completion(program_)
+                                    : app::zsh_completion(program_));
+    });
+  }
+
+  static int print(const std::string& text) {
+    fmt::print("{}", text);
+    return app::exit_done;
+  }
+
+  void add_schema() {
+    CLI::App* schema = program_.add_subcommand(
+        "schema",
+        "Print the JSON Schema of settings files, for editors that complete and check YAML");
+    schema->add_flag("--sweep", schema_of_sweeps_, "That of sweep files");
+    schema->callback(
+        [this] { command_ = [this] { return app::print_schema(schema_of_sweeps_); }; });
+  }
+
   /// A subcommand whose only argument is the directory of something that was made.
   void add_directory(const std::string& name, const std::string& what, const std::string& of,
                      int (*act)(const std::filesystem::path&)) {
@@ -157,7 +210,10 @@ private:
   app::CheckOptions check_;
   app::SweepOptions sweep_;
   app::SweepTaskOptions task_;
+  app::NewFileOptions new_file_;
   std::filesystem::path directory_;
+  bool schema_of_sweeps_ = false;
+  std::string shell_;
   std::function<int()> command_;
 };
 

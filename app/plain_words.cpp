@@ -28,12 +28,25 @@ std::string explanation(const Finding& f) {
                      f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
 }
 
-std::string count_of_verdicts(const io::CurveSummary& summary) {
+namespace {
+
+template <class Point>
+std::string count_of_verdicts(const std::vector<Point>& points) {
   std::string text;
   for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
-    if (const auto count = std::ranges::count(summary.curve, validity, &io::CurvePoint::verdict))
+    if (const auto count = std::ranges::count(points, validity, &Point::verdict))
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name(validity));
   return text;
+}
+
+}  // namespace
+
+std::string count_of_verdicts(const io::CurveSummary& summary) {
+  return count_of_verdicts(summary.curve);
+}
+
+std::string count_of_verdicts(const io::ColumnSummary& summary) {
+  return count_of_verdicts(summary.column);
 }
 
 std::vector<std::string> where_unphysical(const io::CurveSummary& summary) {
@@ -56,6 +69,27 @@ std::vector<std::string> where_unphysical(const io::CurveSummary& summary) {
           fmt::format("at v_x = {:.4g} m/s {} of {} points, the first at v_y = {:.4g} m/s", v_x,
                       count.unphysical, count.points, count.first));
   return texts;
+}
+
+std::string description_of(const RigidColumn& rigid) {
+  if (rigid.collapsed) return "collide infinitely often and keep nothing";
+  return fmt::format("effective restitution {:.4g}, rebound {:.4g}, {} collisions",
+                     rigid.restitution, rigid.rebound, rigid.collisions);
+}
+
+std::string where_hard(const io::ColumnSummary& summary) {
+  std::vector<io::ColumnPoint> points = summary.column;
+  std::ranges::sort(points, std::ranges::greater{}, &io::ColumnPoint::gap_ratio);
+  const auto soft = std::ranges::find_if(
+      points, [](const io::ColumnPoint& p) { return p.verdict != Validity::valid; });
+  if (soft == points.begin())
+    return "t_col is too long for all of these gaps: raise contact.stiffness.";
+  const double from = std::prev(soft)->gap_ratio;
+  if (soft == points.end()) return "t_col is short enough for all of these gaps.";
+  return fmt::format(
+      "t_col is too long for gaps below {:.3g} v t_col: raise contact.stiffness until "
+      "they are wider than that; t_col falls with its square root.",
+      from);
 }
 
 }  // namespace riesel::app

@@ -20,8 +20,15 @@ std::string explanation(const Finding& finding);
 
 /// "40 valid, 2 suspect, 18 unphysical", of the points of a curve.
 std::string count_of_verdicts(const io::CurveSummary& summary);
+std::string count_of_verdicts(const io::ColumnSummary& summary);
 
 /// For each v_x that has such: how many of its points are unphysical, and from which v_y.
 std::vector<std::string> where_unphysical(const io::CurveSummary& summary);
+
+/// What hard beads would do.
+std::string description_of(const RigidColumn& rigid);
+
+/// From which gap on the drops are valid, and what t_col that asks for.
+std::string where_hard(const io::ColumnSummary& summary);
 
 }  // namespace riesel::app

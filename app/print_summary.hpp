@@ -9,5 +9,6 @@ namespace riesel::app {
 
 void print_summary(const io::FlowSummary& summary, const std::filesystem::path& directory);
 void print_summary(const io::CurveSummary& summary, const std::filesystem::path& directory);
+void print_summary(const io::ColumnSummary& summary, const std::filesystem::path& directory);
 
 }  // namespace riesel::app

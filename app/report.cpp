@@ -1,6 +1,7 @@
 // riesel report: the directory of a run that is over, or of a sweep, becomes a page with figures.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
+#include "app/report_column.hpp"
 #include "app/report_flow.hpp"
 #include "app/report_impacts.hpp"
 #include "app/report_sweep.hpp"
@@ -62,6 +63,13 @@ Report report_of(const io::FlowSummary& summary, const std::string& effective_se
 Report report_of(const io::CurveSummary& summary, const std::string& effective_settings,
                  const fs::path& run_file) {
   return make_report(ImpactRecord{.summary = summary,
+                                  .history = io::read_run_history(run_file),
+                                  .effective_settings = effective_settings});
+}
+
+Report report_of(const io::ColumnSummary& summary, const std::string& effective_settings,
+                 const fs::path& run_file) {
+  return make_report(ColumnRecord{.summary = summary,
                                   .history = io::read_run_history(run_file),
                                   .effective_settings = effective_settings});
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -63,10 +64,16 @@ private:
     return summary ? std::get_if<io::CurveSummary>(&*summary) : nullptr;
   }
 
+  const io::ColumnSummary* column(std::size_t i) const {
+    const auto& summary = record_->results[i].summary;
+    return summary ? std::get_if<io::ColumnSummary>(&*summary) : nullptr;
+  }
+
   std::string scenario() const {
     for (std::size_t i = 0; i < record_->results.size(); ++i) {
       if (const auto* summary = flow(i)) return summary->run.scenario;
       if (const auto* summary = curve(i)) return summary->run.scenario;
+      if (const auto* summary = column(i)) return summary->run.scenario;
     }
     return "nothing";
   }
@@ -130,7 +137,7 @@ private:
 
   bool scenario_has_curves() const {
     for (std::size_t i = 0; i < record_->results.size(); ++i)
-      if (curve(i) != nullptr) return true;
+      if (curve(i) != nullptr || column(i) != nullptr) return true;
     return false;
   }
 
@@ -175,6 +182,7 @@ private:
     row.emplace_back(point.leg);
     if (const auto* summary = flow(i)) add_flow(*summary, row);
     if (const auto* summary = curve(i)) add_curve(*summary, row);
+    if (const auto* summary = column(i)) add_column(*summary, row);
     row.resize(cells - 2, "");
     row.push_back(result.has_report ? io::HtmlCell("report", result.directory + "/report.html")
                                     : io::HtmlCell(""));
@@ -202,6 +210,13 @@ private:
     for (const io::CurvePoint& point : s.curve) left_out += point.passed + point.stuck;
     row.emplace_back(std::to_string(s.curve.size()));
     row.emplace_back(std::to_string(left_out));
+    row.emplace_back(count_of_verdicts(s));
+  }
+
+  static void add_column(const io::ColumnSummary& s, std::vector<io::HtmlCell>& row) {
+    const auto given_up = [](const io::ColumnPoint& p) { return std::isnan(p.restitution); };
+    row.emplace_back(std::to_string(s.column.size()));
+    row.emplace_back(std::to_string(std::ranges::count_if(s.column, given_up)));
     row.emplace_back(count_of_verdicts(s));
   }
 

@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/run_column.hpp"
 #include "app/run_curve.hpp"
 #include "app/run_flow.hpp"
 #include "scenarios/scenario.hpp"
@@ -17,7 +18,11 @@ int run(const RunOptions& options, const Arguments& arguments) {
 
   if (auto* flow = std::get_if<scenarios::Flow>(&problem))
     return run_flow(settings, std::move(*flow), std::move(directory), arguments, options.flow);
-  return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments);
+  const Verbosity verbosity = options.flow.verbosity;
+  if (const auto* column = std::get_if<scenarios::ColumnCurve>(&problem))
+    return run_column(settings, *column, directory, arguments, verbosity);
+  return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments,
+                   verbosity);
 }
 
 }  // namespace riesel::app

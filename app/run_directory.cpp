@@ -5,6 +5,7 @@
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
+#include "io/trajectory_file.hpp"
 
 namespace riesel::app {
 
@@ -16,7 +17,7 @@ RunDirectory::RunDirectory(const fs::path& path, const io::Settings& settings)
 }
 
 RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
-  if (fs::exists(path / io::run_file_name))
+  if (fs::exists(path / io::run_file_name) || fs::exists(path / io::trajectory_name))
     throw UnusableInput(
         path.string()
         + ": holds a run already; choose another directory with --out, or go on with that "

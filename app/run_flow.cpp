@@ -18,6 +18,7 @@
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
+#include "io/trajectory_file.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/run_limits.hpp"
 
@@ -46,18 +47,35 @@ struct Schedule {
   Schedule(const io::Settings& settings, const scenarios::RunLength& length, double time_step)
       : last_step(std::llround(std::ceil(length.at_most / time_step - 1e-9))),
         relative_error(length.relative_error),
-        steps_per_row(std::max<std::int64_t>(
-            1, std::llround(settings.number("output.interval") / time_step))),
+        steps_per_row(steps_of("output.interval", settings, time_step)),
+        steps_per_frame(settings.has(trajectory_key) ? steps_of(trajectory_key, settings, time_step)
+                                                     : 0),
         seconds_between_checkpoints(settings.number("output.checkpoint_interval")) {}
 
-  std::int64_t next_row(std::int64_t step) const {
-    return (step / steps_per_row + 1) * steps_per_row;
+  bool is_row(std::int64_t step) const { return step % steps_per_row == 0; }
+  bool is_frame(std::int64_t step) const {
+    return steps_per_frame > 0 && step % steps_per_frame == 0;
   }
+
+  /// The next step at which something is due.
+  std::int64_t next(std::int64_t step) const {
+    const auto after = [step](std::int64_t steps) { return (step / steps + 1) * steps; };
+    const std::int64_t row = std::min(after(steps_per_row), last_step);
+    return steps_per_frame > 0 ? std::min(row, after(steps_per_frame)) : row;
+  }
+
+  static constexpr auto trajectory_key = "output.trajectory_interval";
 
   std::int64_t last_step;
   std::optional<double> relative_error;  // of the mean velocity, to stop at before the last step
   std::int64_t steps_per_row;
+  std::int64_t steps_per_frame;        // of the trajectory; 0: there is none
   double seconds_between_checkpoints;  // on the clock
+
+private:
+  static std::int64_t steps_of(const char* key, const io::Settings& settings, double time_step) {
+    return std::max<std::int64_t>(1, std::llround(settings.number(key) / time_step));
+  }
 };
 
 /// What a run that goes on has behind it.
@@ -77,20 +95,24 @@ public:
         past_(std::move(past)),
         directory_(std::move(directory)),
         max_walltime_(options.max_walltime),
+        verbosity_(options.verbosity),
         schedule_(settings_, scenarios::run_length(settings_), state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
         limits_(scenarios::run_limits(settings_)),
         file_(open(arguments)),
+        trajectory_(open_trajectory()),
         strips_(Strips::of(simulation_.state())),
         profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
         histograms_(past_.rows == 0 ? HistogramBlocks() : HistogramBlocks(past_.histograms)),
+        progress_(options.verbosity),
         first_step_(simulation_.state().step) {
     if (options.profile) simulation_.start_profile();
   }
 
   int run() {
     start_ = last_checkpoint_ = Clock::now();
+    tell_beginning();
     try {
       if (file_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
@@ -116,8 +138,16 @@ private:
                            : io::RunFile::reopen(path, provenance, series_columns(), past_.rows);
   }
 
-  /// The first row and a checkpoint: from here on nothing is lost.
+  std::optional<io::TrajectoryFile> open_trajectory() const {
+    if (schedule_.steps_per_frame == 0) return {};
+    const auto open = past_.rows == 0 ? io::TrajectoryFile::create : io::TrajectoryFile::reopen;
+    return open(directory_.file(io::trajectory_name), simulation_.state(),
+                schedule_.steps_per_frame, settings_.effective_yaml());
+  }
+
+  /// The first row, frame and checkpoint: from here on nothing is lost.
   void begin() {
+    add_frame();
     add_row();
     save();
   }
@@ -136,8 +166,7 @@ private:
   /// Asked with each new row. A run that was resumed asks at once: it may have been at its end.
   bool is_precise_enough() const {
     const State& state = simulation_.state();
-    const bool at_row = state.step % schedule_.steps_per_row == 0;
-    const bool asked = schedule_.relative_error && at_row;
+    const bool asked = schedule_.relative_error && schedule_.is_row(state.step);
     if (!asked || !is_time_to_look(static_cast<std::size_t>(file_.rows()))) return false;
     return is_precise(file_.series("mean_vy"), *schedule_.relative_error,
                       state.gravity * interval());
@@ -163,22 +192,29 @@ private:
     return simulation_.state().step < schedule_.last_step ? "precision" : "at_most";
   }
 
-  /// To the next row, or a part of the way in a large system, so that signals and the clock are
-  /// heeded in time.
+  /// To the next row or frame, or a part of the way in a large system, so that signals and the
+  /// clock are heeded in time.
   void advance() {
     constexpr double particle_steps = 2e7;  // about a quarter of a second
     const State& state = simulation_.state();
     const auto patience = static_cast<std::int64_t>(
         std::ceil(particle_steps / static_cast<double>(state.grains.size())));
-    const std::int64_t goal = std::min(schedule_.next_row(state.step), schedule_.last_step);
     const auto start = Clock::now();
-    simulation_.advance(std::min(goal - state.step, patience));
+    simulation_.advance(std::min(schedule_.next(state.step) - state.step, patience));
     times_.stepping += seconds_since(start);
     longest_piece_ = std::max(longest_piece_, seconds_since(start));
-    if (state.step % schedule_.steps_per_row == 0) add_row();
+    if (schedule_.is_frame(state.step)) add_frame();
+    if (schedule_.is_row(state.step)) add_row();
     if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
                    fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s", state.time(), last_.mean_vy));
+  }
+
+  void add_frame() {
+    if (!trajectory_) return;
+    const auto start = Clock::now();
+    trajectory_->append(simulation_.state());
+    times_.output += seconds_since(start);
   }
 
   void add_row() {
@@ -215,16 +251,34 @@ private:
             .histograms = histograms_.blocks()};
   }
 
-  /// The series first: the checkpoint counts its rows.
+  /// The series and the trajectory first: the checkpoint counts their rows and frames.
   void save() {
     const auto start = Clock::now();
     directory_.require_in_place();
     file_.write_final_state(simulation_.state());
     file_.flush();
+    if (trajectory_) trajectory_->commit();
     io::write_checkpoint(directory_.file(io::checkpoint_name), checkpoint());
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
     longest_save_ = std::max(longest_save_, seconds_since(start));
+    tell("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
+         file_.rows(), seconds_since(start));
+  }
+
+  /// For those who want to know more.
+  template <class... Parts>
+  void tell(fmt::format_string<Parts...> format, Parts&&... parts) {
+    if (verbosity_ != Verbosity::verbose) return;
+    progress_.finish();
+    fmt::print(stderr, "{}\n", fmt::format(format, std::forward<Parts>(parts)...));
+  }
+
+  void tell_beginning() {
+    const State& state = simulation_.state();
+    tell("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}", directory_.path().string(),
+         state.grains.size(), state.step, schedule_.last_step, state.time_step, threads_,
+         threads_ == 1 ? "" : "s");
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -257,7 +311,7 @@ private:
         s.transient_end);
     file_.flush();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));
-    print_summary(s, directory_.path());
+    if (verbosity_ != Verbosity::quiet) print_summary(s, directory_.path());
     if (simulation_.profile().on())
       print_profile(simulation_.profile(), times_, simulation_.state().step - first_step_);
     return exit_done;
@@ -276,6 +330,7 @@ private:
     progress_.finish();
     file_.write_final_state(simulation_.state());
     file_.flush();
+    if (trajectory_) trajectory_->commit();
     fmt::print(stderr, "riesel: the run failed: {}\nthe state of that moment is in {}\n",
                failure.what(), directory_.file(keep_for_post_mortem()).string());
     return exit_failed;
@@ -297,11 +352,13 @@ private:
   const Past past_;
   RunDirectory directory_;
   const std::optional<double> max_walltime_;  // s
+  const Verbosity verbosity_;
   const Schedule schedule_;
   const int threads_;
   Simulation simulation_;
   LimitWatch limits_;
   io::RunFile file_;
+  std::optional<io::TrajectoryFile> trajectory_;
   const Strips strips_;
   TimeBlocks profiles_;
   HistogramBlocks histograms_;

@@ -17,6 +17,7 @@ namespace riesel::app {
 
 namespace {
 
+using scenarios::ColumnCurve;
 using scenarios::Flow;
 using scenarios::ImpactCurve;
 using scenarios::Problem;
@@ -25,20 +26,24 @@ Problem problem_of(const io::Settings& settings) {
   return scenarios::named(settings.scenario()).prepare(settings);
 }
 
-/// What costs time, in a unit that fits the scenario: particle-steps, or impacts.
+/// What costs time, in a unit that fits the scenario: particle-steps, impacts, or beads that fall.
 double work_of(const io::Settings& settings, const Problem& problem) {
   if (const auto* flow = std::get_if<Flow>(&problem))
     return static_cast<double>(flow->state.grains.size()) * steps_of(settings, *flow);
+  if (const auto* column = std::get_if<ColumnCurve>(&problem))
+    return static_cast<double>(column->gap_ratios.size()) * column->setup.beads;
   return static_cast<double>(std::get<ImpactCurve>(problem).impacts.size());
 }
 
 /// s, on one thread.
 double seconds_per_work(const io::Settings& settings) {
   constexpr double seconds_to_measure = 0.05;
-  constexpr std::size_t impacts_to_measure = 20;
+  constexpr std::size_t impacts_to_measure = 20, drops_to_measure = 2;
   const Problem problem = problem_of(settings);
   if (const auto* flow = std::get_if<Flow>(&problem))
     return 1.0 / measured_speed(settings, *flow, 1, seconds_to_measure);
+  if (const auto* column = std::get_if<ColumnCurve>(&problem))
+    return measured_cost(*column, 1, drops_to_measure).seconds / work_of(settings, problem);
   const auto& curve = std::get<ImpactCurve>(problem);
   return measured_cost(curve, 1, impacts_to_measure).seconds / work_of(settings, problem);
 }

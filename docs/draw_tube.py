@@ -18,34 +18,45 @@ from matplotlib.collections import EllipseCollection
 MM = 1e3  # per metre
 
 
-def discs(axes, x, y, diameters, **style):
-    """Adds circles of the given diameters, in the units of the axes."""
-    circles = EllipseCollection(diameters, diameters, 0 * diameters, units="xy",
-                                offsets=np.column_stack([x, y]), transOffset=axes.transData, **style)
-    return axes.add_collection(circles)
+class TubePicture:
+    """Lengths in m: positions as (x, y), y along the fall."""
+
+    def __init__(self, length, wall_positions, wall_radii, radii):
+        width = wall_positions[:, 0].max() - wall_positions[:, 0].min()
+        height = 1.3 + 9.4 * width / length  # of the figure; its width is 11
+        even_pixels = 0.2  # films want them
+        self.figure, self._axes = plt.subplots(figsize=(11, round(height / even_pixels) * even_pixels), dpi=130)
+        self._discs(wall_positions, wall_radii, facecolor="0.55")
+        self._grains = self._discs(np.zeros((len(radii), 2)), radii, cmap="viridis", linewidth=0)
+        lines = wall_positions[:, 0] * MM
+        self._axes.set(xlim=(0, length * MM), ylim=(lines.min() - 1, lines.max() + 1), aspect="equal",
+                       xlabel="y along the fall (mm)", ylabel="x (mm)")
+        self.figure.colorbar(self._grains, label="axial velocity (m/s)", pad=0.02, fraction=0.012)
+        self.figure.tight_layout()
+
+    def _discs(self, positions, radii, **style):
+        diameters = 2 * MM * radii
+        circles = EllipseCollection(diameters, diameters, 0 * diameters, units="xy",
+                                    offsets=positions[:, ::-1] * MM, transOffset=self._axes.transData, **style)
+        return self._axes.add_collection(circles)
+
+    def show(self, positions, axial_velocities, velocity_range=None, title=""):
+        """`velocity_range`: what the colours span; by default that of the grains."""
+        self._grains.set_offsets(positions[:, ::-1] * MM)
+        self._grains.set_array(axial_velocities)
+        self._grains.set_clim(*(velocity_range or (axial_velocities.min(), axial_velocities.max())))
+        self._axes.set_title(title)
 
 
 def draw(run_file: Path, picture: Path) -> None:
     with h5py.File(run_file) as file:
         final = file["final"]
-        position = final["position"][:] * MM
-        axial_velocity = final["velocity"][:, 1]
-        radius = final["radius"][:] * MM
-        length = float(final.attrs["box_length"]) * MM
-        walls = final["walls"]
-        lines, wall_radii, counts = walls["line"][:] * MM, walls["radius"][:] * MM, walls["count"][:]
-
-    figure, axes = plt.subplots(figsize=(11, 3.1), dpi=130)
-    for line, wall_radius, count in zip(lines, wall_radii, counts):
-        places = np.arange(count) * length / count
-        discs(axes, places, np.full(count, line), np.full(count, 2 * wall_radius), facecolor="0.55")
-    grains = discs(axes, position[:, 1], position[:, 0], 2 * radius, array=axial_velocity,
-                   cmap="viridis", linewidth=0)
-    axes.set(xlim=(0, length), ylim=(lines.min() - 1, lines.max() + 1), aspect="equal",
-             xlabel="y along the fall (mm)", ylabel="x (mm)")
-    figure.colorbar(grains, label="axial velocity (m/s)", pad=0.01, fraction=0.012)
-    figure.tight_layout()
-    figure.savefig(picture)
+        length = float(final.attrs["box_length"])
+        walls = np.array([(line, k * length / count, radius) for line, radius, count in zip(
+            *(final["walls"][name][:] for name in ("line", "radius", "count"))) for k in range(count + 1)])
+        tube = TubePicture(length, walls[:, :2], walls[:, 2], final["radius"][:])
+        tube.show(final["position"][:], final["velocity"][:, 1])
+    tube.figure.savefig(picture)
 
 
 if __name__ == "__main__":

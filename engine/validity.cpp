@@ -38,6 +38,12 @@ constexpr Criterion brake_criterion = {
     "walls brake by contacts that are passed through before they can push",
     stiffer};
 
+/// Of single drops: Evidence has no place for it.
+constexpr Criterion detachment_criterion = {
+    "detachment", nullptr, 0.1,
+    0.5,          false,   "contacts last so long that beads touch several others at once",
+    stiffer};
+
 constexpr std::array<Criterion, 7> criteria = {{
     overlap_criterion,
     brake_criterion,
@@ -85,6 +91,18 @@ ValidityVerdict judge(const Evidence& evidence) {
 Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction) {
   return std::max(judge(overlap_criterion, max_overlap_ratio),
                   judge(brake_criterion, brake_failure_fraction));
+}
+
+Validity judge_drop(double max_overlap_ratio, double detachment) {
+  return std::max(judge(overlap_criterion, max_overlap_ratio),
+                  judge(detachment_criterion, std::abs(detachment)));
+}
+
+double detachment(double restitution, double rigid_restitution) {
+  constexpr double hardly_any = 0.01;  // of the energy: less is near the errors of the time step
+  const double rigid_energy = rigid_restitution * rigid_restitution;
+  if (rigid_energy > 1.0 - hardly_any) return 0.0;
+  return (restitution * restitution - rigid_energy) / (1.0 - rigid_energy);
 }
 
 std::optional<Validity> validity_named(std::string_view text) {

@@ -51,6 +51,14 @@ ValidityVerdict judge(const Evidence& evidence);
 /// What single impacts can be judged by: the worse of these two findings.
 Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction);
 
+/// What a drop of a column of beads can be judged by: the worse of the overlap and the size of
+/// detachment(), which is NaN for a drop that was given up.
+Validity judge_drop(double max_overlap_ratio, double detachment);
+
+/// Part of the energy that a column of rigid beads loses which one of soft beads keeps. By the
+/// restitutions of both, as in engine/bead_column.hpp; 0 where rigid beads hardly lose any.
+double detachment(double restitution, double rigid_restitution);
+
 /// The verdict as it is written to files: "valid", "suspect", "unphysical".
 std::string_view name(Validity validity);
 

@@ -1,14 +1,12 @@
 #include "io/durable_file.hpp"
 
+#include "io/descriptor.hpp"
 #include "io/file_error.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstddef>
 #include <utility>
 
 namespace riesel::io {
@@ -16,48 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto cannot_be_written = "cannot be written";
-
 fs::path with_suffix(fs::path path, const char* suffix) { return path += suffix; }
-
-/// An open file; errors are reported for `path`, whatever the file is called at the moment.
-class Descriptor {
-public:
-  Descriptor(const fs::path& name, int flags, const fs::path& path)
-      : path_(path), descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
-    check(descriptor_);
-  }
-  ~Descriptor() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor(Descriptor&&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
-
-  void write(std::string_view content) {
-    constexpr std::size_t most = std::size_t{1} << 30;  // what Linux takes at once
-    while (!content.empty()) {
-      const ssize_t written = ::write(descriptor_, content.data(), std::min(content.size(), most));
-      if (written < 0 && errno == EINTR) continue;
-      check(written);
-      content.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-
-  void sync() { check(fsync(descriptor_)); }
-
-  /// Network file systems report here what could not be written.
-  void close() { check(::close(std::exchange(descriptor_, -1))); }
-
-private:
-  void check(ssize_t result) const {
-    if (result < 0) throw system_failure(path_, cannot_be_written, errno);
-  }
-
-  const fs::path& path_;
-  int descriptor_;
-};
 
 /// Removes a file when it goes, unless the file has been given its place.
 class Leftover {

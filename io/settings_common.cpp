@@ -23,6 +23,7 @@ SettingsTable normal_force_settings() {
               "exponents, or `hertz` for Hertz-Kuwabara-Kono (exponents 3/2, 1/2 and 1)."},
       {.key = "contact.stiffness",
        .unit = "N/m",
+       .starter = "2000 N/m",
        .required = true,
        .range = positive(),
        .doc = "Stiffness k_N of the linear law.",
@@ -45,6 +46,7 @@ SettingsTable normal_force_settings() {
        .only_when = nonlinear_law},
       {.key = "contact.restitution",
        .unit = "1",
+       .starter = "0.9",
        .range = above_up_to(0.0, 1.0),
        .doc = "Coefficient of normal restitution, from which the damping follows. Give this or "
               "`contact.damping`.",

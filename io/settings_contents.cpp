@@ -12,9 +12,11 @@ namespace {
 
 using Entry = SettingsContents::Entry;
 
-/// Conditions refer to earlier rows that have a value in any case, see verify_table().
+/// Conditions refer to earlier rows, see verify_table(): those that count have a value.
 bool holds(const When& when, const SettingsContents& contents) {
-  const auto& value = std::get<std::string>(contents.find(when.key)->value.value());
+  const auto* entry = contents.find(when.key);
+  if (entry == nullptr) return false;
+  const auto& value = std::get<std::string>(entry->value.value());
   return std::ranges::find(when.values, value) != when.values.end();
 }
 
@@ -39,12 +41,18 @@ Entry read_row(const Setting& row, const GivenSettings& given, const SettingsCon
   return {row, read_default(row), {}};
 }
 
+/// Why a row does not count: the first of the conditions that it depends on.
+When unmet_condition(const std::string& key, const SettingsContents& contents) {
+  const When& condition = std::ranges::find(contents.table, key, &Setting::key)->only_when.value();
+  return contents.find(condition.key) != nullptr ? condition
+                                                 : unmet_condition(condition.key, contents);
+}
+
 /// A setting without effect would be a lie about the run.
 void refuse_idle_settings(const GivenSettings& given, const SettingsContents& contents) {
   for (const auto& [key, entry] : given.by_key) {
     if (contents.find(key) != nullptr) continue;
-    const auto row = std::ranges::find(contents.table, key, &Setting::key);
-    const auto& condition = row->only_when.value();
+    const When condition = unmet_condition(key, contents);
     const auto actual = std::get<std::string>(contents.find(condition.key)->value.value());
     throw SettingsError(entry.key_place, key,
                         fmt::format("has no effect when {} is {}", condition.key, actual),

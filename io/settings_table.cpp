@@ -37,14 +37,14 @@ bool exclude_each_other(const Setting& a, const Setting& b) {
          == a.only_when->values.end();
 }
 
-/// The condition must refer to a row before this one that always counts, so that one pass in table
-/// order decides about all rows.
+/// The condition must refer to a row before this one, so that one pass in table order decides about
+/// all rows. Where that row does not count itself, this one does not either.
 void verify_condition(const Setting& row, const SettingsTable& earlier_rows) {
   const auto condition_row = std::ranges::find(earlier_rows, row.only_when->key, &Setting::key);
   if (condition_row == earlier_rows.end() || condition_row->kind != Kind::choice
-      || condition_row->only_when || condition_row->fallback.empty()) {
+      || condition_row->fallback.empty()) {
     contradiction(row, "depends on " + row.only_when->key
-                           + ", which is no earlier, unconditional choice with a default");
+                           + ", which is no earlier choice with a default");
   }
   for (const auto& value : row.only_when->values) {
     if (std::ranges::find(condition_row->choices, value) == condition_row->choices.end()) {

@@ -56,12 +56,14 @@ struct Setting {
   std::string unit = {};  ///< SI unit of the stored value, "1" for pure numbers; empty: a bare SI
                           ///< number, no unit is taken
   std::string fallback = {};  ///< the default as YAML text; empty: none
-  bool required = false;      ///< an error if not given (and if `only_when` holds)
+  std::string starter = {};  ///< the value in a new file, where the default would not do or is none
+  bool required = false;     ///< an error if not given (and if `only_when` holds)
   Range range = {};
   std::vector<std::string> choices = {};
-  std::string doc = {};                ///< for the reference page; ends with a full stop
-  std::optional<When> only_when = {};  ///< the row counts only under this condition
-  bool matters = true;                 ///< the results depend on it
+  std::string doc = {};  ///< for the reference page; ends with a full stop
+  /// The row counts only under this condition, and under that of the row it refers to.
+  std::optional<When> only_when = {};
+  bool matters = true;  ///< the results depend on it
 };
 
 using SettingsTable = std::vector<Setting>;

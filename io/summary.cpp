@@ -159,4 +159,26 @@ std::string to_json(const CurveSummary& s) {
   return text_of(json);
 }
 
+std::string to_json(const ColumnSummary& s) {
+  Json json = common_part(s.run);
+  json["t_col"] = s.t_col;
+  json["rigid"] = {{"restitution", s.rigid.restitution},
+                   {"rebound", s.rigid.rebound},
+                   {"collisions", s.rigid.collisions},
+                   {"collapsed", s.rigid.collapsed}};
+  Json column = Json::array();
+  for (const ColumnPoint& p : s.column)
+    column.push_back({{"gap_ratio", p.gap_ratio},
+                      {"gap", p.gap},
+                      {"restitution", p.restitution},
+                      {"rebound", p.rebound},
+                      {"detachment", p.detachment},
+                      {"contacts", p.contacts},
+                      {"contact_time", p.contact_time},
+                      {"max_overlap", p.max_overlap},
+                      {"verdict", name(p.verdict)}});
+  json["column"] = column;
+  return text_of(json);
+}
+
 }  // namespace riesel::io

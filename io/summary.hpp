@@ -5,6 +5,7 @@
 
 #include "engine/density_waves.hpp"
 #include "engine/estimate.hpp"
+#include "engine/rigid_column.hpp"
 #include "engine/validity.hpp"
 #include "engine/wall_visits.hpp"
 
@@ -120,9 +121,28 @@ struct CurveSummary {
   std::vector<CurvePoint> curve;
 };
 
+/// One drop of a column of beads.
+struct ColumnPoint {
+  double gap_ratio = 0.0;                     ///< gap over velocity times t_col
+  double gap = 0.0;                           ///< m
+  double restitution = 0.0, rebound = 0.0;    ///< see engine/bead_column.hpp
+  double detachment = 0.0;                    ///< see engine/validity.hpp
+  double contacts = 0.0, contact_time = 0.0;  ///< s
+  double max_overlap = 0.0;                   ///< m
+  Validity verdict = Validity::valid;
+};
+
+struct ColumnSummary {
+  RunSummary run;
+  double t_col = 0.0;   ///< s, of a bead with the plate
+  RigidColumn rigid{};  ///< the limit of hard beads
+  std::vector<ColumnPoint> column;
+};
+
 /// The text of summary.json.
 std::string to_json(const FlowSummary& summary);
 std::string to_json(const CurveSummary& summary);
+std::string to_json(const ColumnSummary& summary);
 
 inline constexpr auto summary_name = "summary.json";
 inline constexpr auto effective_settings_name = "effective.yaml";

@@ -161,6 +161,28 @@ CurveSummary read_curve(const Json& json) {
   return summary;
 }
 
+ColumnSummary read_column(const Json& json) {
+  const auto& rigid = json.at("rigid");
+  ColumnSummary summary{.run = read_run(json),
+                        .t_col = number(json, "t_col"),
+                        .rigid = {.restitution = number(rigid, "restitution"),
+                                  .rebound = number(rigid, "rebound"),
+                                  .collisions = integer_of<std::int64_t>(rigid.at("collisions")),
+                                  .collapsed = rigid.at("collapsed")},
+                        .column = {}};
+  for (const auto& point : json.at("column"))
+    summary.column.push_back({.gap_ratio = number(point, "gap_ratio"),
+                              .gap = number(point, "gap"),
+                              .restitution = number(point, "restitution"),
+                              .rebound = number(point, "rebound"),
+                              .detachment = number(point, "detachment"),
+                              .contacts = number(point, "contacts"),
+                              .contact_time = number(point, "contact_time"),
+                              .max_overlap = number(point, "max_overlap"),
+                              .verdict = validity(point.at("verdict"))});
+  return summary;
+}
+
 FlowSummary read_flow(const Json& json) {
   const auto& validity = json.at("validity");
   return {.run = read_run(json),
@@ -206,6 +228,7 @@ Summary read_summary(const std::filesystem::path& path) {
   require_this_format(path, json);
   try {
     if (json.contains("curve")) return read_curve(json);
+    if (json.contains("column")) return read_column(json);
     return read_flow(json);
   } catch (const std::exception& error) {
     throw FileError(path, fmt::format("is damaged ({})", error.what()),

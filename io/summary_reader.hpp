@@ -8,7 +8,7 @@
 
 namespace riesel::io {
 
-using Summary = std::variant<FlowSummary, CurveSummary>;
+using Summary = std::variant<FlowSummary, CurveSummary, ColumnSummary>;
 
 /// What to_json() wrote; null is not a number again. Verdicts and thresholds are those of the file,
 /// the words of a finding those of this program. Throws FileError if the file cannot be read, is

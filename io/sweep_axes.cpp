@@ -18,10 +18,9 @@ bool may_count(const Setting& row, const GivenSettings& given, const SettingsTab
   if (!row.only_when) return true;
   const auto& [key, values] = *row.only_when;
   const auto entry = given.by_key.find(key);
-  const auto value = entry != given.by_key.end()
-                         ? entry->second.value.scalar
-                         : std::ranges::find(table, key, &Setting::key)->fallback;
-  return std::ranges::find(values, value) != values.end();
+  const auto condition = std::ranges::find(table, key, &Setting::key);
+  const auto value = entry != given.by_key.end() ? entry->second.value.scalar : condition->fallback;
+  return std::ranges::find(values, value) != values.end() && may_count(*condition, given, table);
 }
 
 class AxisReader {

@@ -29,7 +29,9 @@ void reject_other_grains_or_tube(const io::Settings& settings, const io::Setting
   for (const auto& row : settings_tables().at(settings.scenario())) {
     const std::string section = io::section_of(row.key);
     const bool carried_over = section == "grains" || section == "wall" || section == "tube";
-    if (!carried_over || settings.written(row.key) == earlier.written(row.key)) continue;
+    if (!carried_over || !earlier.has(row.key)  // of grains from a file
+        || settings.written(row.key) == earlier.written(row.key))
+      continue;
     settings.reject(row.key,
                     fmt::format("is {} here and {} in the run to be continued",
                                 settings.written(row.key), earlier.written(row.key)),

@@ -80,10 +80,12 @@ public:
       : radii_(radii),
         simulation_(start(empty, places, radii), model(), useful_threads(radii.size())) {}
 
+  void push_for_a_while() { simulation_.advance(steps_per_round); }
+
   /// False if overlaps remain.
   bool succeeds() {
     for (int attempt = 0; attempt < max_rounds; ++attempt) {
-      simulation_.advance(steps_per_round);
+      push_for_a_while();
       if (largest_overlap() < tolerated_overlap()) return true;
     }
     return false;
@@ -147,6 +149,42 @@ private:
   Simulation simulation_;
 };
 
+std::optional<std::vector<Place>> pushed_apart(const State& empty, const std::vector<Place>& places,
+                                               const std::vector<double>& radii) {
+  try {
+    Relaxation relaxation(empty, places, radii);
+    if (relaxation.succeeds()) return relaxation.places();
+  } catch (const RunFailure&) {
+    // pressed out of the tube
+  }
+  return std::nullopt;
+}
+
+std::vector<double> scaled(const std::vector<double>& radii, double scale) {
+  std::vector<double> all = radii;
+  for (double& radius : all) radius *= scale;
+  return all;
+}
+
+/// Lets grains grow from a size at which they do not touch, and push each other aside meanwhile.
+std::optional<std::vector<Place>> grown(const State& empty, std::vector<Place> places,
+                                        const std::vector<double>& radii, double first_scale) {
+  constexpr double deepest = 0.2;  // overlap by one growth, over the radius of the smallest grain
+  const auto [smallest, largest] = std::minmax_element(radii.begin(), radii.end());
+  const double growth = deepest * *smallest / (2.0 * *largest);
+  try {
+    for (double scale = first_scale + growth; scale < 1.0; scale += growth) {
+      const std::vector<double> radii_now = scaled(radii, scale);
+      Relaxation relaxation(empty, places, radii_now);
+      relaxation.push_for_a_while();
+      places = relaxation.places();
+    }
+  } catch (const RunFailure&) {
+    return std::nullopt;
+  }
+  return pushed_apart(empty, places, radii);
+}
+
 }  // namespace
 
 std::optional<std::vector<Place>> pack(const State& empty, const std::vector<double>& radii,
@@ -156,13 +194,8 @@ std::optional<std::vector<Place>> pack(const State& empty, const std::vector<dou
   std::vector<Place> places = occupied_sites(lattice, radii.size(), seed);
   if (lattice.closest() >= 2.0 * largest) return places;
 
-  try {
-    Relaxation relaxation(empty, places, radii);
-    if (relaxation.succeeds()) return relaxation.places();
-  } catch (const RunFailure&) {
-    // pressed out of the tube
-  }
-  return std::nullopt;
+  if (auto found = pushed_apart(empty, places, radii)) return found;
+  return grown(empty, places, radii, lattice.closest() / (2.0 * largest));
 }
 
 }  // namespace riesel::scenarios

@@ -3,7 +3,8 @@
 // Up to an area fraction of about 0.7 the grains stand on a staggered lattice with vacancies at
 // random, wide enough for the largest of them. Beyond its reach the lattice is too narrow: large
 // grains overlap at first and the engine itself pushes them apart, with contacts so inelastic that
-// the heat goes at once, until nothing overlaps any more.
+// the heat goes at once, until nothing overlaps any more. Grains of very unequal size do not find
+// apart that way: they begin so small that nothing overlaps, and grow.
 #pragma once
 
 #include "engine/state.hpp"

@@ -8,10 +8,12 @@
 #include "engine/random.hpp"
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/continued_start.hpp"
+#include "scenarios/grain_file.hpp"
 #include "scenarios/packing.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/run_limits.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/size_distribution.hpp"
 
 #include <fmt/core.h>
 
@@ -28,36 +30,40 @@ namespace {
 
 using std::numbers::pi;
 
+/// First of all: what stands below depends on it.
+io::SettingsTable start_settings() {
+  return {
+      {.key = "start.kind",
+       .kind = io::Kind::choice,
+       .fallback = "fresh",
+       .choices = {"fresh", "continued", "file"},
+       .doc = "Grains at random places (`fresh`), those of another run where it ended "
+              "(`continued`), or those in a `file`."},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
+              "grains, the walls and the tube must be the same.",
+       .only_when = io::When{"start.kind", {"continued"}}},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "File of the grains, CSV with the columns `x (mm)`, `y (mm)`, `vx (m/s)`, `vy "
+              "(m/s)`, `diameter (mm)` and, if not in proportion to the area, `mass (mg)`, or "
+              "with other units (docs/files.md).",
+       .only_when = io::When{"start.kind", {"file"}}},
+  };
+}
+
 io::SettingsTable flow_settings() {
   return {
-      {.key = "grains.diameter",
-       .unit = "m",
-       .fallback = "1 mm",
-       .range = io::positive(),
-       .doc = "Mean diameter of the free grains."},
-      {.key = "grains.mass",
-       .unit = "kg",
-       .fallback = "1 mg",
-       .range = io::positive(),
-       .doc = "Mass of a free grain of the mean diameter; others in proportion to their area."},
-      {.key = "grains.polydispersity",
-       .unit = "1",
-       .fallback = "0.05",
-       .range = io::between(0.0, 0.3),
-       .doc = "Relative spread of the diameters: half width of the uniform distribution, standard "
-              "deviation of the truncated normal one."},
-      {.key = "grains.size_distribution",
-       .kind = io::Kind::choice,
-       .fallback = "uniform",
-       .choices = {"uniform", "truncated_normal"},
-       .doc = "Distribution of the diameters; the normal one is cut off at three standard "
-              "deviations."},
       {.key = "grains.area_fraction",
        .unit = "1",
        .fallback = "0.55",
        .range = io::between(0.001, 0.9),
        .doc =
-           "Area of the free grains divided by width times length of the tube; met to one grain."},
+           "Area of the free grains divided by width times length of the tube; met to one grain.",
+       .only_when = io::When{"start.kind", {"fresh", "continued"}}},
       {.key = "wall.grain_diameter",
        .unit = "m",
        .fallback = "0.66 mm",
@@ -85,18 +91,6 @@ io::SettingsTable flow_settings() {
        .fallback = "10 m/s^2",
        .range = io::non_negative(),
        .doc = "Acceleration along the tube."},
-      {.key = "start.kind",
-       .kind = io::Kind::choice,
-       .fallback = "fresh",
-       .choices = {"fresh", "continued"},
-       .doc = "Grains at random places (`fresh`), or those of another run where it ended "
-              "(`continued`)."},
-      {.key = "start.from",
-       .kind = io::Kind::path,
-       .required = true,
-       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
-              "grains, the walls and the tube must be the same.",
-       .only_when = io::When{"start.kind", {"continued"}}},
       {.key = "start.axial_velocity",
        .unit = "m/s",
        .fallback = "1 m/s",
@@ -126,12 +120,20 @@ io::SettingsTable output_settings() {
        .range = io::positive(),
        .doc = "Time on the clock between two checkpoints; the results do not depend on it.",
        .matters = false},
+      {.key = "output.trajectory_interval",
+       .unit = "s",
+       .range = io::positive(),
+       .doc =
+           "Simulated time between two frames of trajectory.h5 (docs/files.md). By default there "
+           "is none.",
+       .matters = false},
   };
 }
 
 io::SettingsTable own_settings() {
-  io::SettingsTable table = flow_settings();
-  for (const auto& rows : {run_length_settings(), run_limits_settings(), output_settings()})
+  io::SettingsTable table = start_settings();
+  for (const auto& rows : {size_settings(), flow_settings(), run_length_settings(),
+                           run_limits_settings(), output_settings()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }
@@ -152,31 +154,13 @@ State empty_tube(const io::Settings& settings) {
   return state;
 }
 
-/// Relative to the mean diameter.
-double relative_diameter(const io::Settings& settings, const RandomStream& stream,
-                         std::uint64_t grain) {
-  const double spread = settings.number("grains.polydispersity");
-  if (settings.text("grains.size_distribution") == "uniform")
-    return 1.0 + spread * (2.0 * stream.uniform(grain)[0] - 1.0);
-  for (std::uint32_t draw = 0;; ++draw) {
-    const double deviation = stream.normal(grain, draw)[0];
-    if (std::abs(deviation) <= 3.0) return 1.0 + spread * deviation;
-  }
-}
-
-double largest_relative_diameter(const io::Settings& settings) {
-  const double spread = settings.number("grains.polydispersity");
-  return 1.0 + (settings.text("grains.size_distribution") == "uniform" ? spread : 3.0 * spread);
-}
-
 /// As many grains as bring their area closest to the fraction.
-std::vector<double> draw_radii(const io::Settings& settings, const Box& box) {
-  const RandomStream stream(static_cast<std::uint64_t>(settings.integer("seed")), Use::radius);
+std::vector<double> draw_radii(const io::Settings& settings, const SizeDistribution& sizes,
+                               const Box& box) {
   const double wanted = settings.number("grains.area_fraction") * box.width * box.length;
   std::vector<double> radii;
   for (double area = 0.0;;) {
-    const double radius = 0.5 * settings.number("grains.diameter")
-                          * relative_diameter(settings, stream, radii.size());
+    const double radius = 0.5 * sizes.diameter(radii.size());
     const double next = area + pi * radius * radius;
     const bool closer_without = next - wanted > wanted - area;
     if (closer_without && !radii.empty()) return radii;
@@ -185,16 +169,19 @@ std::vector<double> draw_radii(const io::Settings& settings, const Box& box) {
   }
 }
 
-void reject_what_has_no_room(const io::Settings& settings, const State& empty) {
-  const double largest = settings.number("grains.diameter") * largest_relative_diameter(settings);
-  const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
-  if (free_width < largest)
-    settings.reject(
-        "tube.width", "too narrow for the grains between the wall grains",
-        fmt::format("choose more than {:.6g} m", largest + empty.box.width - free_width));
+/// `largest`: diameter of a grain, m.
+void reject_narrow_tube(const io::Settings& settings, double largest, const State& empty) {
+  const double needed = largest + 2.0 * empty.walls.front().radius;
+  if (empty.box.width < needed)
+    settings.reject("tube.width", "too narrow for the grains between the wall grains",
+                    fmt::format("choose more than {:.6g} m", needed));
   if (empty.box.length < 4.0 * largest * (1.0 - 1e-12))
     settings.reject("tube.length", "too short for a periodic tube of grains of this size",
                     fmt::format("choose at least four grain diameters, {:.6g} m", 4.0 * largest));
+}
+
+void reject_overfilled_tube(const io::Settings& settings, const State& empty) {
+  const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
   const double densest = pi / std::sqrt(12.0);  // discs on a triangular lattice
   const double wanted = settings.number("grains.area_fraction");
   if (wanted * empty.box.width > densest * free_width)
@@ -229,8 +216,9 @@ void set_velocities(const io::Settings& settings, std::vector<Grain>& grains) {
   }
 }
 
-std::vector<Grain> start_grains(const io::Settings& settings, const State& empty) {
-  const std::vector<double> radii = draw_radii(settings, empty.box);
+std::vector<Grain> start_grains(const io::Settings& settings, const SizeDistribution& sizes,
+                                const State& empty) {
+  const std::vector<double> radii = draw_radii(settings, sizes, empty.box);
   const auto places = pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
   if (!places)
     settings.reject("grains.area_fraction", "no start without overlaps was found",
@@ -265,13 +253,20 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
                     fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
 }
 
-Problem start_afresh(const io::Settings& settings, const ContactModel& model, State state) {
-  const std::vector<Grain> grains = start_grains(settings, state);
+Problem start_with(const std::vector<Grain>& grains, const io::Settings& settings,
+                   const ContactModel& model, State state) {
   std::vector<double> masses;
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
   for (const Grain& grain : grains) add_grain(state, grain);
   return Flow{.state = std::move(state), .model = model};
+}
+
+Problem start_from_file(const io::Settings& settings, const ContactModel& model, State state) {
+  const std::vector<Grain> grains = grains_of_file(settings, state);
+  const double largest = 2.0 * std::ranges::max(grains, {}, &Grain::radius).radius;
+  reject_narrow_tube(settings, largest, state);
+  return start_with(grains, settings, model, std::move(state));
 }
 
 Problem continue_run(const io::Settings& settings, const ContactModel& model, State state) {
@@ -283,11 +278,15 @@ Problem continue_run(const io::Settings& settings, const ContactModel& model, St
 
 Problem prepare(const io::Settings& settings) {
   State state = empty_tube(settings);
-  reject_what_has_no_room(settings, state);
   const ContactModel model = contact_model(settings);
-  const bool fresh = settings.text("start.kind") == "fresh";
-  return fresh ? start_afresh(settings, model, std::move(state))
-               : continue_run(settings, model, std::move(state));
+  const std::string& kind = settings.text("start.kind");
+  if (kind == "file") return start_from_file(settings, model, std::move(state));
+  const SizeDistribution sizes(settings);
+  reject_narrow_tube(settings, sizes.largest(), state);
+  reject_overfilled_tube(settings, state);
+  if (kind == "continued") return continue_run(settings, model, std::move(state));
+  const std::vector<Grain> grains = start_grains(settings, sizes, state);
+  return start_with(grains, settings, model, std::move(state));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ io::SettingsTable run_length_settings() {
   return {
       {.key = duration_key,
        .unit = "s",
+       .starter = "1 s",
        .range = io::positive(),
        .doc = "Simulated time. Give this or `run.until`."},
       {.key = error_key,

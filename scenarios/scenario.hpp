@@ -5,8 +5,10 @@
 // table.cpp and add it to the table there.
 #pragma once
 
+#include "engine/bead_column.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/impact.hpp"
+#include "engine/rigid_column.hpp"
 #include "engine/state.hpp"
 #include "io/settings.hpp"
 
@@ -33,7 +35,16 @@ struct ImpactCurve {
   std::vector<Point> points;
 };
 
-using Problem = std::variant<Flow, ImpactCurve>;
+/// A column of beads dropped on a plate, once for each gap between the beads.
+struct ColumnCurve {
+  ColumnSetup setup;
+  RigidColumn rigid;               ///< what it tends to for wide gaps
+  std::vector<double> gap_ratios;  ///< gap over velocity times collision time
+
+  double gap(double ratio) const { return ratio * setup.velocity * setup.collision_time; }  ///< m
+};
+
+using Problem = std::variant<Flow, ImpactCurve, ColumnCurve>;
 
 struct Scenario {
   std::string name;

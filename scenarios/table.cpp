@@ -7,12 +7,14 @@ namespace riesel::scenarios {
 
 Scenario single_wall_grain();
 Scenario wall_array();
+Scenario bead_column();
 Scenario periodic_tube();
 
 const std::vector<Scenario>& all() {
   static const std::vector<Scenario> table = {
       single_wall_grain(),
       wall_array(),
+      bead_column(),
       periodic_tube(),
   };
   return table;

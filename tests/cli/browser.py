@@ -12,8 +12,9 @@ import subprocess
 import tempfile
 import time
 
+from riesel_command import PATIENCE
+
 PROGRAM = shutil.which("chromium") or shutil.which("chromium-browser")
-PATIENCE = 100.0  # s; a busy machine takes its time to start it
 
 
 class Browser:

@@ -112,6 +112,14 @@ class Check(CommandTest):
             self.assertEqual("brake failure" in text, is_due, text)
         self.assert_warned(text, "v_crit", "brake failure")
 
+    def test_of_grains_that_fit_between_the_wall_grains(self):
+        """Eight of 0.66 mm in 10 mm leave 0.59 mm."""
+        for diameter, is_due in (("0.62 mm", False), ("0.56 mm", True)):
+            text = self.check(MILD_TUBE, "--set", f"grains.diameter={diameter}",
+                              "--set", "grains.polydispersity=0", "--set", "wall.spacing=1.2 mm")
+            self.assertEqual("fit between the wall grains" in text, is_due, text)
+        self.assert_warned(text, "wall.spacing")
+
     def test_of_grains_so_soft_that_they_are_lost_at_once(self):
         self.write("settings.yaml", SMALL_TUBE.replace("2000 N/m", "2 N/m"))
         result = self.riesel("check", "settings.yaml", "--threads", 1)

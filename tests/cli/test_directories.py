@@ -3,7 +3,7 @@
 import subprocess
 import unittest
 
-from riesel_command import COMMAND, SMALL_TUBE, CommandTest, bytes_of_files
+from riesel_command import COMMAND, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files
 
 
 def mounts_are_permitted():
@@ -57,7 +57,7 @@ class SmallDisk(CommandTest):
         return subprocess.run(
             ["unshare", "-rm", "sh", "-c",
              f"mount -t tmpfs -o {options} tmpfs disk && {script}", "sh", COMMAND],
-            cwd=self.home, capture_output=True, text=True, timeout=60, check=False)
+            cwd=self.home, capture_output=True, text=True, timeout=PATIENCE, check=False)
 
     def test_a_full_disk_is_a_failure_that_says_so(self):
         for size in ("8k", "64k", "200k"):

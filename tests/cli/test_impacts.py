@@ -98,6 +98,76 @@ class WallArray(Impacts, CommandTest):
     normal_velocities = [0.1, 0.3, 0.5]
 
 
+class BeadColumn(CommandTest):
+    """Luding et al.'s column, with few gaps: what the paper shows, and what the user is told."""
+
+    POINT_NAMES = {"gap_ratio", "gap", "restitution", "rebound", "detachment", "contacts", "contact_time",
+                   "max_overlap", "verdict"}
+
+    def drop(self, out, *options, threads=1):
+        return self.run_to_end(SHIPPED / "bead_column.yaml", out, *options, threads=threads)
+
+    def test_the_summary_has_the_names_of_the_contract_and_finite_values(self):
+        out = self.drop("out")
+        summary = self.summary(out)
+        self.assertEqual(set(summary), COMMON_NAMES | {"t_col", "rigid", "column"})
+        self.assertEqual(set(summary["rigid"]), {"restitution", "rebound", "collisions", "collapsed"})
+        self.assert_finite(summary)
+        with h5py.File(out / "run.h5", "r") as file:
+            self.assertEqual(set(file["curve"]), self.POINT_NAMES)
+            for name, column in file["curve"].items():
+                of_column = [point[name] for point in summary["column"]]
+                if name == "verdict":
+                    of_column = [VERDICTS.index(verdict) for verdict in of_column]
+                self.assertEqual(list(column), of_column, name)
+
+    def test_the_result_depends_neither_on_threads_nor_on_the_way_the_settings_came(self):
+        one = self.drop("one")
+        self.assert_same_result(one, self.drop("three", threads=3))
+        self.assert_same_result(one, self.run_to_end(one / "effective.yaml", "again"))
+
+    def test_the_user_is_told_where_t_col_is_too_long(self):
+        """Beads that stand closer than v t_col touch several at once; a stiffness k times as large
+        moves that to gaps smaller by sqrt(k)."""
+        summary = self.summary(self.drop("out"))
+        for point in summary["column"]:
+            kept = point["restitution"]**2 - summary["rigid"]["restitution"]**2
+            self.assertAlmostEqual(point["detachment"], kept / (1 - summary["rigid"]["restitution"]**2), places=12)
+            if point["gap_ratio"] > 1.0:
+                self.assertEqual(point["verdict"], "valid", point)
+            if point["gap_ratio"] < 0.2:
+                self.assertEqual(point["verdict"], "unphysical", point)
+        valid = min(p["gap_ratio"] for p in summary["column"] if p["verdict"] == "valid")
+        result = self.riesel("run", SHIPPED / "bead_column.yaml", "--out", "screen")
+        self.assertIn(f"t_col is too long for gaps below {valid:.3g} v t_col", result.stdout)
+        close = self.riesel("run", SHIPPED / "bead_column.yaml", "--out", "close", "--set", "column.gap_ratio=0.1")
+        self.assertIn("too long for all of these gaps: raise contact.stiffness", close.stdout)
+
+    def test_check_warns_of_gaps_below_v_t_col(self):
+        result = self.riesel("check", SHIPPED / "bead_column.yaml")
+        self.assert_done(result)
+        self.assertIn("warning: t_col is longer than the time between two impacts", result.stdout)
+        wide = self.riesel("check", SHIPPED / "bead_column.yaml", "--set", "column.gap_ratio=2")
+        self.assertNotIn("t_col is longer", wide.stdout)
+
+    def test_a_column_that_collapses_is_told(self):
+        out = self.drop("out", "--set", "contact.restitution=0.3", "--set", "column.gap_ratio=[0.01, 3]")
+        rigid = self.summary(out)["rigid"]
+        self.assertEqual((rigid["collapsed"], rigid["restitution"]), (True, 0.0))
+
+    def test_it_has_a_report_and_can_be_swept(self):
+        out = self.drop("out")
+        self.assert_done(self.riesel("report", out))
+        page = (out / "report.html").read_text(encoding="utf-8")
+        self.assertIn("t_col is too long for gaps below", page)
+        self.assertTrue((out / "figures" / "restitution.svg").is_file())
+        self.write("base.yaml", (SHIPPED / "bead_column.yaml").read_text(encoding="utf-8"))
+        self.write("sweep.yaml", "base: base.yaml\naxes:\n  - {contact.stiffness: [2000 N/m, 20000 N/m]}\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "swept"))
+        self.assert_done(self.riesel("report", "swept"))
+        self.assertIn("unphysical", (self.home / "swept" / "report.html").read_text(encoding="utf-8"))
+
+
 class Threads(CommandTest):
 
     def test_the_number_of_threads_is_that_of_openmp_unless_set(self):

@@ -4,7 +4,7 @@ import subprocess
 import sys
 import unittest
 
-from riesel_command import SHIPPED, CommandTest, plain_number
+from riesel_command import PATIENCE, SHIPPED, CommandTest, plain_number
 
 DOCS = SHIPPED.parent / "docs"
 sys.path.insert(0, str(DOCS / "paper"))
@@ -25,7 +25,7 @@ class Paper(CommandTest):
     def tables_of(self, figure):
         """The lines of the tables that figures.py prints of the sweeps in this home."""
         done = subprocess.run(["/usr/bin/python3", "-B", DOCS / "paper/figures.py", figure, "--out", "."],
-                              cwd=self.home, timeout=60, capture_output=True, text=True, check=False)
+                              cwd=self.home, timeout=PATIENCE, capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertGreater((self.home / f"{figure}.svg").stat().st_size, 0)
         lines = [line for line in done.stdout.splitlines() if line.startswith("|")]
@@ -63,7 +63,7 @@ class Paper(CommandTest):
 
     def test_a_missing_result_is_told(self):
         done = subprocess.run(["/usr/bin/python3", "-B", DOCS / "paper/figures.py", "fig3"], cwd=self.home,
-                              timeout=60, capture_output=True, text=True, check=False)
+                              timeout=PATIENCE, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 1)
         self.assert_one_message(done.stderr.replace("figures.py:", "riesel:", 1), "reproduce.sh")
 

@@ -2,7 +2,7 @@
 
 from riesel_command import BAD_INPUT, SHIPPED, CommandTest
 
-SUBCOMMANDS = ["run", "resume", "check", "report", "scenarios", "settings"]
+SUBCOMMANDS = ["run", "resume", "check", "report", "scenarios", "settings", "schema"]
 
 
 class Usage(CommandTest):
@@ -72,8 +72,8 @@ class Usage(CommandTest):
         self.assert_done(result)
         lines = result.stdout.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["single_wall_grain", "wall_array", "periodic_tube"])
+                         ["single_wall_grain", "wall_array", "bead_column", "periodic_tube"])
         for line in lines:
-            self.assertRegex(line, r"\(Figs?\. \d")
+            self.assertRegex(line, r"\((Figs?\. \d|Luding et al\. \d)")
         self.assertEqual({line.split()[0] for line in lines},
                          {path.stem for path in SHIPPED.glob("*.yaml")})

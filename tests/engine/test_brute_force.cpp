@@ -151,6 +151,27 @@ TEST_CASE("grains of very different size go as by brute force") {
   CHECK(agree(state, 400).pairs_begun > 20);
 }
 
+TEST_CASE("a crowded tube of grains of two sizes goes as by brute force") {
+  const std::uint64_t seed = GENERATE(as<std::uint64_t>{}, 1, 2);
+  State state = empty_box(10e-3, 14.4e-3);
+  state.gravity = 10.0;
+  add_walls(state, 18);
+  Dice dice(seed);
+  for (const auto& [grains, mean_radius] : {std::pair{5, 1e-3}, std::pair{110, 0.2e-3}})
+    throw_grains(state, static_cast<std::size_t>(grains),
+                 {.left = 0.0,
+                  .right = 10e-3,
+                  .low = 0.0,
+                  .high = 14.4e-3,
+                  .speed = 3.0,
+                  .common_vy = 2.0,
+                  .mean_radius = mean_radius},
+                 dice);
+  const Events events = agree(state, 500);
+  CHECK(events.pairs_begun > 40);
+  CHECK(events.walls_begun > 5);
+}
+
 TEST_CASE("a single grain goes as by brute force") {
   State state = empty_box(3e-3, 6.6e-3);
   add_walls(state, 10);

@@ -69,6 +69,12 @@ TEST_CASE("a period in which the nearest image is not unique is refused") {
   CHECK_NOTHROW(Simulation(state, paper_model(), 1));
 }
 
+TEST_CASE("walls of which a grain could touch too many grains at once are refused") {
+  State state = two_grains();
+  add_walls(state, 1000);
+  check_refused(state);
+}
+
 TEST_CASE("a contact between grains that are far apart is refused") {
   State state = two_grains();
   state.step = 1;

@@ -308,4 +308,8 @@ inline std::string bits_of(const riesel::State& state) {
   return bits.value();
 }
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 }  // namespace file_fixture

@@ -217,7 +217,7 @@ TEST_CASE("A checkpoint of grains that rotate holds all bits of their spins") {
   CHECK((bits_of(read_checkpoint(path)) == bits_of(checkpoint)));
   checkpoint.state = reversed(checkpoint.state);
   write_checkpoint(directory / "d.h5", checkpoint);
-  CHECK(content_of(directory / "d.h5") == content_of(path));
+  CHECK((contents(directory / "d.h5") == contents(path)));
 }
 
 TEST_CASE("A checkpoint of a wrong shape is refused") {

@@ -35,10 +35,6 @@ bool may_mount() {
   return geteuid() == 0 && getegid() == 0;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("A durable file has its content and leaves nothing else behind") {

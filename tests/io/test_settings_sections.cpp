@@ -125,3 +125,41 @@ TEST_CASE("a table in which a key is a section, too, is refused") {
   CHECK_THROWS_AS(verify_table(table), std::logic_error);
   CHECK_THROWS_AS(verify_table({table[1], table[0]}), std::logic_error);
 }
+
+TEST_CASE("a setting depends on what the setting that it depends on depends on") {
+  SettingsTable rows = common_settings();
+  rows.push_back({.key = "a.kind",
+                  .kind = Kind::choice,
+                  .fallback = "here",
+                  .choices = {"here", "there"},
+                  .doc = "Where."});
+  rows.push_back({.key = "b.kind",
+                  .kind = Kind::choice,
+                  .fallback = "one",
+                  .choices = {"one", "two"},
+                  .doc = "Which.",
+                  .only_when = When{"a.kind", {"here"}}});
+  rows.push_back(
+      {.key = "b.size", .required = true, .doc = "Size.", .only_when = When{"b.kind", {"two"}}});
+  const SettingsTables tables = {{"x", rows}};
+  const std::string file = "scenario: x\ncontact: {stiffness: 1, damping: 0}\n";
+  const auto complaint = [&](const std::string& more) -> std::string {
+    try {
+      (void)Settings::from_text(file + more, "f", tables);
+    } catch (const SettingsError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  CHECK(complaint("b: {kind: two, size: 3}") == "accepted");
+  CHECK(complaint("b: {kind: two}").find("b.size: is missing, as b.kind is two")
+        != std::string::npos);
+  CHECK(complaint("b: {size: 3}").find("b.size: has no effect when b.kind is one")
+        != std::string::npos);
+  CHECK(complaint("a: {kind: there}") == "accepted");
+  CHECK(complaint("a: {kind: there}\nb: {size: 3}")
+            .find("b.size: has no effect when a.kind is there; remove it; it applies only when "
+                  "a.kind is here")
+        != std::string::npos);
+  CHECK_FALSE(Settings::from_text(file + "a: {kind: there}", "f", tables).has("b.size"));
+}

@@ -63,10 +63,6 @@ std::uint64_t word(const std::vector<char>& bytes, std::size_t place) {
   return value;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("Tables of any size come back, in one chunk, many, or a tree of them") {

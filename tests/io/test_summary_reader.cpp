@@ -165,6 +165,27 @@ TEST_CASE("A curve that is read back and written again is the same text") {
   CHECK(to_json(std::get<CurveSummary>(read_summary(path))) == to_json(curve));
 }
 
+TEST_CASE("A column that is read back and written again is the same text") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  ColumnSummary summary;
+  summary.run.scenario = "bead_column";
+  summary.t_col = 7e-5;
+  summary.rigid = {.restitution = 0.25, .rebound = 0.125, .collisions = 25, .collapsed = false};
+  summary.column = {{.gap_ratio = 1.0 / 3.0,
+                     .gap = 1e-6,
+                     .restitution = 0.5,
+                     .rebound = 0.375,
+                     .detachment = 0.2,
+                     .contacts = 17.0,
+                     .contact_time = 1e-4,
+                     .max_overlap = 2e-6,
+                     .verdict = Validity::suspect},
+                    {.restitution = std::nan(""), .verdict = Validity::unphysical}};
+  overwrite(path, to_json(summary));
+  CHECK(to_json(std::get<ColumnSummary>(read_summary(path))) == to_json(summary));
+}
+
 TEST_CASE("A summary from before some values were told is read, and they are not known") {
   const ScratchDirectory directory;
   const auto path = directory / summary_name;

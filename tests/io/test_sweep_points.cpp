@@ -65,8 +65,8 @@ std::string name(const std::string& rest, const std::string& first = base) {
   return points(rest, first).at(0).name;
 }
 
-std::string error_of(const std::string& rest) {
-  return file_fixture::message_of<SettingsError>([&] { (void)points(rest); });
+std::string error_of(const std::string& rest, const std::string& first = base) {
+  return file_fixture::message_of<SettingsError>([&] { (void)points(rest, first); });
 }
 
 }  // namespace
@@ -206,4 +206,13 @@ TEST_CASE("what cannot be a sweep is refused with its place") {
   CHECK(error_of("branches: {a: {gravity: 1}}\naxes: {gravity: [1]}\n")
             .starts_with("s.yaml:2:16: gravity: is set twice"));
   CHECK(error_of("continue_along: gravity\n").starts_with("s.yaml:2:17: continue_along: "));
+  CHECK(error_of("branches: [1, 2]\n")
+            .starts_with("s.yaml:2:11: branches: expected named sets of overrides, got a list"));
+  CHECK(error_of("axes: {scenario: [tube, wall]}\n")
+            .starts_with("s.yaml:2:8: scenario: cannot be changed by a sweep"));
+  CHECK(error_of("", "base: [tube.yaml]\n")
+            .starts_with("s.yaml:1:7: base: expected the path of a settings file, or settings"));
+  CHECK(error_of("axes: {impact.starts: [1, 2]}\ncontinue_along: impact.starts\n",
+                 "base: {scenario: wall}\n")
+            .starts_with("s.yaml:3:17: continue_along: the runs of the scenario wall cannot"));
 }

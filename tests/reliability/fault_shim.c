@@ -1,8 +1,8 @@
 /* Faults on order, for the tests of tests/reliability: preloaded into riesel, it counts the calls that
  * change files, and at one of them kills the process or lets the call fail.
  *
- *   RIESEL_FAULT=CALL:N:WHAT    at the N-th call (from 1) of CALL: open, write, fsync, link, rename,
- *                               close, or any for all of these together
+ *   RIESEL_FAULT=CALL:N:WHAT    at the N-th call (from 1) of CALL: open, write, pwrite, ftruncate,
+ *                               fsync, link, rename, close, or any for all of these together
  *       WHAT = kill             SIGKILL before the call; in a write after a part of the bytes
  *              killed_after     SIGKILL when the call is done
  *              a number         the call fails with this errno; in a write after a part of the bytes
@@ -37,6 +37,8 @@ static void* real(const char* name) {
 
 typedef int (*OpenCall)(const char*, int, ...);
 typedef ssize_t (*WriteCall)(int, const void*, size_t);
+typedef ssize_t (*WriteAtCall)(int, const void*, size_t, off_t);
+typedef int (*ResizeCall)(int, off_t);
 typedef int (*DescriptorCall)(int);
 typedef int (*NamesCall)(const char*, const char*);
 
@@ -141,6 +143,33 @@ ssize_t write(int descriptor, const void* bytes, size_t size) {
   const ssize_t written = call(descriptor, bytes, size);
   after(&fault);
   return written;
+}
+
+/* Within a sector of a disk there is no half: the head of a trajectory relies on it. */
+ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t offset) {
+  enum { sector = 512 };
+  const WriteAtCall call = (WriteAtCall)real("pwrite");
+  if (!is_ours(descriptor)) return call(descriptor, bytes, size, offset);
+  const struct Fault fault = fault_at("pwrite");
+  const bool is_within_sector = offset % sector + (off_t)size <= sector;
+  if (fault.now && !fault.kills_after && !is_within_sector) {
+    const ssize_t part = call(descriptor, bytes, size / 2, offset);
+    (void)part;
+  }
+  if (fails(&fault)) return -1;
+  const ssize_t written = call(descriptor, bytes, size, offset);
+  after(&fault);
+  return written;
+}
+
+int ftruncate(int descriptor, off_t size) {
+  const ResizeCall call = (ResizeCall)real("ftruncate");
+  if (!is_ours(descriptor)) return call(descriptor, size);
+  const struct Fault fault = fault_at("ftruncate");
+  if (fails(&fault)) return -1;
+  const int status = call(descriptor, size);
+  after(&fault);
+  return status;
 }
 
 static int with_descriptor(int descriptor, const char* name) {

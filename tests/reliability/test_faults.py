@@ -11,23 +11,40 @@ import shutil
 import signal
 import time
 
+import h5py
+import numpy as np
+
 from riesel_command import CommandTest, SMALL_TUBE, bytes_of_files
 
 SHIM = os.environ["RIESEL_SHIM"]
 KILLS = os.environ.get("RIESEL_KILLS", "24")
 # Saves with each row: about 20 rows, and at each some 18 calls.
-TUBE = SMALL_TUBE.replace("5 ms", "6 ms") + "output: {interval: 0.3 ms, checkpoint_interval: 1e-6 s}\n"
+OUTPUT = "output: {interval: 0.3 ms, checkpoint_interval: 1e-6 s}\n"
+TUBE = SMALL_TUBE.replace("5 ms", "6 ms") + OUTPUT
+# A frame with each row, and 17 calls more.
+FRAMES = SMALL_TUBE.replace("5 ms", "3 ms") + OUTPUT.replace("}", ", trajectory_interval: 0.3 ms}")
+LOCK = "open ftruncate pwrite"  # of the directory
 KINDS = ["open", "write", "fsync", "close", "link", "rename"]
 ERRORS = {28: "No space left", 5: "Input/output error", 13: "Permission denied", 30: "Read-only",
           122: "Disk quota exceeded"}
 
 
-class Faults(CommandTest):
+def frames_of(run_directory):
+    """The grains' places and velocities in all frames of the trajectory; nothing if there is none."""
+    if not (run_directory / "trajectory.h5").exists():
+        return None
+    with h5py.File(run_directory / "trajectory.h5", "r") as file:
+        grains = file["particles/grains"]
+        return np.stack([grains["position/value"][:], grains["velocity/value"][:]], axis=1)
+
+
+class FaultTest(CommandTest):
+    TUBE = TUBE
 
     @classmethod
     def setUpClass(cls):
         cls.maker = cls.maker()
-        cls.maker.write("tube.yaml", TUBE)
+        cls.maker.write("tube.yaml", cls.TUBE)
         cls.maker.faulty("run", "tube.yaml", "--out", "out", log=True)
         cls.whole = cls.maker.home / "out"
         cls.maker.assert_same_result(cls.whole, cls.maker.run_to_end("tube.yaml", "alone"))
@@ -35,7 +52,7 @@ class Faults(CommandTest):
 
     def setUp(self):
         super().setUp()
-        self.write("tube.yaml", TUBE)
+        self.write("tube.yaml", self.TUBE)
         self.out = self.home / "out"
         self.random = random.Random(1)
 
@@ -75,16 +92,26 @@ class Faults(CommandTest):
                  for how in ("kill", "killed_after")]
         return every if KILLS == "all" else self.random.sample(every, min(len(every), int(KILLS)))
 
+    def calls_but_whole_files(self):
+        """The calls, with a star for each file that is written as a whole, in the right order."""
+        file, name, directory = "open write fsync close", "rename", "open fsync close"
+        rest = " ".join(self.calls)
+        # The generation before is kept, but not by the first.
+        for naming in ("link rename rename", "link rename", name):
+            rest = rest.replace(f"{file} {naming} {directory}", "*")
+        return rest
+
+    def assert_fails_with_word(self, result, error):
+        self.assertEqual(result.returncode, 1, result)
+        self.assert_one_message(result.stderr, "out", ERRORS[error])
+
+
+class Faults(FaultTest):
+
     # --- the order in which a file is written ---
 
     def test_a_file_is_on_the_disk_before_it_gets_its_name_and_the_name_before_anything_else(self):
-        calls = " ".join(self.calls)
-        file, name, directory = "open write fsync close", "rename", "open fsync close"
-        kept = "link rename rename", "link rename"  # the generation before, which the first has not
-        rest = calls
-        for naming in (*kept, name):
-            rest = rest.replace(f"{file} {naming} {directory}", "*")
-        self.assertRegex(rest, r"\Aopen( \*)+( close)?\Z")  # the lock, then nothing but that
+        self.assertRegex(self.calls_but_whole_files(), rf"\A{LOCK}( \*)+( close)?\Z")
 
     # --- kills ---
 
@@ -123,10 +150,6 @@ class Faults(CommandTest):
 
     # --- calls that fail ---
 
-    def assert_fails_with_word(self, result, error):
-        self.assertEqual(result.returncode, 1, result)
-        self.assert_one_message(result.stderr, "out", ERRORS[error])
-
     def run_with_failure(self, kind, error, lasting):
         """A run of which one call of the kind fails, or all from one on, after the first checkpoint."""
         first = 2 if kind == "link" else 8
@@ -161,3 +184,51 @@ class Faults(CommandTest):
         result = self.faulty("run", "tube.yaml", "--out", "out", fault="open:1:13+")
         self.assert_fails_with_word(result, 13)
         self.assertEqual(bytes_of_files(self.out), {})
+
+
+class FaultsOfTrajectories(FaultTest):
+    """trajectory.h5 is the only file that grows."""
+
+    TUBE = FRAMES
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.frames = frames_of(cls.whole)
+
+    def assert_frames_are_whole(self):
+        """If there is a trajectory, it opens, and holds the first frames of the uninterrupted run."""
+        frames = frames_of(self.out)
+        if frames is not None:
+            self.assertTrue(np.array_equal(frames, self.frames[:len(frames)]), len(frames))
+
+    def calls_named(self, *names):
+        return [number for number, name in enumerate(self.calls, 1) if name in names]
+
+    def test_an_outline_is_on_the_disk_before_the_head_points_to_it(self):
+        frame, commit = "( pwrite){5}", "( ftruncate)? fsync pwrite fsync pwrite fsync"
+        self.assertRegex(self.calls_but_whole_files(),
+                         rf"\A{LOCK}( \*)+ open((( \*)*{frame})?( \*)+{commit})+( \*)+( close)+\Z")
+
+    def test_killed_inside_a_call(self):
+        calls = self.calls_named("pwrite", "ftruncate")
+        calls = sorted({call + more for call in calls for more in (0, 1)})  # and a call behind
+        every = [(call, how) for call in calls for how in ("kill", "killed_after")]
+        for call, how in every if KILLS == "all" else self.random.sample(every, int(KILLS) // 2):
+            with self.subTest(call=call, name=self.calls[call - 1], how=how):
+                self.start_again()
+                self.kill_at(call, how)
+                self.assert_frames_are_whole()
+                self.assert_goes_on_as_uninterrupted()
+                self.assertTrue(np.array_equal(frames_of(self.out), self.frames))
+
+    def test_a_call_that_fails_ends_the_run_with_a_message_and_loses_nothing(self):
+        for error in (28, 5):
+            with self.subTest(error=ERRORS[error]):
+                self.start_again()
+                call = self.random.randrange(10, len(self.calls_named("pwrite")))
+                result = self.faulty("run", "tube.yaml", "--out", "out", fault=f"pwrite:{call}:{error}")
+                self.assert_fails_with_word(result, error)
+                self.assert_frames_are_whole()
+                self.assert_goes_on_as_uninterrupted()
+                self.assertTrue(np.array_equal(frames_of(self.out), self.frames))

@@ -80,6 +80,20 @@ void check_same(const scenarios::ImpactCurve& a, const scenarios::ImpactCurve& b
   }
 }
 
+void check_same(const scenarios::ColumnCurve& a, const scenarios::ColumnCurve& b) {
+  const auto numbers = [](const ColumnSetup& s) {
+    return std::vector{static_cast<double>(s.beads),
+                       s.bead_radius,
+                       s.bead_mass,
+                       s.velocity,
+                       s.collision_time,
+                       s.time_step};
+  };
+  CHECK(numbers(a.setup) == numbers(b.setup));
+  check_same(a.setup.model, b.setup.model);
+  CHECK(a.gap_ratios == b.gap_ratios);
+}
+
 void check_comes_back(const io::Settings& settings) {
   const std::string effective = settings.effective_yaml();
   CAPTURE(effective);
@@ -115,6 +129,8 @@ TEST_CASE("tubes of all kinds come back from their effective settings") {
                 "contact.slip_damping=2e3 1/s", "grains.rotation=sphere",
                 "contact.rolling_friction=0.05"},
       Overrides{"grains.size_distribution=truncated_normal", "grains.polydispersity=7 %"},
+      Overrides{"grains.size_distribution=bidisperse", "grains.size_ratio=2.5",
+                "grains.large_fraction=0.3"},
       Overrides{"grains.diameter=1.1 mm", "grains.mass=1.3 mg", "grains.area_fraction=0.123"},
       Overrides{"grains.area_fraction=0.8", "seed=77"},
       Overrides{"gravity=9.81 m/s^2", "start.axial_velocity=-0.1 m/s", "run.threads=3"});

@@ -106,6 +106,26 @@ TEST_CASE("grains of very unequal size do not overlap at the start") {
   CHECK(least_gap_to_walls(state) > -rounding);
 }
 
+TEST_CASE("grains of two sizes do not overlap at the start, however different they are") {
+  const Overrides sizes = GENERATE(
+      Overrides{"grains.size_ratio=3", "grains.large_fraction=0.3"},
+      Overrides{"grains.size_ratio=5", "grains.large_fraction=0.05"},
+      Overrides{"grains.size_ratio=10", "grains.large_fraction=0.02", "grains.diameter=0.7 mm"});
+  const std::string fraction = GENERATE("0.3", "0.7");
+  CAPTURE(sizes, fraction);
+  Overrides overrides = sizes;
+  overrides.insert(overrides.end(), {"tube.length=30 mm", "grains.size_distribution=bidisperse",
+                                     "grains.area_fraction=" + fraction});
+  const State state = tube(overrides).state;
+  CHECK(least_gap_between_grains(state) > -rounding);
+  CHECK(least_gap_to_walls(state) > -rounding);
+  const double gap = state.walls.front().spacing(state.box);  // nor has one gone through a wall
+  for (const Grain& grain : grains_of(state)) {
+    CHECK(grain.x > -gap);
+    CHECK(grain.x < state.box.width + gap);
+  }
+}
+
 TEST_CASE("grains in a tube barely wider than they are stand clear of its walls") {
   const State state = tube({"tube.width=1.8 mm", "grains.area_fraction=0.3"}).state;
   CHECK(state.grains.size() > 5);

@@ -20,6 +20,7 @@ from typing import Callable, Iterator
 
 import numpy as np
 
+from bead_column import Column, drop
 from soft_impact import ContactLaw, HertzLaw, LinearLaw, Outcome, System, Wall, collide
 
 HERE = Path(__file__).resolve().parent
@@ -291,6 +292,28 @@ def oblique_row(
 
 # --- files --------------------------------------------------------------------------------
 
+
+def bead_column() -> Iterator[Row]:
+    """Beads that collide one after the other, and beads that touch several others at once."""
+    for beads, damping, ratios in ((1, DAMPING, [1.0]), (2, DAMPING, [0.05, 0.3, 0.8, 3.0]), (2, 0.0, [0.05, 0.8]),
+                                   (3, 3e3, [0.01, 0.2, 0.7, 5.0]), (5, 3e3, [0.1, 0.4, 1.0]), (10, 2e3, [0.3, 0.6])):
+        for ratio in ratios:
+            plate = Column(beads, STIFFNESS, damping, MASS, 0.0, 1.0)
+            gap = exact(ratio * plate.collision_time(0))
+            outcome = drop(Column(beads, STIFFNESS, damping, MASS, gap, 1.0))
+            yield {
+                "beads": beads,
+                "gamma": damping,
+                "gap_ratio": ratio,
+                "gap": gap,
+                "restitution": outcome.restitution,
+                "rebound": outcome.rebound,
+                "contacts": outcome.contacts,
+                "duration": outcome.duration,
+                "max_overlap": outcome.max_overlap,
+            }
+
+
 TABLES = [
     Table(
         "single_wall_grain.csv",
@@ -338,6 +361,16 @@ attraction clip: F_N >= 0; the contact lasts until xi = 0 all the same.
 All rows of the linear law and those of hertz with gamma = 0 agree with their closed forms to 1e-9.
 """,
         head_on,
+    ),
+    Table(
+        "bead_column.csv",
+        """\
+A column of equal beads falls on a plate with the velocity 1 m/s; linear law, no gravity.
+gap between neighbours, in m; gap_ratio = gap over velocity times t_col at the plate.
+restitution = square root of the energy after over that before; rebound = velocity of the centre of mass after over
+that before; duration from the begin of the first contact to the end of the last.
+""",
+        bead_column,
     ),
     Table(
         "oblique.csv",

@@ -1,0 +1,45 @@
+#include "app/commands.hpp"
+#include "app/exit_status.hpp"
+#include "io/durable_file.hpp"
+#include "io/settings_names.hpp"
+#include "io/settings_starter.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <fmt/core.h>
+
+#include <system_error>
+
+namespace riesel::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const scenarios::Scenario& find(const std::string& name) {
+  std::vector<std::string> names;
+  for (const scenarios::Scenario& scenario : scenarios::all()) {
+    if (scenario.name == name) return scenario;
+    names.push_back(scenario.name);
+  }
+  const auto nearest = io::nearest_name(name, names);
+  throw UnusableInput(fmt::format("{}: unknown scenario; {}", name,
+                                  nearest ? fmt::format("did you mean '{}'?", *nearest)
+                                          : "choose " + io::enumerate(names)));
+}
+
+}  // namespace
+
+int new_file(const NewFileOptions& options) {
+  const scenarios::Scenario& scenario = find(options.scenario);
+  const fs::path file = options.file.value_or(scenario.name + ".yaml");
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(file, ignored)))
+    throw UnusableInput(file.string() + ": exists already; choose another name");
+  io::write_durably(file, io::starter_file(scenarios::settings_tables().at(scenario.name),
+                                           scenario.name, scenario.summary));
+  fmt::print("{0}: written; look at it, then 'riesel check {0}' and 'riesel run {0}'\n",
+             file.string());
+  return exit_done;
+}
+
+}  // namespace riesel::app

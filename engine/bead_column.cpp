@@ -1,0 +1,131 @@
+#include "engine/bead_column.hpp"
+
+#include "engine/hash.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace riesel {
+
+namespace {
+
+/// The system looks whether a drop is over every so many steps.
+constexpr std::int64_t steps_between_looks = 1024;
+
+/// A drop is given up after so many collision times per bead, plus the time to fall so many
+/// heights of the column.
+constexpr double patience_in_collisions = 200.0;
+constexpr double patience_in_heights = 1000.0;
+
+/// Where the lowest bead begins, over the gap to its neighbour: near enough not to wait for it.
+constexpr double first_gap = 0.1;
+
+double height(const ColumnSetup& setup, double gap) {
+  return setup.beads * (2.0 * setup.bead_radius + gap);
+}
+
+double patience(const ColumnSetup& setup, double gap) {
+  return patience_in_collisions * setup.beads * setup.collision_time
+         + patience_in_heights * height(setup, gap) / setup.velocity;
+}
+
+State start(const ColumnSetup& setup, double gap) {
+  const double diameter = 2.0 * setup.bead_radius;
+  // No bead gets far faster than the column fell.
+  const double room = height(setup, gap) + 4.0 * patience(setup, gap) * setup.velocity;
+  State state;
+  state.box = {.width = room, .length = 8.0 * diameter};
+  state.walls = {{.line = 0.0, .radius = setup.bead_radius, .count = 1}};
+  state.time_step = setup.time_step;
+  for (int i = 0; i < setup.beads; ++i)
+    add_grain(state, {.x = (i + 1) * diameter + (i + first_gap) * gap,
+                      .y = 0.0,
+                      .vx = -setup.velocity,
+                      .vy = 0.0,
+                      .radius = setup.bead_radius,
+                      .mass = setup.bead_mass});
+  return state;
+}
+
+/// Upwards, from the lowest bead to the highest.
+std::vector<double> velocities(const State& state) {
+  const GrainView grains(state);
+  std::vector<double> v;
+  for (const std::size_t slot : slots_by_id(state.grains)) v.push_back(grains[slot].vx);
+  return v;
+}
+
+/// Bodies that hardly approach each other would meet late, and lose next to nothing.
+bool is_over(const ColumnSetup& setup, const State& state) {
+  constexpr double hardly = 1e-3;  // of the present velocities: 1e-6 of the energy
+  constexpr double slowly = 1e-3;  // of the velocity at the start: likewise
+  if (!state.contacts.empty()) return false;
+  double squares = 0.0, largest_approach = 0.0, below = 0.0;  // the plate
+  const std::vector<double> velocity = velocities(state);
+  for (const double v : velocity) {
+    squares += v * v;
+    largest_approach = std::max(largest_approach, below - v);
+    below = v;
+  }
+  return largest_approach
+         <= std::max(hardly * std::sqrt(squares / setup.beads), slowly * setup.velocity);
+}
+
+ColumnResult result(const ColumnSetup& setup, const State& state, bool over) {
+  double sum = 0.0, squares = 0.0;
+  for (const double v : velocities(state)) {
+    sum += v;
+    squares += v * v;
+  }
+  const ContactTally &pairs = state.tally.grains, &plate = state.tally.walls;
+  return {.restitution = std::sqrt(squares / setup.beads) / setup.velocity,
+          .rebound = sum / setup.beads / setup.velocity,
+          .contacts = static_cast<double>(pairs.begun + plate.begun),
+          .contact_time = pairs.duration.value() + plate.duration.value(),
+          .max_overlap = std::max(pairs.max_overlap, plate.max_overlap),
+          .over = over,
+          .steps = state.step};
+}
+
+}  // namespace
+
+ColumnResult drop(const ColumnSetup& setup, double gap, Stepping stepping) {
+  Simulation simulation(start(setup, gap), setup.model, 1, stepping);
+  const double longest = patience(setup, gap);
+  bool over = false;
+  while (!over && simulation.state().time() < longest) {
+    simulation.advance(steps_between_looks);
+    over = is_over(setup, simulation.state());
+  }
+  return result(setup, simulation.state(), over);
+}
+
+std::vector<ColumnResult> drop_all(const ColumnSetup& setup, const std::vector<double>& gaps,
+                                   int threads) {
+  std::vector<ColumnResult> results(gaps.size());
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    try {
+      results[i] = drop(setup, gaps[i]);
+    } catch (...) {
+#pragma omp critical
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+std::uint64_t hash_of(const std::vector<ColumnResult>& results) {
+  Hash hash;
+  for (const ColumnResult& r : results) {
+    for (const double value : {r.restitution, r.rebound, r.contacts, r.contact_time, r.max_overlap})
+      hash.add(value);
+    hash.add(r.steps);
+  }
+  return hash.value();
+}
+
+}  // namespace riesel

@@ -1,0 +1,27 @@
+// A column of rigid beads that falls on a plate: collisions one after the other, each of which
+// takes no time.
+//
+// The limit of hard grains for a column of soft ones (engine/bead_column.hpp). It is worked out
+// from collision to collision, and shares nothing with the stepping. Equal gaps and velocities at
+// the start leave nothing but the number of beads and the restitutions that it could depend on.
+//
+// Source: Bernu and Mazighi, J. Phys. A 23, 5745 (1990); McNamara and Young, Phys. Fluids A 4, 496
+// (1992). Below a restitution of about tan^2(pi/4 (1 - 1/N)) the beads collide infinitely often
+// before they could part: the column collapses and keeps no energy.
+#pragma once
+
+#include <cstdint>
+
+namespace riesel {
+
+struct RigidColumn {
+  double restitution;       ///< square root of the energy after over that before; 0 if it collapses
+  double rebound;           ///< velocity of the centre of mass after over that before, upwards
+  std::int64_t collisions;  ///< until it is over, or until it was found to collapse
+  bool collapsed;
+};
+
+/// `beads` >= 1 of equal mass, which fall with one velocity and equal gaps between them.
+RigidColumn rigid_column(int beads, double restitution_of_beads, double restitution_at_plate);
+
+}  // namespace riesel

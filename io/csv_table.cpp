@@ -1,0 +1,193 @@
+#include "io/csv_table.hpp"
+
+#include "io/file_error.hpp"
+#include "io/units.hpp"
+#include "io/whole_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+namespace riesel::io {
+namespace {
+
+/// What stands between two commas, without blanks around it.
+struct Text {
+  std::string_view text;
+  int place;  // column of its first character
+};
+
+std::vector<Text> split(std::string_view line) {
+  constexpr std::string_view blanks = " \t\r";
+  std::vector<Text> cells;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t first = std::min(line.find_first_not_of(blanks, begin), end);
+    std::string_view text = line.substr(first, end - first);
+    text = text.substr(0, text.find_last_not_of(blanks) + 1);
+    cells.push_back({text, static_cast<int>(first) + 1});
+    begin = end + 1;
+  }
+  return cells;
+}
+
+bool counts(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  return first != std::string_view::npos && line[first] != '#';
+}
+
+/// "x (mm)"
+struct Heading {
+  std::string name, unit;
+};
+
+Heading heading_of(const Text& cell, const Place& place) {
+  const std::size_t open = cell.text.find('(');
+  std::string_view name = cell.text.substr(0, open);
+  name = name.substr(0, name.find_last_not_of(' ') + 1);
+  if (open == std::string_view::npos) return {.name = std::string(name), .unit = ""};
+  if (cell.text.back() != ')')
+    throw SettingsError(place, std::string(name), "has a unit without an end",
+                        "write it as in 'x (mm)'");
+  return {.name = std::string(name),
+          .unit = std::string(cell.text.substr(open + 1, cell.text.size() - open - 2))};
+}
+
+/// Words, for errors: "x, y and diameter".
+std::string names_of(const std::vector<CsvColumn>& columns) {
+  std::string names;
+  for (const CsvColumn& column : columns)
+    names += (names.empty() ? "" : ", ") + column.name + (column.required ? "" : " (if any)");
+  return names;
+}
+
+/// The text line by line.
+class Parser {
+public:
+  Parser(const std::string& source, const std::vector<CsvColumn>& columns)
+      : source_(&source), columns_(&columns) {}
+
+  CsvTable parse(const std::string& text) && {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      ++line_;
+      if (!counts(line)) continue;
+      const std::vector<Text> cells = split(line);
+      if (headings_.empty())
+        read_headings(cells);
+      else
+        read_row(cells);
+    }
+    if (cells_.lines.empty())
+      throw SettingsError({*source_}, "", "has no rows",
+                          "give a line with the columns " + names_of(*columns_)
+                              + ", and a line for each row");
+    return {*source_, std::move(index_), std::move(cells_)};
+  }
+
+private:
+  struct Column {
+    std::string name, unit, si_unit;
+  };
+
+  Place at(const Text& cell) const { return {*source_, line_, cell.place}; }
+
+  void read_headings(const std::vector<Text>& cells) {
+    for (const Text& cell : cells) {
+      const Heading heading = heading_of(cell, at(cell));
+      const auto known = std::ranges::find(*columns_, heading.name, &CsvColumn::name);
+      if (known == columns_->end())
+        throw SettingsError(at(cell), heading.name, "unknown column",
+                            "the columns are " + names_of(*columns_));
+      if (!index_.emplace(heading.name, headings_.size()).second)
+        throw SettingsError(at(cell), heading.name, "stands there twice", "remove one");
+      headings_.push_back({heading.name, heading.unit, known->unit});
+    }
+    for (const CsvColumn& column : *columns_)
+      if (column.required && !index_.contains(column.name))
+        throw SettingsError(at(cells.front()), column.name, "is missing",
+                            fmt::format("add the column '{} ({})'; the columns are {}", column.name,
+                                        column.unit, names_of(*columns_)));
+  }
+
+  void read_row(const std::vector<Text>& cells) {
+    if (cells.size() != headings_.size())
+      throw SettingsError(
+          at(cells.back()), "",
+          fmt::format("has {} cells, and the first line {}", cells.size(), headings_.size()),
+          "give each row a cell for each column");
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      cells_.values.push_back(value_of(cells[i], headings_[i]));
+      cells_.places.push_back(cells[i].place);
+    }
+    cells_.lines.push_back(line_);
+  }
+
+  double value_of(const Text& cell, const Column& column) const {
+    const auto numeral = split_quantity(cell.text);
+    if (!numeral || !numeral->unit.empty())
+      throw SettingsError(at(cell), column.name, quoted(std::string(cell.text)) + " is no number",
+                          "write a decimal number; the unit stands in the first line");
+    const auto value = convert({.numeral = numeral->numeral, .unit = column.unit}, column, cell);
+    if (!value)
+      throw SettingsError(at(cell), column.name,
+                          quoted(std::string(cell.text)) + " is beyond what a number can be",
+                          "write one of ordinary size");
+    return *value;
+  }
+
+  std::optional<double> convert(const QuantityText& quantity, const Column& column,
+                                const Text& cell) const {
+    try {
+      return value_in_si(quantity, column.si_unit);
+    } catch (const UnitError& error) {
+      throw SettingsError(at(cell), column.name, quoted(column.unit) + " is no unit for it",
+                          error.what());
+    }
+  }
+
+  const std::string* source_;
+  const std::vector<CsvColumn>* columns_;
+  int line_ = 0;
+  std::vector<Column> headings_;
+  CsvTable::Index index_;
+  CsvTable::Cells cells_;
+};
+
+}  // namespace
+
+CsvTable parse_csv(const std::string& text, const std::string& source,
+                   const std::vector<CsvColumn>& columns) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  const bool marked = text.starts_with(byte_order_mark);
+  return Parser(source, columns).parse(marked ? text.substr(byte_order_mark.size()) : text);
+}
+
+double CsvTable::value(std::size_t row, const std::string& column) const {
+  return cells_.values.at(cell(row, column));
+}
+
+void CsvTable::reject(std::size_t row, const std::string& column, const std::string& problem,
+                      const std::string& remedy) const {
+  throw SettingsError({source_, line(row), cells_.places.at(cell(row, column))}, column, problem,
+                      remedy);
+}
+
+CsvTable read_csv(const Settings& settings, const std::string& key,
+                  const std::vector<CsvColumn>& columns) {
+  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 26;
+  std::vector<char> bytes;
+  try {
+    bytes = read_whole_file(settings.text(key), most_bytes);
+  } catch (const FileError& error) {
+    settings.reject(key, "cannot be read (" + std::string(error.what()) + ")",
+                    "give a file of comma-separated columns");
+  }
+  return parse_csv({bytes.begin(), bytes.end()}, settings.text(key), columns);
+}
+
+}  // namespace riesel::io

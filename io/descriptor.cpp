@@ -1,0 +1,82 @@
+#include "io/descriptor.hpp"
+
+#include "io/file_error.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <utility>
+
+namespace riesel::io {
+namespace {
+
+constexpr std::size_t most_at_once = std::size_t{1} << 30;  // bytes; what Linux takes
+
+}  // namespace
+
+Descriptor::Descriptor(const std::filesystem::path& name, int flags, std::filesystem::path path)
+    : path_(std::move(path)), descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
+  check(descriptor_);
+}
+
+Descriptor::~Descriptor() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void Descriptor::write(std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written =
+        ::write(descriptor_, content.data(), std::min(content.size(), most_at_once));
+    if (written < 0 && errno == EINTR) continue;
+    check(written);
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+std::string Descriptor::read_at(std::uint64_t offset, std::size_t size) {
+  std::string content(size, '\0');
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t got =
+        pread(descriptor_, &content[done], size - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    check(got, "cannot be read");
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  content.resize(done);
+  return content;
+}
+
+void Descriptor::write_at(std::uint64_t offset, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written =
+        pwrite(descriptor_, content.data(), std::min(content.size(), most_at_once),
+               static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    check(written);
+    offset += static_cast<std::uint64_t>(written);
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void Descriptor::make_at_least(std::uint64_t size) {
+  struct stat about = {};
+  check(fstat(descriptor_, &about));
+  const auto wanted = static_cast<off_t>(size);
+  if (about.st_size < wanted) check(ftruncate(descriptor_, wanted));
+}
+
+void Descriptor::sync() { check(fsync(descriptor_)); }
+
+void Descriptor::close() { check(::close(std::exchange(descriptor_, -1))); }
+
+void Descriptor::check(ssize_t result, const char* action) const {
+  if (result < 0) throw system_failure(path_, action, errno);
+}
+
+}  // namespace riesel::io

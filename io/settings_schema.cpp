@@ -1,0 +1,244 @@
+#include "io/settings_schema.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace riesel::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// --- values ---
+
+Json in_range(const char* type, const Range& range) {
+  Json schema = {{"type", type}};
+  if (std::isfinite(range.low)) schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+  if (std::isfinite(range.high))
+    schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
+  return schema;
+}
+
+/// A number, or a text with a unit. The range counts for numbers; of texts only the sign is seen.
+Json quantity(const Setting& row) {
+  const std::string pattern = quantity_pattern(row.unit, row.range.low < 0.0);
+  return {{"anyOf", {in_range("number", row.range), {{"type", "string"}, {"pattern", pattern}}}}};
+}
+
+Json span_of(const Setting& row) {
+  return {{"type", "object"},
+          {"properties",
+           {{"from", quantity(row)},
+            {"to", quantity(row)},
+            {"points", in_range("integer", at_least(2))},
+            {"spacing", {{"enum", {"log", "linear"}}}}}},
+          {"required", {"from", "to", "points", "spacing"}},
+          {"additionalProperties", false}};
+}
+
+Json list_of(const Json& items) { return {{"type", "array"}, {"items", items}, {"minItems", 1}}; }
+
+Json value_of(const Setting& row) {
+  switch (row.kind) {
+  case Kind::number:
+    return quantity(row);
+  case Kind::numbers:
+    return {{"anyOf", {quantity(row), list_of(quantity(row)), span_of(row)}}};
+  case Kind::integer:
+    return in_range("integer", row.range);
+  case Kind::integer_or_auto:
+    return {{"anyOf", {in_range("integer", row.range), {{"const", "auto"}}}}};
+  case Kind::choice:
+    return {{"enum", row.choices}};
+  case Kind::text:
+  case Kind::path:
+    return {{"type", "string"}, {"minLength", 1}};
+  case Kind::boolean:
+    return {{"type", "boolean"}};
+  }
+  return true;
+}
+
+Json described(const Setting& row) {
+  Json schema = value_of(row);
+  std::string text = row.doc;
+  if (!row.unit.empty() && row.unit != "1") text += fmt::format(" Unit: {}.", row.unit);
+  if (row.only_when) text += fmt::format(" Only when {}.", to_string(*row.only_when));
+  schema["description"] = text;
+  if (!row.fallback.empty()) {
+    const Json parsed = Json::parse(row.fallback, nullptr, false);
+    const bool is_plain = parsed.is_number() || parsed.is_boolean();
+    schema["default"] = is_plain ? parsed : Json(row.fallback);
+  }
+  return schema;
+}
+
+// --- a scenario ---
+
+/// What a file must be if the setting has such a schema: the sections that lead to it around it.
+Json around(const std::string& key, const Json& schema, bool required) {
+  Json inner = {{"properties", {{name_in_section(key), schema}}}};
+  if (required) inner["required"] = {name_in_section(key)};
+  const std::string section = section_of(key);
+  return section.empty() ? inner : around(section, inner, required);
+}
+
+/// That `when` holds; a setting that is not given has its default.
+Json condition(const When& when, const SettingsTable& table) {
+  const auto row = std::ranges::find(table, when.key, &Setting::key);
+  const bool by_default = std::ranges::find(when.values, row->fallback) != when.values.end();
+  return around(when.key, {{"enum", when.values}}, !by_default);
+}
+
+/// The names of a section, or of the file, for completion.
+Json section(const SettingsTable& table, const std::string& name) {
+  Json properties = Json::object();
+  const auto names = name.empty() ? top_level_names(table) : names_of(table, name);
+  for (const std::string& part : names) {
+    const std::string key = key_of(name, part);
+    if (has_section(table, key)) {
+      properties[part] = section(table, key);
+      continue;
+    }
+    const auto rows = std::ranges::count(table, key, &Setting::key);
+    const Setting& row = *std::ranges::find(table, key, &Setting::key);
+    if (rows == 1) properties[part] = described(row);
+    if (rows > 1) properties[part] = {{"description", row.doc}};  // the rest by conditions
+  }
+  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+}
+
+/// Keys that count under conditions: where none holds they are mistakes.
+Json conditions(const SettingsTable& table) {
+  Json all = Json::array();
+  std::map<std::string, When> when_any;
+  for (const Setting& row : table) {
+    if (!row.only_when) {
+      if (row.required) all.push_back(around(row.key, true, true));
+      continue;
+    }
+    all.push_back({{"if", condition(*row.only_when, table)},
+                   {"then", around(row.key, described(row), row.required)}});
+    When& any = when_any.try_emplace(row.key, When{row.only_when->key, {}}).first->second;
+    any.values.insert(any.values.end(), row.only_when->values.begin(), row.only_when->values.end());
+  }
+  for (const auto& [key, when] : when_any)
+    all.push_back(
+        {{"if", condition(when, table)}, {"then", true}, {"else", around(key, false, false)}});
+  return all;
+}
+
+Json scenario_schema(const SettingsTable& table) {
+  Json schema = section(table, "");
+  schema["allOf"] = conditions(table);
+  return schema;
+}
+
+Json head(const char* title) {
+  return {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
+}
+
+std::vector<std::string> names_of_scenarios(const SettingsTables& tables) {
+  std::vector<std::string> names;
+  for (const auto& [name, table] : tables) names.push_back(name);
+  return names;
+}
+
+/// Of a settings file; `scenarios`: the definitions.
+Json file_schema(const SettingsTables& tables) {
+  Json choices = Json::array();
+  for (const auto& [name, table] : tables)
+    choices.push_back({{"if", around("scenario", {{"const", name}}, true)},
+                       {"then", {{"$ref", "#/definitions/" + name}}}});
+  return {{"type", "object"},
+          {"properties",
+           {{"scenario",
+             {{"enum", names_of_scenarios(tables)}, {"description", "The scenario to run."}}}}},
+          {"required", {"scenario"}},
+          {"allOf", choices}};
+}
+
+Json definitions(const SettingsTables& tables) {
+  Json all = Json::object();
+  for (const auto& [name, table] : tables) all[name] = scenario_schema(table);
+  return all;
+}
+
+// --- sweeps ---
+
+/// For each dotted key `of` the rows that it has in some scenario.
+template <class Of>
+Json overrides(const SettingsTables& tables, Of of) {
+  std::map<std::string, std::vector<Json>> by_key;
+  for (const auto& [name, table] : tables)
+    for (const Setting& row : table) {
+      auto& values = by_key[row.key];
+      const Json value = of(row);
+      if (row.key != "scenario" && std::ranges::find(values, value) == values.end())
+        values.push_back(value);
+    }
+  Json properties = Json::object();
+  for (const auto& [key, values] : by_key)
+    if (!values.empty()) properties[key] = {{"anyOf", values}};
+  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+}
+
+Json value_or_nothing(const Setting& row) {
+  return {{"anyOf", {value_of(row), {{"type", "null"}}}}};
+}
+
+Json values_along(const Setting& row) {
+  const Json list = list_of(value_of(row));
+  return row.kind == Kind::number ? Json{{"anyOf", {list, span_of(row)}}} : list;
+}
+
+}  // namespace
+
+std::string settings_schema(const SettingsTables& tables) {
+  Json schema = head("Settings of riesel");
+  schema.update(file_schema(tables));
+  schema["definitions"] = definitions(tables);
+  return schema.dump(1) + "\n";
+}
+
+std::string sweep_schema(const SettingsTables& tables) {
+  Json schema = head("A sweep of riesel");
+  Json all = definitions(tables);
+  all["settings"] = file_schema(tables);
+  all["overrides"] = overrides(tables, value_or_nothing);
+  all["axis"] = overrides(tables, values_along);
+  const Json axis = {{"$ref", "#/definitions/axis"}};
+  const Json set = {{"$ref", "#/definitions/overrides"}};
+  schema.update(Json{
+      {"type", "object"},
+      {"properties",
+       {{"base",
+         {{"anyOf", {{{"type", "string"}, {"minLength", 1}}, {{"$ref", "#/definitions/settings"}}}},
+          {"description", "A settings file, relative to this one, or settings."}}},
+        {"set", {{"allOf", {set}}, {"description", "What is other than in the base."}}},
+        {"axes",
+         {{"anyOf", {axis, list_of(axis)}},
+          {"description",
+           "Settings that vary, each with its values; those in one item together."}}},
+        {"seeds",
+         {{"anyOf", {in_range("integer", at_least(1)), list_of({{"type", "integer"}})}},
+          {"description", "A list of seeds, or how many: 3 stands for 1, 2 and 3."}}},
+        {"branches",
+         {{"type", "object"},
+          {"minProperties", 1},
+          {"additionalProperties", set},
+          {"description", "Named sets of overrides."}}},
+        {"continue_along",
+         {{"type", "string"},
+          {"description", "The axis along which each run starts where its neighbour ended."}}}}},
+      {"required", {"base"}},
+      {"additionalProperties", false}});
+  schema["definitions"] = all;
+  return schema.dump(1) + "\n";
+}
+
+}  // namespace riesel::io

@@ -1,0 +1,108 @@
+#include "io/settings_starter.hpp"
+
+#include "io/settings_quantity.hpp"
+#include "io/settings_value.hpp"
+#include "io/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace riesel::io {
+namespace {
+
+std::string indent(const std::string& section) {
+  if (section.empty()) return "";
+  return std::string(2 * (1 + static_cast<std::size_t>(std::ranges::count(section, '.'))), ' ');
+}
+
+/// Comment lines of at most 100 characters.
+std::string comment(const std::string& text, const std::string& indent) {
+  constexpr std::size_t width = 100;
+  const std::string beginning = indent + "#";
+  std::string lines, line = beginning, word;
+  for (std::istringstream words(text); words >> word;) {
+    if (line.size() + 1 + word.size() > width) {
+      lines += line + "\n";
+      line = beginning;
+    }
+    line += " " + word;
+  }
+  return lines + line + "\n";
+}
+
+class Starter {
+public:
+  explicit Starter(const SettingsTable& table) : table_(&table) {}
+
+  std::string section(const std::string& name) const {
+    std::string text;
+    const auto names = name.empty() ? top_level_names(*table_) : names_of(*table_, name);
+    for (const std::string& part : names) {
+      const std::string key = key_of(name, part);
+      if (has_section(*table_, key)) {
+        text += (name.empty() ? "\n" : "") + setting(key, "", is_given(key)) + section(key);
+        continue;
+      }
+      for (const Setting& row : *table_)
+        if (row.key == key && key != "scenario") text += described(row);
+    }
+    return text;
+  }
+
+private:
+  /// Whether the row counts as long as all choices are the default.
+  bool counts(const Setting& row) const {
+    if (!row.only_when) return true;
+    const auto choice = std::ranges::find(*table_, row.only_when->key, &Setting::key);
+    return std::ranges::count(row.only_when->values, choice->fallback) > 0;
+  }
+
+  bool gives(const Setting& row) const { return counts(row) && !row.starter.empty(); }
+
+  /// Whether a setting of the section stands there as one.
+  bool is_given(const std::string& section) const {
+    return std::ranges::any_of(*table_, [&](const Setting& row) {
+      return row.key.starts_with(section + ".") && gives(row);
+    });
+  }
+
+  /// A line that begins with a # in the first column if it is not given.
+  static std::string setting(const std::string& key, const std::string& value, bool given) {
+    return fmt::format("{}{}{}:{}{}\n", given ? "" : "#", indent(section_of(key)),
+                       name_in_section(key), value.empty() ? "" : " ", value);
+  }
+
+  static std::string value_of(const Setting& row) {
+    for (const auto& value : {row.starter, row.fallback})
+      if (!value.empty()) return value;
+    if (row.kind == Kind::number || row.kind == Kind::numbers)
+      return describe_unit(row.unit).example;
+    return "...";
+  }
+
+  std::string described(const Setting& row) const {
+    const std::string range = to_string(row.range, row.unit);
+    std::string text = row.doc;
+    if (row.kind == Kind::choice) text += fmt::format(" One of {}.", expectation(row));
+    if (!range.empty()) text += fmt::format(" Range: {}.", range);
+    if (row.only_when) text += fmt::format(" Only when {}.", to_string(*row.only_when));
+    return comment(text, indent(section_of(row.key))) + setting(row.key, value_of(row), gives(row));
+  }
+
+  const SettingsTable* table_;
+};
+
+}  // namespace
+
+std::string starter_file(const SettingsTable& table, const std::string& scenario,
+                         const std::string& summary) {
+  return comment(summary, "")
+         + comment("Settings behind a # in the first column are as they are by default, or not "
+                   "given: remove the #, and that of their section, to change them.",
+                   "")
+         + "scenario: " + scenario + "\n" + Starter(table).section("");
+}
+
+}  // namespace riesel::io

@@ -1,0 +1,317 @@
+#include "io/trajectory_file.hpp"
+
+#include "io/byte_writer.hpp"
+#include "io/descriptor.hpp"
+#include "io/durable_file.hpp"
+#include "io/file_error.hpp"
+#include "io/hdf5_handle.hpp"
+#include "io/trajectory_head.hpp"
+#include "io/trajectory_index.hpp"
+#include "io/trajectory_outline.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace riesel::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t components = trajectory_components;
+
+/// What HDF5 reads at once: it keeps a megabyte in memory.
+constexpr std::uint64_t bytes_of_a_chunk = 524288;
+/// So that a short trajectory of few grains is no large file.
+constexpr std::uint64_t most_frames_in_a_block = 64;
+/// What HDF5 can count in a chunk.
+constexpr std::uint64_t most_grains = UINT32_MAX / (components * sizeof(float));
+
+std::uint64_t frames_in_a_block(std::uint64_t grains) {
+  const auto size = std::max<std::uint64_t>(grains, 1) * components * sizeof(float);
+  return std::clamp<std::uint64_t>(bytes_of_a_chunk / size, 1, most_frames_in_a_block);
+}
+
+TrajectoryFacts facts_of(const State& state, const std::string& settings) {
+  std::uint64_t wall_grains = 0;
+  for (const auto& wall : state.walls) wall_grains += static_cast<std::uint64_t>(wall.count);
+  const auto& radii = state.grains.radius;
+  return {.grains = state.grains.size(),
+          .wall_grains = wall_grains,
+          .width = state.box.width,
+          .length = state.box.length,
+          .largest_diameter = radii.empty() ? 0.0 : 2.0 * *std::ranges::max_element(radii),
+          .settings = settings};
+}
+
+FixedArrays place_fixed_arrays(const TrajectoryFacts& facts) {
+  std::uint64_t end = trajectory_head_size;
+  const auto take = [&](std::uint64_t count, std::uint64_t size) {
+    const auto begin = end;
+    end += (count * size + 7) / 8 * 8;
+    return begin;
+  };
+  const auto radius = take(facts.grains, sizeof(double));
+  const auto mass = take(facts.grains, sizeof(double));
+  const auto id = take(facts.grains, sizeof(std::int32_t));
+  const auto wall_position = take(facts.wall_grains * components, sizeof(float));
+  const auto wall_radius = take(facts.wall_grains, sizeof(double));
+  const auto wall_id = take(facts.wall_grains, sizeof(std::int32_t));
+  return {radius, mass, id, wall_position, wall_radius, wall_id, end};
+}
+
+/// In the order in which place_fixed_arrays() places them.
+std::string fixed_arrays_of(const State& state) {
+  std::vector<double> radius, mass, wall_radius;
+  std::vector<float> wall_position;
+  for (const auto slot : slots_by_id(state.grains)) {
+    radius.push_back(state.grains.radius[slot]);
+    mass.push_back(state.grains.mass[slot]);
+  }
+  for (const auto& wall : state.walls)
+    for (std::int64_t k = 0; k < wall.count; ++k) {
+      const double y = static_cast<double>(k) * wall.spacing(state.box);
+      wall_position.insert(wall_position.end(),
+                           {static_cast<float>(wall.line), static_cast<float>(y), 0.0F});
+      wall_radius.push_back(wall.radius);
+    }
+  std::vector<std::int32_t> id(radius.size()), wall_id(wall_radius.size());
+  std::iota(id.begin(), id.end(), 0);
+  std::iota(wall_id.begin(), wall_id.end(), 0);
+
+  ByteWriter bytes;
+  const auto put = [&](const auto& values) { bytes.text(bytes_of(values)).align(); };
+  put(radius);
+  put(mass);
+  put(id);
+  put(wall_position);
+  put(wall_radius);
+  put(wall_id);
+  return bytes.bytes();
+}
+
+/// Grains in the order of their ids, in SI units.
+struct Frame {
+  std::vector<float> position, velocity;  // x, y, 0
+
+  explicit Frame(const State& state)
+      : position(components * state.grains.size()), velocity(position.size()) {
+    // What lies below the period may not be rounded to it.
+    const float end_of_period = std::nextafter(static_cast<float>(state.box.length), 0.0F);
+    const GrainView grains(state);
+    for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
+      const Grain grain = grains[slot];
+      const auto i = components * static_cast<std::size_t>(state.grains.id[slot]);
+      position[i] = static_cast<float>(grain.x);
+      position[i + 1] = std::min(static_cast<float>(grain.y), end_of_period);
+      velocity[i] = static_cast<float>(grain.vx);
+      velocity[i + 1] = static_cast<float>(grain.vy);
+    }
+  }
+};
+
+}  // namespace
+
+class TrajectoryFile::Contents {
+public:
+  /// A new file.
+  Contents(fs::path path, const State& state, std::int64_t steps_per_frame,
+           const std::string& settings)
+      : Contents(std::move(path), facts_of(state, settings), state.time_step) {
+    head_.steps_per_frame = static_cast<std::uint64_t>(steps_per_frame);
+    head_.frames_per_block = layout_.frames_per_block;
+    head_.end = fixed_.wall_end;
+    auto [root, outline] = next_outline();
+    const std::string arrays = fixed_arrays_of(state);
+    std::string content = written(head_, root) + arrays + outline;
+    content.resize(head_.end, '\0');
+    write_durably(path_, content);
+    write_index();
+    file_.emplace(path_, O_RDWR, path_);
+  }
+
+  /// A file that is there.
+  Contents(fs::path path, const State& state, const std::string& settings)
+      : Contents(std::move(path), facts_of(state, settings), state.time_step) {
+    file_.emplace(path_, O_RDWR, path_);
+    const std::string head = file_->read_at(0, trajectory_head_size);
+    head_ = read_trajectory_head(Bytes(head));
+    require(head_.grains == facts_.grains && head_.wall_grains == facts_.wall_grains
+                && head_.frames_per_block == layout_.frames_per_block,
+            "it is of other grains");
+    read_blocks();
+  }
+
+  std::uint64_t steps_per_frame() const { return head_.steps_per_frame; }
+  std::uint64_t frames() const { return head_.frames; }
+  const fs::path& path() const { return path_; }
+
+  void cut(std::uint64_t frames) { head_.frames = frames; }
+
+  void append(const State& state) {
+    const Frame frame(state);
+    const std::uint64_t in_block = head_.frames % layout_.frames_per_block;
+    const std::uint64_t block = block_of(head_.frames / layout_.frames_per_block);
+    const auto write = [&](std::uint64_t offset, std::string_view bytes) {
+      file_->write_at(block + offset + in_block * bytes.size(), bytes);
+    };
+    const std::array<float, components> cell = {0.0F, static_cast<float>(facts_.length), 0.0F};
+    const std::array<std::int64_t, 1> step = {state.step};
+    const std::array<double, 1> time = {state.time()};
+    write(layout_.position, bytes_of(frame.position));
+    write(layout_.velocity, bytes_of(frame.velocity));
+    write(layout_.cell, bytes_of(cell));
+    write(layout_.step, bytes_of(step));
+    write(layout_.time, bytes_of(time));
+    ++head_.frames;
+  }
+
+  void commit() {
+    const auto [root, outline] = next_outline();
+    file_->make_at_least(head_.end);
+    file_->sync();
+    file_->write_at(head_.places.at(head_.in_use).address, outline);
+    file_->sync();
+    file_->write_at(0, written(head_, root));
+    file_->sync();
+    write_index();
+  }
+
+private:
+  Contents(fs::path path, TrajectoryFacts facts, double time_step)
+      : path_(std::move(path)),
+        facts_(std::move(facts)),
+        time_step_(time_step),
+        fixed_(place_fixed_arrays(facts_)),
+        layout_(facts_.grains, frames_in_a_block(facts_.grains)) {
+    head_.grains = facts_.grains;
+    head_.wall_grains = facts_.wall_grains;
+  }
+
+  /// The address of a block, which is at the end of the file if there is none yet.
+  std::uint64_t block_of(std::uint64_t number) {
+    if (number == blocks_.size())
+      blocks_.push_back(std::exchange(head_.end, head_.end + layout_.size));
+    return blocks_.at(number);
+  }
+
+  struct Outline {
+    std::uint64_t root;
+    std::string bytes;  // addresses of blocks, then what HDF5 reads
+  };
+
+  Outline outline_at(std::uint64_t address) const {
+    ByteWriter blocks;
+    for (const auto block : blocks_) blocks.number(block, 8);
+    Hdf5Outline outline(address + blocks.bytes().size());
+    const auto root = outline_trajectory(outline, facts_, fixed_, layout_, blocks_, head_.frames);
+    return {.root = root, .bytes = blocks.bytes() + outline.bytes()};
+  }
+
+  /// For the place that is not in use, which the head takes for the one in use from now on.
+  Outline next_outline() {
+    head_.in_use = 1 - head_.in_use;
+    OutlinePlace& place = head_.places.at(head_.in_use);
+    Outline outline = outline_at(place.address);
+    if (outline.bytes.size() > place.capacity) {
+      place = {.address = head_.end, .capacity = 2 * outline.bytes.size()};
+      head_.end += place.capacity;
+      outline = outline_at(place.address);
+    }
+    head_.blocks = blocks_.size();
+    head_.outline_size = outline.bytes.size();
+    head_.outline_checksum = checksum_of(outline.bytes);
+    return outline;
+  }
+
+  void read_blocks() {
+    const OutlinePlace& place = head_.places.at(head_.in_use);
+    require(head_.outline_size <= place.capacity && place.capacity <= head_.end
+                && head_.blocks <= head_.outline_size / 8,
+            "its head is damaged");
+    const std::string outline = file_->read_at(place.address, head_.outline_size);
+    require(checksums_are_forged || checksum_of(outline) == head_.outline_checksum,
+            "its outline is damaged");
+    for (std::uint64_t i = 0; i < head_.blocks; ++i) {
+      blocks_.push_back(Bytes(outline).number(8 * i, 8));
+      require(blocks_[i] >= fixed_.wall_end && blocks_[i] <= head_.end
+                  && layout_.size <= head_.end - blocks_[i],
+              "its outline is damaged");
+    }
+    require(head_.frames <= head_.blocks * layout_.frames_per_block, "its outline is damaged");
+  }
+
+  void write_index() const {
+    write_durably(
+        fs::path(path_).replace_filename(trajectory_index_name),
+        trajectory_index({.file = path_.filename().string(),
+                          .grains = facts_.grains,
+                          .wall_grains = facts_.wall_grains,
+                          .frames = head_.frames,
+                          .interval = static_cast<double>(head_.steps_per_frame) * time_step_}));
+  }
+
+  fs::path path_;
+  TrajectoryFacts facts_;
+  double time_step_;  // s
+  FixedArrays fixed_;
+  FrameBlocks layout_;
+  TrajectoryHead head_;
+  std::vector<std::uint64_t> blocks_;  // addresses
+  std::optional<Descriptor> file_;
+};
+
+TrajectoryFile::TrajectoryFile(std::unique_ptr<Contents> contents)
+    : contents_(std::move(contents)) {}
+TrajectoryFile::~TrajectoryFile() = default;
+TrajectoryFile::TrajectoryFile(TrajectoryFile&&) noexcept = default;
+TrajectoryFile& TrajectoryFile::operator=(TrajectoryFile&&) noexcept = default;
+
+TrajectoryFile TrajectoryFile::create(const fs::path& path, const State& state,
+                                      std::int64_t steps_per_frame, const std::string& settings) {
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(path, ignored)))
+    throw FileError(path, "exists already", "choose another directory, or remove it");
+  if (state.grains.size() > most_grains)
+    throw FileError(path, fmt::format("cannot hold frames of more than {} grains", most_grains),
+                    "run without a trajectory");
+  return TrajectoryFile(std::make_unique<Contents>(path, state, steps_per_frame, settings));
+}
+
+TrajectoryFile TrajectoryFile::reopen(const fs::path& path, const State& state,
+                                      std::int64_t steps_per_frame, const std::string& settings) {
+  const auto wanted = static_cast<std::uint64_t>(state.step / steps_per_frame + 1);
+  try {
+    auto contents = std::make_unique<Contents>(path, state, settings);
+    require(contents->steps_per_frame() == static_cast<std::uint64_t>(steps_per_frame),
+            "its frames are of other steps");
+    require(
+        contents->frames() >= wanted,
+        fmt::format("it has {} frames and the checkpoint counts {}", contents->frames(), wanted));
+    contents->cut(wanted);
+    return TrajectoryFile(std::move(contents));
+  } catch (const FileError&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // Hdf5Error or OutOfBytes
+    throw FileError(path, fmt::format("does not fit the checkpoint ({})", error.what()),
+                    "restore the file that belongs to it, or start the run again");
+  }
+}
+
+void TrajectoryFile::append(const State& state) { contents_->append(state); }
+std::int64_t TrajectoryFile::frames() const {
+  return static_cast<std::int64_t>(contents_->frames());
+}
+void TrajectoryFile::commit() { contents_->commit(); }
+
+std::uint64_t bytes_per_frame(std::uint64_t grains) { return FrameBlocks(grains, 1).size; }
+
+}  // namespace riesel::io

@@ -1,0 +1,72 @@
+// trajectory.h5: the grains frame by frame, in one file that H5MD readers, AMBER's netCDF readers
+// (OVITO), h5py and, with trajectory.xdmf2 beside it, ParaView open as it is.
+//
+// A trajectory is too large to be built in memory like run.h5, and HDF5's library cannot append
+// such that a kill at any moment leaves a whole file. So the outline of the file (hdf5_outline.hpp)
+// stands in one of two places, and frames are written where no outline points to:
+//
+//   head     512 bytes: HDF5's superblock, and what is needed to go on
+//   arrays   what belongs to no frame: radii, masses, ids, walls
+//   ...      blocks of frames and the two places for outlines, in the order in which they came
+//
+//   append   writes a frame into the last block, or into a new one at the end of the file
+//   commit   frames to the disk (fsync); a new outline into the place that is not in use, fsync;
+//            the head, which is one write within a sector, and points to the new outline, fsync
+//
+// Until the head is written the file is the old one, and then it is the new one. Outlines that no
+// longer fit get places twice as large; those left behind are less than the last ones together.
+#pragma once
+
+#include "engine/state.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace riesel::io {
+
+inline constexpr auto trajectory_name = "trajectory.h5";
+/// Beside it: tells ParaView what is in it. Replaced with each commit.
+inline constexpr auto trajectory_index_name = "trajectory.xdmf2";
+
+class TrajectoryFile {
+public:
+  /// A new file without frames, on the disk at once. `settings`: the effective ones. Frames will
+  /// come every `steps_per_frame` steps from step 0 on. Throws FileError, as all members do; in
+  /// particular if the file exists.
+  static TrajectoryFile create(const std::filesystem::path& path, const State& state,
+                               std::int64_t steps_per_frame, const std::string& settings);
+
+  /// Goes on with the file of a run that is resumed: of its frames those remain that were due up to
+  /// the step of `state`. Until the next commit the file on the disk stays as it is. Throws
+  /// FileError; in particular if it has fewer, is damaged, or is of another run.
+  static TrajectoryFile reopen(const std::filesystem::path& path, const State& state,
+                               std::int64_t steps_per_frame, const std::string& settings);
+
+  ~TrajectoryFile();
+  TrajectoryFile(TrajectoryFile&&) noexcept;
+  TrajectoryFile& operator=(TrajectoryFile&&) noexcept;
+  TrajectoryFile(const TrajectoryFile&) = delete;
+  TrajectoryFile& operator=(const TrajectoryFile&) = delete;
+
+  /// Adds a frame, which readers see after the next commit.
+  void append(const State& state);
+
+  /// Frames so far, committed or not.
+  std::int64_t frames() const;
+
+  /// From now on all frames are there, whatever happens.
+  void commit();
+
+private:
+  class Contents;
+  explicit TrajectoryFile(std::unique_ptr<Contents> contents);
+
+  std::unique_ptr<Contents> contents_;
+};
+
+/// Bytes that a frame of so many grains takes.
+std::uint64_t bytes_per_frame(std::uint64_t grains);
+
+}  // namespace riesel::io

@@ -1,0 +1,41 @@
+// The head of trajectory.h5: HDF5's superblock, and behind it, where HDF5 looks at nothing, what is
+// needed to go on with the file.
+#pragma once
+
+#include "io/bytes.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace riesel::io {
+
+inline constexpr std::size_t trajectory_head_size = 512;  ///< bytes: a sector of a disk
+
+/// A place for an outline.
+struct OutlinePlace {
+  std::uint64_t address = 0, capacity = 0;  ///< bytes
+};
+
+struct TrajectoryHead {
+  std::uint64_t grains = 0, wall_grains = 0;
+  std::uint64_t steps_per_frame = 0, frames_per_block = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t blocks = 0;            ///< their addresses stand at the beginning of the outline
+  std::uint64_t end = 0;               ///< of all that is in use, bytes
+  std::array<OutlinePlace, 2> places;  ///< for outlines
+  std::uint64_t in_use = 0;            ///< which of the two
+  std::uint64_t outline_size = 0;      ///< bytes
+  std::uint64_t outline_checksum = 0;  ///< FNV-1a
+};
+
+/// `root`: the address of the root group.
+std::string written(const TrajectoryHead& head, std::uint64_t root);
+
+/// The head of a file. Throws Hdf5Error if it is none, or damaged.
+TrajectoryHead read_trajectory_head(const Bytes& bytes);
+
+std::uint64_t checksum_of(std::string_view bytes);
+
+}  // namespace riesel::io

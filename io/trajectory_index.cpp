@@ -1,0 +1,75 @@
+#include "io/trajectory_index.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace riesel::io {
+namespace {
+
+/// An array that belongs to no frame.
+std::string whole(std::string_view file, std::string_view path, const std::string& extent,
+                  int precision) {
+  return fmt::format(
+      R"(<DataItem Dimensions="{}" NumberType="Float" Precision="{}" Format="HDF">{}:{}</DataItem>)",
+      extent, precision, file, path);
+}
+
+/// One frame of an array of vectors.
+std::string of_frame(const TrajectoryIndex& index, std::string_view path, std::uint64_t frame) {
+  return fmt::format(
+      R"(<DataItem ItemType="HyperSlab" Dimensions="{0} 3" Type="HyperSlab">)"
+      R"(<DataItem Dimensions="3 3" Format="XML">{1} 0 0 1 1 1 1 {0} 3</DataItem>{2}</DataItem>)",
+      index.grains, frame,
+      whole(index.file, path, fmt::format("{} {} 3", index.frames, index.grains), 4));
+}
+
+std::string points(std::uint64_t count, const std::string& places) {
+  return fmt::format(R"(<Topology TopologyType="Polyvertex" NumberOfElements="{}"/>)"
+                     R"(<Geometry GeometryType="XYZ">{}</Geometry>)",
+                     count, places);
+}
+
+std::string attribute(std::string_view name, std::string_view type, const std::string& values) {
+  return fmt::format(R"(<Attribute Name="{}" AttributeType="{}" Center="Node">{}</Attribute>)",
+                     name, type, values);
+}
+
+std::string radius(const TrajectoryIndex& index, std::string_view group, std::uint64_t count) {
+  return attribute(
+      "radius", "Scalar",
+      whole(index.file, fmt::format("/particles/{}/radius", group), fmt::format("{}", count), 8));
+}
+
+std::string grid(std::string_view name, const std::string& content) {
+  return fmt::format(R"(<Grid Name="{}" GridType="Uniform">{}</Grid>)"
+                     "\n",
+                     name, content);
+}
+
+}  // namespace
+
+std::string trajectory_index(const TrajectoryIndex& index) {
+  const std::string walls =
+      grid("walls", points(index.wall_grains, whole(index.file, "/particles/walls/position",
+                                                    fmt::format("{} 3", index.wall_grains), 4))
+                        + radius(index, "walls", index.wall_grains));
+  const std::string radii = radius(index, "grains", index.grains);
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain>\n"
+      "<Grid Name=\"trajectory\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (std::uint64_t frame = 0; frame < index.frames; ++frame) {
+    text += fmt::format("<Grid Name=\"frame\" GridType=\"Collection\" CollectionType=\"Spatial\">"
+                        "<Time Value=\"{}\"/>\n",
+                        static_cast<double>(frame) * index.interval);
+    text += grid("grains",
+                 points(index.grains, of_frame(index, "/particles/grains/position/value", frame))
+                     + attribute("velocity", "Vector",
+                                 of_frame(index, "/particles/grains/velocity/value", frame))
+                     + radii);
+    text += walls + "</Grid>\n";
+  }
+  return text + "</Grid>\n</Domain></Xdmf>\n";
+}
+
+}  // namespace riesel::io

@@ -1,0 +1,16 @@
+// The start of the tube from a file of grains: places, velocities and sizes, a grain per row.
+#pragma once
+
+#include "engine/state.hpp"
+#include "io/settings.hpp"
+
+#include <vector>
+
+namespace riesel::scenarios {
+
+/// The grains of the file at `start.from`. `empty` has the box and the walls, but no grains.
+/// Rejects with file, line and column what stands outside of the tube, in a wall or in another
+/// grain.
+std::vector<Grain> grains_of_file(const io::Settings& settings, const State& empty);
+
+}  // namespace riesel::scenarios

@@ -1,0 +1,53 @@
+"""Every command of the README and of the manual is run: as it stands, or in a shorter form."""
+
+import re
+
+from manual import HOME, ManualTest, commands
+
+OWN_TESTS = {"first_run.md"}
+KEPT = "bench/results/intel-xeon-2-cores-4bc4f3a.json"
+
+# (what stands in the manual, what is run instead): hours are made seconds, and what would install packages is asked
+# for its help. The first one that fits.
+SHORTER = [
+    (r"\./setup\.sh (\w+)", r"./setup.sh help | grep '^  \1 '"),
+    (r"docs/paper/reproduce\.sh (\w+)", r"docs/paper/reproduce.sh --help 2>&1 | grep '^  \1 '"),
+    (r"(riesel run (?:scenarios/)?periodic_tube\.yaml.*)", r"\1 --set tube.length='10 mm' --set run.duration='0.1 s'"),
+    (r"(riesel resume .*)'4 s'", r"\1'0.2 s'"),
+    (r"(riesel resume .*)'20 s'", r"\1'0.3 s'"),
+    (r"(riesel sweep scenarios/paper/.*)", r"\1 --dry-run"),
+    (r"seq 0 15 \| parallel -j 2 riesel sweep-task DIR (.*)",
+     r"seq 0 15 | xargs -P 2 -I {} riesel sweep-task sweeps/restitution \1"),
+    (r"cmake --preset (\w+) && cmake --build --preset .*", r"cmake --list-presets | grep '\"\1\"'"),
+    (r"build/bench/bench/speed( .*)?", "build/bench/bench/speed list"),
+    (r"build/bench/bench/simd/simd STATE\.h5", "test -x build/bench/bench/simd/simd"),
+    (r"bench/compare\.py \w+\.json", f"bench/compare.py {KEPT}"),
+    (r"bench/compare\.py A\.json B\.json (.*)", rf"bench/compare.py {KEPT} {KEPT} \1"),
+    (r"bench/peers/run\.py", "/usr/bin/python3 bench/peers/run.py --help"),
+    (r"RIESEL_KILLS=\w+ (python3 -m unittest -v test_faults)", "test -f tests/reliability/test_faults.py"),
+    (r"build/ci/tests/reliability/every_bit", r"\g<0> 9973"),
+    (r"mkdir .* build/fuzz/tests/fuzz/fuzz_yaml -dict=(\S+) .* (tests/fuzz/corpus/yaml)", r"test -f \1 -a -d \2"),
+    (r"(build/ci/tests/properties set-ups) .*", r"\1 1001 2"),
+    (r"tests/mutation/mutate\.py.*", "tests/mutation/mutate.py --help"),
+]
+
+
+def short_form(command):
+    for stands, runs in SHORTER:
+        if match := re.fullmatch(stands, command):
+            return match.expand(runs)
+    return command
+
+
+class Commands(ManualTest):
+    def check(self, page):
+        text = page.read_text()
+        self.put_files(text)
+        return len([self.execute(short_form(command)) for command, _ in commands(text)])
+
+    def test_readme(self):
+        self.assertGreater(self.check(HOME / "README.md"), 5)
+
+    def test_the_pages_of_the_manual(self):
+        pages = [page for page in sorted((HOME / "docs").glob("*.md")) if page.name not in OWN_TESTS]
+        self.assertGreater(sum(self.check(page) for page in pages), 30)
