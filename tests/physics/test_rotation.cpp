@@ -76,7 +76,8 @@ TEST_CASE("where friction slides, the spin takes up the torque of its impulse") 
   // A stiff spring is stretched before it slides.
   CHECK(impulse / (2.0 * mu * mass) == Approx(1.0).epsilon(1e-3));
   // The wall is at smaller x: friction against +y turns the grain counter-clockwise.
-  CHECK(out.spin * inertia * mass * radius * radius == Approx(impulse * radius).epsilon(1e-4));
+  CHECK(out.spin * inertia * mass * radius * radius
+        == Approx(impulse * radius).epsilon(1e-3));  // the normal turns
 }
 
 TEST_CASE("an impact sticks or slides as Walton's rigid grains without tangential restitution") {
