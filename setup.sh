@@ -8,11 +8,12 @@ build_packages=(
   cmake ninja-build g++ git
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libudunits2-dev librandom123-dev catch2
-  python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
-# Read what riesel writes, in the tests only; a shell that completes its command line.
-test_packages=(python3-netcdf4 python3-jsonschema python3-yaml zsh)
+  python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib)
+# Read what riesel writes, in the tests only; a shell that completes its command line; what runs the
+# tasks of a sweep.
+test_packages=(python3-netcdf4 python3-jsonschema zsh parallel)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
-lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen)
+lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen mypy)
 # Shows the pages of riesel report to the tests, which are skipped without it.
 browser_packages=(chromium)
 # Which lines the tests reach (docs/reliability.md).
@@ -22,6 +23,9 @@ look_packages=(paraview python3-paraview ffmpeg)
 # Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
 peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
+
+# A queue, in which tests can run sweeps (docs/cluster.md).
+cluster_packages=(slurm-wlm munge)
 
 riesel=build/release/app/riesel
 run_input=scenarios/periodic_tube.yaml
@@ -36,8 +40,8 @@ Usage: ./setup.sh COMMAND
   test       install what is missing, build with warnings as errors, run all tests;
              further arguments go to ctest, e.g. -R engine
   build      install what is missing and build the release: $riesel
-  lint       check formatting, C++, shell scripts and what is written about the API
-             (clang-format, clang-tidy, shellcheck, Doxygen)
+  lint       check formatting, C++, Python, shell scripts and what is written about the API
+             (clang-format, clang-tidy, mypy, shellcheck, Doxygen)
   api        the headers and the manual as pages: build/api/html/index.html
   coverage   build for it, run the tests and tell which lines they do not reach;
              further arguments go to ctest
@@ -46,6 +50,7 @@ Usage: ./setup.sh COMMAND
   peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
   look       install ParaView and ffmpeg too, and test that they show trajectories
+  cluster    install Slurm and munge too: sweeps can be tested on them
   help       this text
 END
 }
@@ -123,7 +128,7 @@ run_scenario() {
   cat "$out.txt"
 }
 
-cpp_files() { find engine io scenarios app tests bench -name '*.[ch]pp' | sort; }
+cpp_files() { find engine io scenarios app tests bench examples -name '*.[ch]pp' | sort; }
 cpp_sources() { find "$@" -name '*.cpp' | sort; }
 
 # What the compiler's command lines name.
@@ -148,6 +153,8 @@ lint() {
   shellcheck setup.sh .ci/run docs/paper/reproduce.sh || complaints+=(shellcheck)
   say "doxygen"
   api || complaints+=(doxygen)
+  say "mypy"
+  (cd python && mypy riesel) || complaints+=(mypy)
   # What takes the time are the headers of libraries, so most checks read units of several sources.
   # A "redefinition" across two sources of a room wants another name, or SKIP_UNITY_BUILD_INCLUSION
   # as in the room's CMakeLists.txt. The analyzer and two checks look at the main file only: they read
@@ -214,6 +221,7 @@ case $command in
     build ci --target riesel
     ctest --preset ci -R 'cli/test_(trajectory|paraview|film)'
     ;;
+  cluster) install_packages "${build_packages[@]}" "${cluster_packages[@]}" ;;
   peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)

@@ -4,6 +4,7 @@
 
 #include "app/flow_options.hpp"
 #include "app/run_directory.hpp"
+#include "app/slurm.hpp"
 #include "io/settings.hpp"
 
 #include <cstddef>
@@ -51,14 +52,19 @@ struct SweepOptions {
   bool dry_run = false;                            ///< only tell what would be run
   bool prepare_only = false;                       ///< write the plan, run nothing
   bool retry_failed = false;                       ///< run again what failed
+  std::optional<double> max_walltime;  ///< s on the clock: of the command, or of a task of Slurm
+  bool to_slurm = false;               ///< leave the running to Slurm
+  SlurmOptions slurm;
 };
 
 int sweep(const SweepOptions& options);
 
 struct SweepTaskOptions {
-  std::filesystem::path directory;  ///< of a sweep that was prepared
-  std::size_t index = 0;            ///< of the point, as --dry-run lists them
-  std::optional<int> threads;       ///< [as many as cores, if that many are of use]
+  std::filesystem::path directory;     ///< of a sweep that was prepared
+  std::size_t index = 0;               ///< of the point, as --dry-run lists them; or of the part
+  std::optional<std::size_t> parts;    ///< how many the sweep is cut into, see sweep_parts.hpp
+  std::optional<int> threads;          ///< [as many as cores, if that many are of use]
+  std::optional<double> max_walltime;  ///< s on the clock, to stop before; from the program's start
   bool retry_failed = false;
 };
 

@@ -1,6 +1,7 @@
 #include "app/run_directory.hpp"
 
 #include "app/commands.hpp"
+#include "io/build_info.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
@@ -13,7 +14,8 @@ namespace fs = std::filesystem;
 
 RunDirectory::RunDirectory(const fs::path& path, const io::Settings& settings)
     : path_(path), lock_(std::make_unique<io::DirectoryLock>(path)) {
-  io::write_durably(file(io::effective_settings_name), settings.effective_yaml());
+  io::write_durably(file(io::effective_settings_name),
+                    "# Written by " + written_by() + ".\n" + settings.effective_yaml());
 }
 
 RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {

@@ -6,6 +6,7 @@
 #include "app/print_sweep.hpp"
 #include "app/sweep_collect.hpp"
 #include "app/sweep_directory.hpp"
+#include "app/sweep_parts.hpp"
 #include "app/sweep_plan.hpp"
 #include "app/sweep_runner.hpp"
 #include "io/directory_lock.hpp"
@@ -74,6 +75,49 @@ void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path
                                   point.name, point.parent));
 }
 
+/// An array of Slurm's default size, where nobody can be asked.
+constexpr std::size_t usual_most_tasks = 1000;
+
+int show_slurm_script(const io::Manifest& manifest, const fs::path& sweep,
+                      const SweepOptions& options) {
+  const std::size_t most = most_tasks_of_slurm().value_or(usual_most_tasks);
+  const std::string script =
+      slurm_script(manifest, sweep, options.slurm, options.max_walltime, most);
+  fmt::print("{}", script.empty() ? "# nothing is left to be done\n" : script);
+  return exit_done;
+}
+
+int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptions& options) {
+  const auto most = most_tasks_of_slurm();
+  if (!most)
+    throw UnusableInput("--slurm: scontrol does not answer; call this on a machine with Slurm, or "
+                        "see --prepare for other batch systems");
+  const std::string script =
+      slurm_script(manifest, sweep, options.slurm, options.max_walltime, *most);
+  if (script.empty()) {
+    print_status(manifest, sweep);
+    return exit_done;
+  }
+  make_directory(sweep / "slurm");
+  io::write_durably(sweep / slurm_script_name, script);
+  fmt::print("{}: submitted as job {}; see 'riesel status {}'\n", sweep.string(),
+             submit_to_slurm(sweep / slurm_script_name), sweep.string());
+  return exit_done;
+}
+
+/// Which points a task is for.
+std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Manifest& manifest) {
+  const std::size_t count = options.parts.value_or(manifest.points.size());
+  if (options.index >= count)
+    throw UnusableInput(fmt::format("{}: has no {} {}; give an index from 0 to {}",
+                                    options.directory.string(), options.parts ? "part" : "point",
+                                    options.index, count - 1));
+  if (options.parts) return parts_of(manifest, count)[options.index];
+  const io::ManifestPoint& point = manifest.points[options.index];
+  reject_waiting_for_neighbour(point, options.directory);
+  return {point.name};
+}
+
 }  // namespace
 
 int sweep(const SweepOptions& options) {
@@ -82,6 +126,7 @@ int sweep(const SweepOptions& options) {
   const int jobs = options.jobs.value_or(cores());
   if (options.dry_run) {
     refresh(plan.manifest, directory);
+    if (options.to_slurm) return show_slurm_script(plan.manifest, directory, options);
     print_plan(plan.manifest, directory, jobs);
     return exit_done;
   }
@@ -92,6 +137,10 @@ int sweep(const SweepOptions& options) {
                plan.manifest.points.size());
     return exit_done;
   }
+  if (options.to_slurm) {
+    refresh(plan.manifest, directory);
+    return submit(plan.manifest, directory, options);
+  }
   const auto write_manifest = [&](const io::Manifest& manifest) {
     io::write_durably(directory / io::manifest_name, io::to_json(manifest));
   };
@@ -99,6 +148,7 @@ int sweep(const SweepOptions& options) {
                                 {.jobs = jobs,
                                  .cores = cores(),
                                  .retry_failed = options.retry_failed,
+                                 .max_walltime = options.max_walltime,
                                  .on_change = write_manifest});
   write_table(plan.manifest, directory);
   print_status(plan.manifest, directory);
@@ -109,19 +159,18 @@ int sweep(const SweepOptions& options) {
 
 int sweep_task(const SweepTaskOptions& options) {
   io::Manifest manifest = manifest_in(options.directory);
-  if (options.index >= manifest.points.size())
-    throw UnusableInput(fmt::format("{}: has no point {}; give an index from 0 to {}",
-                                    options.directory.string(), options.index,
-                                    manifest.points.size() - 1));
-  const io::ManifestPoint point = manifest.points[options.index];
-  reject_waiting_for_neighbour(point, options.directory);
-  const int status = run_points(manifest, options.directory, {point.name},
+  const std::vector<std::string> names = names_for(options, manifest);
+  if (names.empty()) return exit_done;  // more parts than there are points
+  const int status = run_points(manifest, options.directory, names,
                                 {.jobs = 1,
                                  .cores = options.threads.value_or(cores()),
-                                 .retry_failed = options.retry_failed});
-  const RunStanding standing = standing_of(point_directory(options.directory, point.name));
-  fmt::print("point {}: {}{}{}\n", point.name, to_string(standing.status),
-             standing.reason.empty() ? "" : ": ", standing.reason);
+                                 .retry_failed = options.retry_failed,
+                                 .max_walltime = options.max_walltime});
+  for (const std::string& name : names) {
+    const RunStanding standing = standing_of(point_directory(options.directory, name));
+    fmt::print("point {}: {}{}{}\n", name, to_string(standing.status),
+               standing.reason.empty() ? "" : ": ", standing.reason);
+  }
   return status;
 }
 

@@ -4,6 +4,7 @@
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/walltime.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_record.hpp"
 
@@ -84,7 +85,7 @@ public:
       for (const auto& job : jobs_)
         if (job->process) look_after(*job);
       pass_signal_on();
-      const bool more = interrupting_signal() == 0 && start_what_can();
+      const bool more = ending_signal() == 0 && start_what_can();
       if (!more && running_ == 0) break;
       show_progress();
       if (Clock::now() - last_manifest_ > between_manifests) write_manifest();
@@ -93,7 +94,8 @@ public:
     progress_.finish();
     write_manifest();
     if (interrupting_signal() != 0) return 128 + interrupting_signal();
-    return count(RunStatus::done) == jobs_.size() ? exit_done : exit_failed;
+    if (count(RunStatus::done) == jobs_.size()) return exit_done;
+    return passed_on_ ? exit_out_of_time : exit_failed;
   }
 
 private:
@@ -192,7 +194,7 @@ private:
     if (job.status == RunStatus::done || taken_by_another) return;
     if (was_stopped(*end)) {
       job.status = RunStatus::interrupted;
-      if (job.starts == most_starts && interrupting_signal() == 0)
+      if (job.starts == most_starts && ending_signal() == 0)
         tell("point {} was stopped {} times; 'riesel sweep' goes on with it", job, most_starts);
       return;
     }
@@ -217,11 +219,21 @@ private:
     fmt::print(stderr, "riesel: {}\n", fmt::format(format, job.name, what));
   }
 
+  /// What the runs are to be stopped by, or 0. They need some time to write their checkpoints.
+  int ending_signal() const {
+    constexpr double most_reserve = 60.0;  // s
+    if (interrupting_signal() != 0 || !options_.max_walltime) return interrupting_signal();
+    const double reserve = std::min(most_reserve, 0.1 * *options_.max_walltime);
+    const bool time_is_over = seconds_since_start_of_program() > *options_.max_walltime - reserve;
+    return time_is_over ? SIGTERM : 0;
+  }
+
   void pass_signal_on() {
-    if (interrupting_signal() == 0 || passed_on_) return;
+    const int signal = ending_signal();
+    if (signal == 0 || passed_on_) return;
     passed_on_ = true;
     for (const auto& job : jobs_)
-      if (job->process) job->process->send(interrupting_signal());
+      if (job->process) job->process->send(signal);
   }
 
   /// A run that takes longer than expected is almost done, as far as we know.

@@ -11,22 +11,24 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace riesel::app {
 
 struct SweepRunOptions {
-  int jobs = 1;               ///< processes at the same time
-  int cores = 1;              ///< shared by them
-  bool retry_failed = false;  ///< start again what failed
+  int jobs = 1;                             ///< processes at the same time
+  int cores = 1;                            ///< shared by them
+  bool retry_failed = false;                ///< start again what failed
+  std::optional<double> max_walltime = {};  ///< s, since the program's start, to stop before
   /// Called now and then, and at the end, with the snapshot in the manifest up to date.
   std::function<void(const io::Manifest&)> on_change = [](const io::Manifest&) {};
 };
 
 /// Runs those points that have not come to their end, but none that failed before (see options).
-/// `names`: which points; all if empty. Returns 0 if all of them are done, 1 if not, 128 + signal
-/// if interrupted. The manifest is up to date then.
+/// `names`: which points; all if empty. Returns 0 if all of them are done, 1 if not, 3 if the time
+/// was over, 128 + signal if interrupted. The manifest is up to date then.
 int run_points(io::Manifest& manifest, const std::filesystem::path& sweep,
                const std::vector<std::string>& names, const SweepRunOptions& options);
 

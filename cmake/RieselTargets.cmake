@@ -1,7 +1,7 @@
 # How a room of the house becomes a target: warnings, arithmetic, sanitizers, and what a room may
 # include.
 #
-#   riesel_library(engine SOURCES a.cpp ... [PRIVATE_HEADERS b.hpp ...]
+#   riesel_library(engine SOURCES a.cpp ... [PRIVATE_HEADERS b.hpp ...] [PUBLIC_HEADERS c.hpp ...]
 #                  [PUBLIC targets...] [PRIVATE targets...])
 #   riesel_program(riesel ROOM app SOURCES main.cpp ... LINK targets...)
 #
@@ -77,9 +77,10 @@ function(riesel_house_rules target)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:riesel_warnings>)
 endfunction()
 
-# PRIVATE_HEADERS need libraries that are PRIVATE, and are not installed.
+# PRIVATE_HEADERS need libraries that are PRIVATE, and are not installed; if there are
+# PUBLIC_HEADERS, no others are.
 function(riesel_library room)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRIVATE_HEADERS;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRIVATE_HEADERS;PUBLIC_HEADERS;PUBLIC;PRIVATE")
   set(target riesel_${room})
   riesel_room_include(${room} include_dir)
   add_library(${target} STATIC ${arg_SOURCES})
@@ -92,7 +93,8 @@ function(riesel_library room)
   riesel_house_rules(${target})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY RIESEL_LIBRARIES ${room})
-  set_property(GLOBAL APPEND PROPERTY RIESEL_PRIVATE_HEADERS ${arg_PRIVATE_HEADERS})
+  set_property(GLOBAL PROPERTY RIESEL_PRIVATE_HEADERS_${room} ${arg_PRIVATE_HEADERS})
+  set_property(GLOBAL PROPERTY RIESEL_PUBLIC_HEADERS_${room} ${arg_PUBLIC_HEADERS})
 endfunction()
 
 function(riesel_program target)

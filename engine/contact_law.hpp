@@ -1,7 +1,8 @@
 // The contact laws: one small type each, with its formula and its source. They are values, inlined
 // into the one contact loop and chosen once per call of that loop.
 //
-// To add a normal law: write its type here and add it to NormalLaw. A type provides
+// To add a normal law: write its type here and add it to NormalLaw (or keep it outside of the
+// library: OuterLaw, docs/extending.md). A type provides
 //   elastic(xi)                    N, the part that stores energy
 //   damping(xi, rate, m_red)       N, the part that dissipates, of the sign of `rate`
 //   stored_energy(xi)              J
@@ -17,17 +18,14 @@
 // Source, unless said otherwise: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
 #pragma once
 
+#include "engine/elastic_line.hpp"
+#include "engine/outer_law.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
 namespace riesel {
-
-/// elastic force = stiffness * overlap^exponent
-struct ElasticLine {
-  double stiffness;  ///< N/m^exponent
-  double exponent;
-};
 
 /// Eq. (1): F_N = k_N xi + gamma_N m_red d(xi)/dt.
 struct LinearLaw {
@@ -66,7 +64,7 @@ struct HertzKuwabaraKonoLaw {
   ElasticLine elastic_line() const { return {k, 1.5}; }
 };
 
-using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw>;
+using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw, OuterLaw>;
 
 /// What a slip law sees of a contact. The slip is that of the surfaces, of the first body relative
 /// to the second, along s.

@@ -6,6 +6,7 @@
 // when it changes.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace riesel {
@@ -20,5 +21,8 @@ struct BuildInfo {
 };
 
 const BuildInfo& build_info();
+
+/// "riesel 0.1.0, commit 0123abcd", and ", changed" if it was dirty.
+std::string written_by();
 
 }  // namespace riesel

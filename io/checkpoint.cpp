@@ -147,6 +147,7 @@ void write(Hdf5Group root, const Checkpoint& checkpoint) {
   root.set_attribute("format", "riesel checkpoint");
   root.set_attribute("format_version", format_version);
   root.set_attribute("riesel_version", build_info().version);
+  root.set_attribute("git_commit", build_info().git_commit);
   root.set_attribute("rows", checkpoint.rows);
   root.set_attribute("wall_seconds", checkpoint.wall_seconds);
   root.write_text("settings", checkpoint.settings);

@@ -1,5 +1,6 @@
 #include "io/html_page.hpp"
 
+#include "io/build_info.hpp"
 #include "io/markup.hpp"
 
 #include <fmt/format.h>
@@ -117,8 +118,9 @@ void HtmlPage::folded(std::string_view name, std::string_view text) {
 std::string HtmlPage::text() const {
   return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                      "<meta name=\"viewport\" content=\"width=device-width\">\n"
+                     "<meta name=\"generator\" content=\"{}\">\n"
                      "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-                     escaped(title_), style, body_);
+                     written_by(), escaped(title_), style, body_);
 }
 
 }  // namespace riesel::io

@@ -1,5 +1,6 @@
 #include "io/run_record.hpp"
 
+#include "io/build_info.hpp"
 #include "io/durable_file.hpp"
 #include "io/json_cell.hpp"
 #include "io/json_file.hpp"
@@ -23,7 +24,9 @@ RunRecord read_run_record(const std::filesystem::path& directory) {
 }
 
 void write_run_record(const std::filesystem::path& directory, const RunRecord& record) {
-  const Json json = {{"attempts", record.attempts}, {"failure", record.failure}};
+  const Json json = {{"riesel_version", std::string(build_info().version)},
+                     {"attempts", record.attempts},
+                     {"failure", record.failure}};
   write_durably(directory / record_name, text_of(json));
 }
 

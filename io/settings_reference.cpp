@@ -76,12 +76,12 @@ std::string table_text(const SettingsTable& rows) {
   return text;
 }
 
-/// The rows of a scenario's table whose key is not in common_settings().
-SettingsTable own_rows(const SettingsTable& table) {
-  const auto common = common_settings();
+/// The rows of a scenario's table whose key is in common_settings(), or not.
+SettingsTable rows_of(const SettingsTable& table, bool common) {
+  const auto all_share = common_settings();
   SettingsTable rows;
   std::ranges::copy_if(table, std::back_inserter(rows),
-                       [&](const Setting& row) { return !has_key(common, row.key); });
+                       [&](const Setting& row) { return has_key(all_share, row.key) == common; });
   return rows;
 }
 
@@ -89,9 +89,9 @@ SettingsTable own_rows(const SettingsTable& table) {
 
 std::string settings_reference(const SettingsTables& tables) {
   std::string page = introduction;
-  page += "\n## All scenarios\n\n" + table_text(common_settings());
+  page += "\n## All scenarios\n\n" + table_text(rows_of(tables.begin()->second, true));
   for (const auto& [scenario, table] : tables) {
-    page += fmt::format("\n## Scenario `{}`\n\n", scenario) + table_text(own_rows(table));
+    page += fmt::format("\n## Scenario `{}`\n\n", scenario) + table_text(rows_of(table, false));
   }
   return page;
 }

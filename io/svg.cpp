@@ -1,5 +1,6 @@
 #include "io/svg.hpp"
 
+#include "io/build_info.hpp"
 #include "io/markup.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +104,7 @@ std::string Svg::with_name_space(std::string_view name_space) const {
 std::string Svg::element() const { return with_name_space(""); }
 
 std::string Svg::file() const {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Drawn by " + written_by() + ". -->\n"
          + with_name_space("http://www.w3.org/2000/svg");
 }
 

@@ -83,7 +83,8 @@ Cell cell_of(const Settings& settings, const std::string& key) {
 std::string to_json(const Manifest& manifest) {
   Json json = {{"format", format_name},
                {"format_version", format_version},
-               {"riesel_version", std::string(build_info().version)}};
+               {"riesel_version", std::string(build_info().version)},
+               {"commit", std::string(build_info().git_commit)}};
   json["varied"] = Json::array();
   for (const auto& setting : manifest.varied) {
     json["varied"].push_back({{"key", setting.key}, {"unit", setting.unit}});

@@ -107,6 +107,7 @@ void write_hdf5(const std::filesystem::path& path, const SweepTable& table,
   auto root = file.root();
   root.set_attribute("format", "riesel sweep");
   root.set_attribute("riesel_version", build_info().version);
+  root.set_attribute("git_commit", build_info().git_commit);
   root.write_text("sweep_file", sweep_file);
   auto group = root.create_group("points");
   for (const auto& column : table.columns()) write_column(group, column);

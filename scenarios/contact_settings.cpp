@@ -25,6 +25,7 @@ double linear_damping(const io::Settings& settings) {
 
 NormalLaw normal_law(const io::Settings& settings) {
   const std::string& law = settings.text("contact.law");
+  if (const Law* added = added_law(law)) return added->make(settings);
   const double stiffness = settings.number("contact.stiffness");
   if (law == "linear") return LinearLaw{.k_n = stiffness, .gamma_n = linear_damping(settings)};
   const double damping = settings.number("contact.damping");

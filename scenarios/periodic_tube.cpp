@@ -11,7 +11,6 @@
 #include "scenarios/grain_file.hpp"
 #include "scenarios/packing.hpp"
 #include "scenarios/run_length.hpp"
-#include "scenarios/run_limits.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/size_distribution.hpp"
 
@@ -107,33 +106,9 @@ io::SettingsTable flow_settings() {
   };
 }
 
-io::SettingsTable output_settings() {
-  return {
-      {.key = "output.interval",
-       .unit = "s",
-       .fallback = "1 ms",
-       .range = io::positive(),
-       .doc = "Simulated time between two rows of the time series."},
-      {.key = "output.checkpoint_interval",
-       .unit = "s",
-       .fallback = "60 s",
-       .range = io::positive(),
-       .doc = "Time on the clock between two checkpoints; the results do not depend on it.",
-       .matters = false},
-      {.key = "output.trajectory_interval",
-       .unit = "s",
-       .range = io::positive(),
-       .doc =
-           "Simulated time between two frames of trajectory.h5 (docs/files.md). By default there "
-           "is none.",
-       .matters = false},
-  };
-}
-
 io::SettingsTable own_settings() {
   io::SettingsTable table = start_settings();
-  for (const auto& rows : {size_settings(), flow_settings(), run_length_settings(),
-                           run_limits_settings(), output_settings()})
+  for (const auto& rows : {size_settings(), flow_settings(), common_flow_settings()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }

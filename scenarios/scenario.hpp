@@ -2,7 +2,8 @@
 // .yaml beside it that reproduces a figure of the paper; all of them stand in one table.
 //
 // To add one: write its .cpp with a function that returns its Scenario, declare that function in
-// table.cpp and add it to the table there.
+// table.cpp and add it to the table there. A program of somebody else adds its own with add(), and
+// contact laws, too (docs/extending.md).
 #pragma once
 
 #include "engine/bead_column.hpp"
@@ -18,7 +19,8 @@
 
 namespace riesel::scenarios {
 
-/// Many grains, to be stepped for a while and averaged over.
+/// Many grains between two walls, to be stepped for a while and averaged over. The table of such a
+/// scenario has common_flow_settings() and the mean `grains.diameter` and `grains.mass`.
 struct Flow {
   State state;
   ContactModel model;
@@ -52,6 +54,24 @@ struct Scenario {
   io::SettingsTable own_settings;           ///< besides the common ones
   Problem (*prepare)(const io::Settings&);  ///< throws SettingsError for what cannot be
 };
+
+/// What the command asks of every flow: `run.duration`, `run.until`, `limits`, `output`.
+io::SettingsTable common_flow_settings();
+
+/// A contact law from outside of the library, as a value of the setting `contact.law`.
+struct Law {
+  std::string name;
+  io::SettingsTable own_settings;  ///< keys of `contact`; they count with this law only
+  NormalLaw (*make)(const io::Settings&);
+};
+
+/// These are for the beginning of a program, before settings are read. Throw std::logic_error for a
+/// name that is taken, or if it is too late.
+void add(Scenario scenario);
+void add(Law law);
+
+/// The law of this name that was added, or nothing.
+const Law* added_law(const std::string& name);
 
 /// All scenarios, in the order in which they are listed to the user.
 const std::vector<Scenario>& all();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace riesel::scenarios {
 
@@ -10,28 +11,74 @@ Scenario wall_array();
 Scenario bead_column();
 Scenario periodic_tube();
 
-const std::vector<Scenario>& all() {
-  static const std::vector<Scenario> table = {
+namespace {
+
+struct Registry {
+  std::vector<Scenario> scenarios = {
       single_wall_grain(),
       wall_array(),
       bead_column(),
       periodic_tube(),
   };
-  return table;
+  std::vector<Law> laws;
+  bool in_use = false;  // the tables of settings have been made of it
+};
+
+Registry& registry() {
+  static Registry the_only_one;
+  return the_only_one;
 }
 
+template <class Entry>
+const Entry* find(const std::vector<Entry>& entries, const std::string& name) {
+  const auto found = std::ranges::find(entries, name, &Entry::name);
+  return found == entries.end() ? nullptr : &*found;
+}
+
+template <class Entry>
+void add_to(std::vector<Entry>& entries, Entry entry) {
+  if (registry().in_use) throw std::logic_error("'" + entry.name + "' is added too late");
+  if (find(entries, entry.name) != nullptr)
+    throw std::logic_error("'" + entry.name + "' is added twice");
+  entries.push_back(std::move(entry));
+}
+
+/// The law becomes one more choice, with its rows behind those of the other laws. It has no
+/// collision time in closed form, which takes the speed of an impact.
+void add_rows(const Law& law, io::SettingsTable& table) {
+  auto place = table.begin();
+  for (auto row = table.begin(); row != table.end(); ++row) {
+    if (row->key == "contact.law") row->choices.push_back(law.name);
+    if (row->key == "contact.impact_speed") row->only_when->values.push_back(law.name);
+    if (row->only_when && row->only_when->key == "contact.law") place = row + 1;
+  }
+  io::SettingsTable rows = law.own_settings;
+  for (io::Setting& row : rows) row.only_when = io::When{"contact.law", {law.name}};
+  table.insert(place, rows.begin(), rows.end());
+}
+
+}  // namespace
+
+const std::vector<Scenario>& all() { return registry().scenarios; }
+
 const Scenario& named(const std::string& name) {
-  const auto found =
-      std::find_if(all().begin(), all().end(), [&](const Scenario& s) { return s.name == name; });
-  if (found == all().end()) throw std::logic_error("no scenario '" + name + "' in the table");
+  const Scenario* found = find(all(), name);
+  if (found == nullptr) throw std::logic_error("no scenario '" + name + "' in the table");
   return *found;
 }
 
+void add(Scenario scenario) { add_to(registry().scenarios, std::move(scenario)); }
+void add(Law law) { add_to(registry().laws, std::move(law)); }
+
+const Law* added_law(const std::string& name) { return find(registry().laws, name); }
+
 const io::SettingsTables& settings_tables() {
   static const io::SettingsTables tables = [] {
+    registry().in_use = true;
     io::SettingsTables by_name;
     for (const Scenario& scenario : all()) {
       io::SettingsTable rows = io::common_settings();
+      for (const Law& law : registry().laws) add_rows(law, rows);
       rows.insert(rows.end(), scenario.own_settings.begin(), scenario.own_settings.end());
       io::verify_table(rows);
       by_name.emplace(scenario.name, std::move(rows));

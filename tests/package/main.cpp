@@ -1,11 +1,30 @@
-// Uses a header of the engine and a function of io, so that the installed include paths and
-// libraries are both tried.
+// Uses a header of the engine, a function of io and the registry of scenarios, so that the
+// installed include paths and libraries are both tried.
 #include "engine/box.hpp"
 #include "io/build_info.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <cstdio>
+#include <stdexcept>
+
+namespace {
+
+/// Whether a scenario of this name is refused.
+bool is_refused(const char* name) {
+  try {
+    riesel::scenarios::add({.name = name, .summary = "", .own_settings = {}, .prepare = nullptr});
+  } catch (const std::logic_error&) {
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 int main() {
+  if (!is_refused("periodic_tube") || is_refused("own") || !is_refused("own")) return 1;
+  riesel::scenarios::settings_tables();
+  if (!is_refused("another")) return 1;  // too late
   const riesel::Box box{.width = 0.02, .length = 0.1};
   const auto& version = riesel::build_info().version;
   std::printf("riesel %.*s\n", static_cast<int>(version.size()), version.data());

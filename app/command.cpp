@@ -1,5 +1,7 @@
 // The command riesel: reads the command line, calls a subcommand, turns errors into messages and
 // exit status.
+#include "app/command.hpp"
+
 #include "app/commands.hpp"
 #include "app/completion.hpp"
 #include "app/exit_status.hpp"
@@ -18,6 +20,7 @@
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <optional>
 #include <string>
 
 namespace {
@@ -31,6 +34,7 @@ std::string version_text() {
 }
 
 constexpr int most_jobs = 1024;
+constexpr std::size_t most_tasks = 10'000'000;
 
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
   command.add_option("--set", overrides, "Change a setting: key.path=value; may be repeated")
@@ -44,11 +48,17 @@ void add_threads(CLI::App& command, std::vector<std::string>& overrides) {
       "Number of threads, or 'auto'; the results do not depend on it");
 }
 
+CLI::Option* add_max_walltime(CLI::App& command, std::optional<double>& max_walltime,
+                              const std::string& what) {
+  return command.add_option_function<std::string>(
+      "--max-walltime", [&](const std::string& time) { max_walltime = app::read_walltime(time); },
+      what);
+}
+
 void add_flow_options(CLI::App& command, app::FlowOptions& options) {
   command.add_flag("--profile", options.profile, "Tell where the time went; for flows");
-  command.add_option_function<std::string>(
-      "--max-walltime",
-      [&](const std::string& time) { options.max_walltime = app::read_walltime(time); },
+  add_max_walltime(
+      command, options.max_walltime,
       "Stop with a checkpoint before this time on the clock, such as '23.5 h', is over; for flows");
 }
 
@@ -137,7 +147,28 @@ private:
     sweep->add_flag("--dry-run", sweep_.dry_run, "List the points, their directories and cost");
     sweep->add_flag("--prepare", sweep_.prepare_only, "Write the plan for sweep-task, run nothing");
     sweep->add_flag("--retry-failed", sweep_.retry_failed, "Run again what failed");
+    add_max_walltime(*sweep, sweep_.max_walltime,
+                     "Stop with checkpoints before this time on the clock, such as '23.5 h', is "
+                     "over; with --slurm: the time of each task, which is queued again then");
+    add_slurm(*sweep);
     set_command(*sweep, *file, [this] { return app::sweep(sweep_); });
+  }
+
+  void add_slurm(CLI::App& sweep) {
+    CLI::Option* slurm = sweep.add_flag("--slurm", sweep_.to_slurm,
+                                        "Submit the sweep to Slurm; --dry-run shows the script");
+    sweep.add_option("--tasks", sweep_.slurm.tasks, "Tasks of Slurm at most [one per point]")
+        ->check(CLI::Range(std::size_t{1}, most_tasks))
+        ->needs(slurm);
+    sweep.add_option("--threads", sweep_.slurm.threads, "Threads of each task of Slurm [1]")
+        ->check(CLI::Range(1, most_jobs))
+        ->needs(slurm);
+    sweep
+        .add_option("--sbatch", sweep_.slurm.for_sbatch,
+                    "Option for sbatch, such as --sbatch=--partition=long; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->needs(slurm);
   }
 
   void add_sweep_task() {
@@ -145,8 +176,12 @@ private:
         program_.add_subcommand("sweep-task", "Run one point of a sweep, for a batch system");
     task->add_option("DIR", task_.directory, "Directory of the sweep, see sweep --prepare");
     CLI::Option* index = task->add_option("INDEX", task_.index, "The point, counted from 0");
+    task->add_option("--of", task_.parts, "INDEX is one of so many parts of the sweep")
+        ->check(CLI::Range(std::size_t{1}, most_tasks));
     task->add_option("--threads", task_.threads, "Threads [as many as cores]")
         ->check(CLI::Range(1, most_jobs));
+    add_max_walltime(*task, task_.max_walltime,
+                     "Stop with checkpoints before this time on the clock is over");
     task->add_flag("--retry-failed", task_.retry_failed, "Run it again if it failed");
     set_command(*task, *index, [this] { return app::sweep_task(task_); });
   }
@@ -238,7 +273,7 @@ int run_program(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int riesel::app::command(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const io::SettingsError& error) {

@@ -1,0 +1,12 @@
+// The elastic part of a normal law as a power of the overlap: what collision times follow from.
+#pragma once
+
+namespace riesel {
+
+/// elastic force = stiffness * overlap^exponent
+struct ElasticLine {
+  double stiffness;  ///< N/m^exponent
+  double exponent;
+};
+
+}  // namespace riesel

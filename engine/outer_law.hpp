@@ -1,0 +1,66 @@
+// A normal law from outside of the library, such as NormalLaw can hold: known by its functions
+// instead of by its type.
+//
+// The kernel of the contact loop is compiled once for each law of the library, and once for all
+// laws from outside: there it calls functions for each contact, and is not vectorised.
+// docs/extending.md tells what that costs. Laws of the library pay nothing for it.
+#pragma once
+
+#include "engine/elastic_line.hpp"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+namespace riesel {
+
+class OuterLaw {
+public:
+  /// Any type with the functions that contact_law.hpp wants of a normal law, if its values are a
+  /// few numbers.
+  template <class Law>
+  explicit OuterLaw(const Law& law) : functions_(&functions_of<Law>) {
+    static_assert(std::is_trivially_copyable_v<Law> && sizeof(Law) <= sizeof(values_));
+    std::memcpy(values_.data(), &law, sizeof(Law));
+  }
+
+  double elastic(double xi) const { return functions_->elastic(values_, xi); }
+  double damping(double xi, double rate, double m_red) const {
+    return functions_->damping(values_, xi, rate, m_red);
+  }
+  double stored_energy(double xi) const { return functions_->stored_energy(values_, xi); }
+  ElasticLine elastic_line() const { return functions_->elastic_line(values_); }
+
+private:
+  static constexpr std::size_t most_numbers = 8;
+  using Values = std::array<double, most_numbers>;
+
+  struct Functions {
+    double (*elastic)(const Values&, double);
+    double (*damping)(const Values&, double, double, double);
+    double (*stored_energy)(const Values&, double);
+    ElasticLine (*elastic_line)(const Values&);
+  };
+
+  template <class Law>
+  static Law law_in(const Values& values) {
+    std::array<std::byte, sizeof(Law)> bytes;
+    std::memcpy(bytes.data(), values.data(), sizeof(Law));
+    return std::bit_cast<Law>(bytes);
+  }
+
+  template <class Law>
+  static constexpr Functions functions_of = {
+      .elastic = [](const Values& v, double xi) { return law_in<Law>(v).elastic(xi); },
+      .damping = [](const Values& v, double xi, double rate,
+                    double m_red) { return law_in<Law>(v).damping(xi, rate, m_red); },
+      .stored_energy = [](const Values& v, double xi) { return law_in<Law>(v).stored_energy(xi); },
+      .elastic_line = [](const Values& v) { return law_in<Law>(v).elastic_line(); }};
+
+  Values values_{};
+  const Functions* functions_;
+};
+
+}  // namespace riesel

@@ -1,0 +1,18 @@
+"""Reads what riesel writes: the directory of a run, and that of a sweep.
+
+    import riesel
+    run = riesel.Run("runs/e09")
+    run.summary["state"], run.estimate("mean_axial_velocity")
+    run.series["time"], run.series["mean_vy"]
+
+Everything is in SI units, names are those of docs/files.md, and arrays are numpy's. Nothing is
+written, and nothing is read before it is asked for.
+"""
+
+from .run import Estimate, FinalState, Finding, Histogram, Run, Validity
+from .sweep import Point, Sweep
+from .table import NotThere, Table
+from .tree import Tree
+
+__all__ = ["Estimate", "FinalState", "Finding", "Histogram", "NotThere", "Point", "Run", "Sweep",
+           "Table", "Tree", "Validity"]

@@ -1,0 +1,208 @@
+"""The directory of one run."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import pathlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+import yaml
+from numpy.typing import NDArray
+
+from .table import NotThere, Table, opened, part, table_of, text
+from .tree import Tree
+
+
+class Estimate(NamedTuple):
+    """A mean with its 68 % error bar; NaN where it is not known."""
+
+    value: float
+    error: float
+
+    def __str__(self) -> str:
+        return f"{self.value:.4g} +- {self.error:.2g}"
+
+
+class Finding(NamedTuple):
+    """One of the findings that validity rests on (docs/validity.md)."""
+
+    name: str
+    value: float | None
+    suspect: float | None
+    unphysical: float | None
+    bad_if: str
+    verdict: str
+
+
+class Validity(NamedTuple):
+    """`verdict`: valid, suspect or unphysical."""
+
+    verdict: str
+    findings: list[Finding]
+
+    def reasons(self) -> list[Finding]:
+        """The findings that are not valid."""
+        return [finding for finding in self.findings if finding.verdict != "valid"]
+
+
+@dataclass(frozen=True)
+class Histogram:
+    """Four equal bins in each octave: `rate` is how many per second ended in each after the
+    transient, `count` how many since the start."""
+
+    lower_edge: NDArray[np.float64]
+    count: NDArray[np.int64]
+    rate: NDArray[np.float64]
+    rate_error: NDArray[np.float64]
+    unit: str  #: of the edges
+    doc: str
+
+    @property
+    def edges(self) -> NDArray[np.float64]:
+        """One more than there are bins, as matplotlib's `stairs` wants them."""
+        end_of_last_octave = 2.0 * self.lower_edge[-4]
+        return np.append(self.lower_edge, end_of_last_octave)
+
+
+@dataclass(frozen=True)
+class FinalState:
+    """The grains, contacts and walls at the end: m, m/s, kg. Grains are in the order of their ids;
+    columns of vectors have the shape (grains, 2), x across and y along the tube."""
+
+    time: float  #: s
+    step: int
+    width: float  #: m, across
+    length: float  #: m, the period
+    grains: Table
+    contacts: Table
+    walls: Table
+
+
+class Run:
+    """What a run has left in its directory. Parts that are not there raise NotThere; what has been
+    read is kept, so make a new Run to see what a run that goes on has written since."""
+
+    def __init__(self, directory: str | os.PathLike[str]) -> None:
+        self.directory = pathlib.Path(directory)
+        if not self.directory.is_dir():
+            raise NotThere(f"{self.directory}: is no directory; give that of a run")
+
+    def __repr__(self) -> str:
+        return f"Run({str(self.directory)!r})"
+
+    @property
+    def is_done(self) -> bool:
+        """Whether it has come to its end: then there is a summary."""
+        return (self.directory / "summary.json").exists()
+
+    @cached_property
+    def settings(self) -> Tree:
+        """Every setting used, defaults included, in SI units: settings["contact.friction"]."""
+        return Tree(yaml.safe_load(self._read("effective.yaml", "give the directory of a run")))
+
+    @cached_property
+    def summary(self) -> Tree:
+        """summary.json: summary["balance.n_dot"]. What is not known is None."""
+        return Tree(json.loads(self._read("summary.json", self._go_on)))
+
+    def estimate(self, name: str) -> Estimate:
+        """A value of the summary that has an error: estimate("mean_axial_velocity")."""
+        pair = self.summary[name]
+        return Estimate(*(math.nan if pair[key] is None else float(pair[key])
+                          for key in ("value", "error")))
+
+    @cached_property
+    def validity(self) -> Validity:
+        """Of a flow. The points of a curve each have a verdict of their own, in its table."""
+        if "validity.verdict" not in self.summary:
+            raise NotThere(f"{self.directory}: impacts have no verdict of the whole run; see "
+                           "curve['verdict']")
+        return Validity(self.summary["validity.verdict"],
+                        [Finding(**finding) for finding in self.summary["validity.findings"]])
+
+    @cached_property
+    def series(self) -> Table:
+        """One row per output.interval, while the run goes on up to the last checkpoint."""
+        with opened(self._run_file, self._go_on) as file:
+            return table_of(part(file, "series", "give the directory of a run"))
+
+    @cached_property
+    def profiles(self) -> Table:
+        """Across the tube: "x" in the middle of each strip, and NAME with NAME_error."""
+        with opened(self._run_file, self._go_on) as file:
+            return table_of(part(file, "profiles", self._written_at_the_end))
+
+    @cached_property
+    def histograms(self) -> Mapping[str, Histogram]:
+        """Of contacts and of visits to walls, by name."""
+        with opened(self._run_file, self._go_on) as file:
+            group = part(file, "histograms", self._written_at_the_end)
+            return {name: _histogram(item) for name, item in group.items()}
+
+    @cached_property
+    def final(self) -> FinalState:
+        """The state at the end."""
+        with opened(self._run_file, self._go_on) as file:
+            group = part(file, "final", self._written_at_the_end)
+            return FinalState(time=float(group.attrs["time"]), step=int(group.attrs["step"]),
+                              width=float(group.attrs["box_width"]),
+                              length=float(group.attrs["box_length"]), grains=table_of(group),
+                              contacts=table_of(group["contacts"]), walls=table_of(group["walls"]))
+
+    @cached_property
+    def curve(self) -> Table:
+        """Of an impact scenario: a row per point, as in docs/files.md; "verdict" is 0 for valid, 1
+        for suspect, 2 for unphysical."""
+        with opened(self._run_file, self._go_on) as file:
+            return table_of(part(file, "curve", "only impact scenarios have one"))
+
+    @cached_property
+    def provenance(self) -> Mapping[str, str]:
+        """Version, commit, machine, command line, ... of the start of the run."""
+        return self._provenances[0]
+
+    @cached_property
+    def resumptions(self) -> list[Mapping[str, str]]:
+        """The same of each time it was resumed."""
+        return self._provenances[1:]
+
+    @cached_property
+    def _provenances(self) -> list[Mapping[str, str]]:
+        with opened(self._run_file, self._go_on) as file:
+            group = part(file, "provenance", "give the directory of a run")
+            resumed = sorted((name for name in group if name.startswith("resume_")),
+                             key=lambda name: int(name.removeprefix("resume_")))
+            return [_texts(group), *(_texts(group[name]) for name in resumed)]
+
+    @property
+    def _run_file(self) -> pathlib.Path:
+        return self.directory / "run.h5"
+
+    @property
+    def _go_on(self) -> str:
+        return f"let the run come to its end, or see 'riesel resume {self.directory}'"
+
+    _written_at_the_end = "it is written when a flow has come to its end"
+
+    def _read(self, name: str, remedy: str) -> str:
+        path = self.directory / name
+        if not path.exists():
+            raise NotThere(f"{path}: is not there; {remedy}")
+        return path.read_text(encoding="utf-8")
+
+
+def _histogram(group: Any) -> Histogram:
+    columns = table_of(group)
+    return Histogram(lower_edge=columns["lower_edge"], count=columns["count"],
+                     rate=columns["rate"], rate_error=columns["rate_error"],
+                     unit=columns.unit["lower_edge"], doc=text(group.attrs.get("doc", "")))
+
+
+def _texts(group: Any) -> Mapping[str, str]:
+    return {name: str(column) for name, column in table_of(group).items()}

@@ -1,0 +1,79 @@
+"""Named columns with units, and how they come out of an HDF5 file of riesel."""
+
+from __future__ import annotations
+
+import contextlib
+import pathlib
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+
+class NotThere(LookupError):
+    """A file or a part of it that was not written (yet); the text tells why and what to do."""
+
+
+class Table(Mapping[str, NDArray[Any]]):
+    """Columns by name: numpy arrays of equal length, numbers or texts. `unit[name]` is SI, "1" for
+    pure numbers and "" where there is none; `doc[name]` says what it is."""
+
+    def __init__(self, columns: Mapping[str, NDArray[Any]], unit: Mapping[str, str],
+                 doc: Mapping[str, str]) -> None:
+        self._columns = columns
+        self.unit = unit
+        self.doc = doc
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        """How many columns."""
+        return len(self._columns)
+
+    def label(self, name: str) -> str:
+        """For an axis: "mean_vy (m/s)"."""
+        unit = self.unit[name]
+        return name if unit in ("", "1") else f"{name} ({unit})"
+
+    def __repr__(self) -> str:
+        return f"Table({', '.join(map(self.label, self))})"
+
+
+def text(value: Any) -> str:
+    """Of an attribute or a data set of a single text."""
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+@contextlib.contextmanager
+def opened(path: pathlib.Path, remedy: str) -> Iterator[Any]:
+    """The HDF5 file."""
+    if not path.exists():
+        raise NotThere(f"{path}: is not there; {remedy}")
+    with h5py.File(path, "r") as file:
+        yield file
+
+
+def part(file: Any, name: str, remedy: str) -> Any:
+    """A group of the file that may not be there."""
+    if name not in file:
+        raise NotThere(f"{file.filename}: has no {name}; {remedy}")
+    return file[name]
+
+
+def _column(data: Any) -> NDArray[Any]:
+    values: NDArray[Any] = np.asarray(data[()])
+    return np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values
+
+
+def table_of(group: Any) -> Table:
+    """The data sets of a group; groups within it are left out."""
+    data = {name: item for name, item in group.items() if isinstance(item, h5py.Dataset)}
+    return Table({name: _column(item) for name, item in data.items()},
+                 {name: text(item.attrs.get("unit", "")) for name, item in data.items()},
+                 {name: text(item.attrs.get("doc", "")) for name, item in data.items()})

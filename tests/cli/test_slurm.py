@@ -1,0 +1,173 @@
+"""Sweeps on a real Slurm, of one node, which the test starts: they end as local ones do, also when the
+time of a task is not enough. The script alone is looked at without Slurm."""
+
+import json
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import slurm_cluster
+from riesel_command import BAD_INPUT
+from test_sweep import SweepTest
+
+FOUR = """\
+base: tube.yaml
+set: {run.duration: 2 ms}
+axes: {contact.restitution: [0.7, 0.75, 0.8, 0.85]}
+"""
+CHAINS = """\
+base: tube.yaml
+set: {run.duration: 2 ms}
+axes: {contact.restitution: [0.7, 0.8], contact.friction: [0.3, 0.5, 0.7]}
+continue_along: contact.restitution
+"""
+# Each run takes several seconds.
+LONG = """\
+base: tube.yaml
+set: {run.duration: 3 s, output.checkpoint_interval: 1 h}
+axes: {contact.restitution: [0.8, 0.9]}
+"""
+
+
+def lines_of(script, pattern):
+    return re.findall(rf"^{pattern}$", script, re.MULTILINE)
+
+
+class Script(SweepTest):
+    """Where no Slurm answers."""
+
+    def script(self, text, *options):
+        self.write("sweep.yaml", text)
+        result = self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm", "--dry-run", *options,
+                             PATH="/nowhere")
+        self.assert_done(result)
+        return result.stdout
+
+    def test_it_says_what_is_wanted_and_writes_nothing(self):
+        script = self.script(FOUR, "--threads", 2, "--max-walltime", "90 s",
+                             "--sbatch=--partition=long", "--sbatch=--mem=1G")
+        for line in ("--job-name=out", "--array=0-3", "--cpus-per-task=2", "--time=2", "--requeue",
+                     "--partition=long", "--mem=1G"):
+            self.assertEqual(lines_of(script, f"#SBATCH {line}"), [f"#SBATCH {line}"])
+        self.assertIn("--of 4 --threads 2 --max-walltime '90 s'", script)
+        self.assertFalse((self.home / "out").exists())
+        checked = subprocess.run(["bash", "-n"], input=script, text=True, check=False)
+        self.assertEqual(checked.returncode, 0)
+
+    def test_chains_stay_together(self):
+        self.assertIn("#SBATCH --array=0-2\n", self.script(CHAINS))
+
+    def test_tasks_may_be_fewer_than_points(self):
+        script = self.script(FOUR, "--tasks", 3)
+        self.assertIn("#SBATCH --array=0-2\n", script)
+        self.assertIn("--of 3 ", script)
+
+    def test_what_is_done_needs_no_task(self):
+        self.sweep_to_end(FOUR.replace("0.7, 0.75, 0.8, 0.85", "0.75"), "out")
+        self.assertIn("#SBATCH --array=0,2-3\n", self.script(FOUR))
+        self.sweep_to_end(FOUR, "out")
+        self.assertEqual(self.script(FOUR), "# nothing is left to be done\n")
+
+    def test_without_slurm_nothing_can_be_submitted(self):
+        self.write("sweep.yaml", FOUR)
+        result = self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm", PATH="/nowhere")
+        self.assert_refused(result, "--slurm", "--prepare")
+
+    def test_options_of_slurm_want_slurm(self):
+        self.write("sweep.yaml", FOUR)
+        self.assertEqual(self.riesel("sweep", "sweep.yaml", "--tasks", 3).returncode, BAD_INPUT)
+
+
+@unittest.skipIf(slurm_cluster.why_not(), slurm_cluster.why_not())
+class OnACluster(SweepTest):
+
+    @classmethod
+    def setUpClass(cls):
+        directory = tempfile.TemporaryDirectory(prefix="riesel-slurm-")
+        cls.addClassCleanup(directory.cleanup)
+        cls.cluster = slurm_cluster.Cluster(directory.name, array_size=4)
+        cls.addClassCleanup(cls.cluster.stop)
+        cls.cluster.start()
+
+    def submit(self, text, *options):
+        self.write("sweep.yaml", text)
+        result = self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm", *options,
+                             **self.cluster.environment)
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"submitted as job \d+; ")
+
+    def result(self, text, out):
+        self.assert_done(self.riesel("collect", out))
+        return [{name: value for name, value in row.items()
+                 if name != "attempts" and not name.startswith("performance.")}
+                for row in self.rows(out)]
+
+    def assert_ends_as_locally(self, text):
+        self.assertIn(": {0} points: {0} done".format(len(self.points())),
+                      self.riesel("status", "out").stdout, self.logs())
+        self.sweep_to_end(text, "local")
+        self.assertEqual(self.result(text, "out"), self.result(text, "local"))
+
+    def attempts(self):
+        return [json.loads(path.read_text(encoding="utf-8"))["attempts"]
+                for path in self.home.glob("out/points/*/attempts.json")]
+
+    def logs(self):
+        return "\n".join(path.read_text() for path in self.home.glob("out/slurm/*.txt"))
+
+    def test_a_sweep_larger_than_an_array(self):
+        self.submit(FOUR)  # four points, and an array has three tasks here
+        self.assertIn("--of 3 ", (self.home / "out/slurm.sh").read_text())
+        self.cluster.wait_for_all_jobs()
+        self.assert_ends_as_locally(FOUR)
+        again = self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm",
+                            **self.cluster.environment)
+        self.assertEqual(again.stdout, self.riesel("status", "out").stdout)
+
+    def test_chains(self):
+        self.submit(CHAINS)
+        self.cluster.wait_for_all_jobs()
+        self.assert_ends_as_locally(CHAINS)
+
+    def test_a_task_whose_time_is_over_is_queued_again(self):
+        self.submit(LONG, "--max-walltime", "4 s")
+        self.wait_for_requeue()
+        self.cluster.wait_for_all_jobs(patience=240.0)
+        self.assertGreater(max(self.attempts()), 1)
+        self.assert_ends_as_locally(LONG)
+
+    def test_the_signal_of_slurm_before_the_end_of_the_time(self):
+        self.submit(LONG)
+        self.wait_for_checkpoints(2)
+        # What --signal=B:USR1@60 makes Slurm do, without the waiting.
+        self.cluster.ask("scancel", "--batch", "--signal=USR1", "--user=root")
+        self.wait_for_requeue()
+        self.cluster.wait_for_all_jobs(patience=240.0)
+        self.assertGreater(max(self.attempts()), 1)
+        self.assert_ends_as_locally(LONG)
+
+    def test_what_is_cancelled_is_not_queued_again(self):
+        self.submit(LONG)
+        self.wait_for_checkpoints(2)
+        self.cluster.ask("scancel", "--batch", f"--signal={signal.SIGTERM.value}", "--user=root")
+        self.cluster.wait_for_all_jobs()
+        self.assertEqual(set(self.attempts()), {1})
+        self.assertIn("2 interrupted", self.riesel("status", "out").stdout, self.logs())
+        self.submit(LONG)
+        self.cluster.wait_for_all_jobs(patience=240.0)
+        self.assert_ends_as_locally(LONG)
+
+    def wait_for_checkpoints(self, count):
+        self.wait_until(lambda: len(list(self.home.glob("out/points/*/checkpoint.h5"))) >= count)
+
+    def wait_for_requeue(self):
+        self.wait_until(lambda: any(job[2] != "0" for job in self.cluster.jobs() or []))
+
+    def wait_until(self, happened):
+        deadline = time.monotonic() + slurm_cluster.PATIENCE
+        while not happened():
+            self.assertLess(time.monotonic(), deadline, self.logs() + self.cluster.logs())
+            time.sleep(0.02)

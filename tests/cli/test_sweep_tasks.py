@@ -1,0 +1,98 @@
+"""The task command of batch systems: any task runner that calls it makes the sweep that `riesel sweep`
+would make."""
+
+import os
+import shutil
+import subprocess
+import unittest
+
+from riesel_command import COMMAND, DONE, FAILED
+from test_sweep import CHAIN, GRID, ONE_FAILS, SweepTest
+
+OUT_OF_TIME = 3
+ENDLESS = """\
+base: tube.yaml
+set: {run.duration: 1000 s}
+axes: {contact.restitution: [0.7, 0.8]}
+"""
+
+
+class Tasks(SweepTest):
+
+    def prepare(self, text):
+        self.write("sweep.yaml", text)
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out", "--prepare"))
+
+    def task(self, *arguments):
+        return self.riesel("sweep-task", "out", *arguments, "--threads", 1)
+
+    def names_told(self, result):
+        return [line.split()[1].rstrip(":") for line in result.stdout.splitlines()]
+
+    def assert_same_as_local(self, text):
+        self.assert_done(self.riesel("collect", "out"))
+        self.sweep_to_end(text, "local")
+        self.assertEqual(self.hashes("out"), self.hashes("local"))
+
+    def test_the_parts_of_a_sweep_are_all_of_it_and_nothing_twice(self):
+        self.prepare(GRID)
+        told = []
+        for part in range(3):
+            result = self.task(part, "--of", 3)
+            self.assert_done(result)
+            told += self.names_told(result)
+        self.assertEqual(sorted(told), sorted({point["name"] for point in self.points()}))
+        self.assert_same_as_local(GRID)
+
+    def test_a_part_holds_whole_chains_in_their_order(self):
+        self.prepare(CHAIN)
+        result = self.task(0, "--of", 2)
+        self.assert_done(result)
+        self.assertEqual(self.names_told(result), [point["name"] for point in self.points()])
+        self.assertEqual((self.task(1, "--of", 2).returncode, self.task(1, "--of", 2).stdout),
+                         (DONE, ""))
+
+    def test_done_parts_are_not_run_again(self):
+        self.prepare(GRID)
+        self.assert_done(self.task(0, "--of", 4))
+        before = {path: path.stat().st_mtime_ns for path in self.home.glob("out/points/*/run.h5")}
+        self.assert_done(self.task(0, "--of", 4))
+        self.assertEqual({path: path.stat().st_mtime_ns for path in before}, before)
+
+    def test_a_failure_is_told_and_does_not_stop_the_part(self):
+        self.prepare(ONE_FAILS)
+        result = self.task(0, "--of", 1)
+        self.assertEqual(result.returncode, FAILED)
+        self.assertEqual(result.stdout.count(": done"), 2)
+        self.assertEqual(result.stdout.count(": failed: "), 1)
+
+    def test_a_task_ends_before_its_time_is_over_and_goes_on_later(self):
+        self.prepare(ENDLESS)
+        for _ in range(2):
+            result = self.task(0, "--of", 1, "--max-walltime", "1 s")
+            self.assertEqual(result.returncode, OUT_OF_TIME, result)
+        self.assertEqual(len(list(self.home.glob("out/points/*/checkpoint.h5"))), 1)
+        status = self.riesel("status", "out").stdout
+        self.assertIn("1 interrupted, 1 waiting", status)
+
+    def test_a_sweep_ends_before_its_time_is_over(self):
+        result = self.sweep(ENDLESS, "out", "--max-walltime", "1 s", "--jobs", 2)
+        self.assertEqual(result.returncode, OUT_OF_TIME, result)
+        self.assertIn("2 interrupted", result.stdout)
+        self.assertIn("goes on", result.stderr)
+
+    def test_no_such_part(self):
+        self.prepare(GRID)
+        self.assert_refused(self.task(3, "--of", 3), "part 3", "from 0 to 2")
+
+    @unittest.skipIf(shutil.which("parallel") is None, "there is no GNU parallel")
+    def test_gnu_parallel(self):
+        self.prepare(GRID)
+        log = self.home / "jobs.log"
+        ran = subprocess.run(
+            f"seq 0 4 | parallel --jobs 2 --joblog {log} {COMMAND} sweep-task out {{}} --of 5 --threads 1",
+            shell=True, cwd=self.home, env={**os.environ, "HOME": str(self.home)}, check=False,
+            capture_output=True, text=True)
+        self.assertEqual(ran.returncode, DONE, ran)
+        self.assertEqual(len(log.read_text(encoding="utf-8").splitlines()), 1 + 5)
+        self.assert_same_as_local(GRID)

@@ -1,0 +1,193 @@
+"""The Python package gives back what riesel has written, and says what is not there."""
+
+import csv
+import json
+import math
+
+import h5py
+import numpy as np
+import riesel
+
+from riesel_command import SMALL_TUBE, CommandTest
+
+IMPACTS = """\
+scenario: wall_array
+contact: {stiffness: 2000 N/m, restitution: 0.7}
+impact: {starts: 3, normal_velocity: 0.1 m/s, axial_velocity: [0.5 m/s, 30 m/s]}
+"""
+SWEEP = """\
+base: tube.yaml
+set: {run.duration: 3 ms}
+axes: {contact.restitution: [0.7, 0.9], contact.law: [linear]}
+branches: {slow: {start.axial_velocity: 1 m/s}, fast: {start.axial_velocity: 3 m/s}}
+"""
+
+
+class Flow(CommandTest):
+    """A run that was resumed."""
+
+    @classmethod
+    def setUpClass(cls):
+        maker = cls.maker()
+        directory = maker.run_small_tube("run")
+        maker.resume_to_end(directory, "--set", "run.duration=30 ms")
+        cls.directory = directory
+        cls.run_of_it = riesel.Run(directory)
+
+    def file(self):
+        return h5py.File(self.directory / "run.h5", "r")
+
+    def test_the_summary_is_that_of_the_file(self):
+        summary = self.run_of_it.summary
+        flat = {}
+
+        def add(prefix, values):
+            for name, value in values.items():
+                if isinstance(value, dict):
+                    add(f"{prefix}{name}.", value)
+                else:
+                    flat[prefix + name] = value
+
+        add("", json.loads((self.directory / "summary.json").read_text(encoding="utf-8")))
+        self.assertEqual(dict(summary), flat)
+        self.assertEqual(len(summary), len(flat))
+        self.assertEqual(summary["balance.errors"]["n_dot"], flat["balance.errors.n_dot"])
+
+    def test_an_unknown_name_is_a_key_error(self):
+        for name in ("grain", "balance.x", "grains.x"):
+            with self.assertRaises(KeyError):
+                self.run_of_it.summary[name]
+
+    def test_estimates_have_errors_and_unknown_ones_are_not_a_number(self):
+        mean = self.run_of_it.estimate("mean_axial_velocity")
+        self.assertEqual(mean, (self.run_of_it.summary["mean_axial_velocity.value"],
+                                self.run_of_it.summary["mean_axial_velocity.error"]))
+        unknown = riesel.Run(self.directory)
+        unknown.summary = riesel.Tree({"x": {"value": 2.0, "error": None}})
+        self.assertEqual(unknown.estimate("x").value, 2.0)
+        self.assertTrue(math.isnan(unknown.estimate("x").error))
+
+    def test_settings_are_the_effective_ones_in_si_units(self):
+        settings = self.run_of_it.settings
+        self.assertEqual(settings["tube.width"], 0.01)
+        self.assertEqual(settings["run.duration"], 0.03)
+        self.assertEqual(settings["contact"]["law"], "linear")
+        self.assertIs(type(settings["grains.mass"]), float)
+
+    def test_tables_are_those_of_the_file(self):
+        run = self.run_of_it
+        with self.file() as file:
+            for table, group in ((run.series, file["series"]), (run.profiles, file["profiles"]),
+                                 (run.final.grains, file["final"]),
+                                 (run.final.contacts, file["final/contacts"]),
+                                 (run.final.walls, file["final/walls"])):
+                names = [name for name in group if isinstance(group[name], h5py.Dataset)]
+                self.assertEqual(sorted(table), sorted(names))
+                for name in names:
+                    np.testing.assert_array_equal(table[name], group[name][()])
+                    self.assertEqual(table.unit[name], group[name].attrs["unit"].decode())
+        self.assertEqual(run.series.label("mean_vy"), "mean_vy (m/s)")
+        self.assertEqual(run.series.label("contacts"), "contacts")
+
+    def test_the_final_state(self):
+        final = self.run_of_it.final
+        self.assertEqual((final.width, final.length), (0.01, 0.01))
+        self.assertEqual(final.step, self.run_of_it.summary["steps"])
+        self.assertEqual(final.time, self.run_of_it.summary["time"])
+        self.assertEqual(final.grains["velocity"].shape, (self.run_of_it.summary["grains"], 2))
+        self.assertTrue(np.all(np.diff(final.grains["id"]) > 0))
+
+    def test_histograms(self):
+        with self.file() as file:
+            self.assertEqual(sorted(self.run_of_it.histograms), sorted(file["histograms"]))
+            written = file["histograms/grain_contact_duration"]
+            histogram = self.run_of_it.histograms["grain_contact_duration"]
+            np.testing.assert_array_equal(histogram.count, written["count"][()])
+            np.testing.assert_array_equal(histogram.rate_error, written["rate_error"][()])
+        self.assertGreater(histogram.count.sum(), 0)
+        np.testing.assert_array_equal(histogram.edges[4:], 2.0 * histogram.edges[:-4])
+        self.assertEqual(histogram.unit, "s")
+
+    def test_the_verdict_with_its_reasons(self):
+        validity = self.run_of_it.validity
+        self.assertEqual(validity.verdict, self.run_of_it.summary["validity.verdict"])
+        worst = {finding.verdict for finding in validity.findings}
+        self.assertIn(validity.verdict, worst)
+        self.assertEqual([finding.name for finding in validity.reasons()],
+                         [finding.name for finding in validity.findings
+                          if finding.verdict in ("suspect", "unphysical")])
+
+    def test_provenance_of_the_start_and_of_each_resumption(self):
+        run = self.run_of_it
+        self.assertIn(" run ", run.provenance["command"])
+        self.assertEqual(["resume" in each["command"] for each in run.resumptions], [True])
+        self.assertEqual(run.provenance["git_commit"], run.summary["commit"])
+
+
+class Impacts(CommandTest):
+
+    def test_a_curve_and_no_flow(self):
+        run = riesel.Run(self.run_to_end(self.write("wall.yaml", IMPACTS), "out"))
+        points = run.summary["curve"]
+        for name in ("v_y", "dv_y", "contacts"):
+            np.testing.assert_array_equal(run.curve[name], [point[name] for point in points])
+        self.assertEqual(run.curve["verdict"].tolist(), [0.0, 2.0])
+        self.assertEqual([point["verdict"] for point in points], ["valid", "unphysical"])
+        for part in ("profiles", "histograms", "final", "validity"):
+            with self.assertRaisesRegex(riesel.NotThere, "out.*; "):
+                getattr(run, part)
+
+
+class NotThere(CommandTest):
+
+    def test_what_is_no_run(self):
+        with self.assertRaisesRegex(riesel.NotThere, "nowhere: is no directory; "):
+            riesel.Run(self.home / "nowhere")
+        empty = riesel.Run(self.home)
+        self.assertFalse(empty.is_done)
+        for part in ("summary", "settings", "series", "provenance"):
+            with self.assertRaisesRegex(riesel.NotThere, "is not there; "):
+                getattr(empty, part)
+        with self.assertRaisesRegex(riesel.NotThere, "manifest.json: is not there; "):
+            riesel.Sweep(self.home)
+
+    def test_a_run_that_is_not_over(self):
+        self.write("tube.yaml", SMALL_TUBE.replace("5 ms", "1000 s"))
+        result = self.riesel("run", "tube.yaml", "--out", "run", "--max-walltime", "1 s")
+        self.assertEqual(result.returncode, 3, result)
+        run = riesel.Run(self.home / "run")
+        self.assertFalse(run.is_done)
+        self.assertGreater(len(run.series["time"]), 1)
+        with self.assertRaisesRegex(riesel.NotThere, "summary.json.*riesel resume"):
+            run.summary
+        with self.assertRaisesRegex(riesel.NotThere, "come to its end"):
+            run.profiles
+
+
+class OfSweep(CommandTest):
+
+    def test_points_and_table(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        self.write("sweep.yaml", SWEEP)
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--prepare", "--out", "out"))
+        planned = riesel.Sweep(self.home / "out")
+        self.assertEqual([point.status for point in planned.points], ["waiting"] * 4)
+        self.assertFalse(planned.points[0].run.is_done)
+        with self.assertRaisesRegex(riesel.NotThere, "riesel collect"):
+            planned.table
+
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
+        sweep = riesel.Sweep(self.home / "out")
+        self.assertEqual([point.status for point in sweep.points], ["done"] * 4)
+        self.assertEqual([point.branch for point in sweep.points], ["slow", "fast"] * 2)
+        self.assertEqual([point.settings["contact.restitution"] for point in sweep.points],
+                         [0.7, 0.7, 0.9, 0.9])
+        self.assertEqual(sweep.varied["start.axial_velocity"], "m/s")
+        self.assertEqual([point.run.estimate("mean_axial_velocity").value for point in sweep.points],
+                         sweep.table["mean_axial_velocity.value"].tolist())
+        with open(self.home / "out/sweep.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(sorted(sweep.table), sorted(rows[0]))
+        self.assertEqual(sweep.table["state_hash"].tolist(), [row["state_hash"] for row in rows])
+        self.assertEqual(sweep.table["energy.residual"].tolist(),
+                         [float(row["energy.residual"]) for row in rows])
