@@ -9,8 +9,8 @@ build_packages=(
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libudunits2-dev librandom123-dev catch2
   python3 python3-numpy python3-h5py python3-scipy python3-matplotlib)
-# Read what riesel writes, in the tests only.
-test_packages=(python3-netcdf4 python3-jsonschema python3-yaml)
+# Read what riesel writes, in the tests only; a shell that completes its command line.
+test_packages=(python3-netcdf4 python3-jsonschema python3-yaml zsh)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen)
 # Shows the pages of riesel report to the tests, which are skipped without it.

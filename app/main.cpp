@@ -1,6 +1,7 @@
 // The command riesel: reads the command line, calls a subcommand, turns errors into messages and
 // exit status.
 #include "app/commands.hpp"
+#include "app/completion.hpp"
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
 #include "app/walltime.hpp"
@@ -51,6 +52,16 @@ void add_flow_options(CLI::App& command, app::FlowOptions& options) {
       "Stop with a checkpoint before this time on the clock, such as '23.5 h', is over; for flows");
 }
 
+void add_verbosity(CLI::App& command, app::Verbosity& verbosity) {
+  const auto set = [&verbosity](app::Verbosity to) { return [&verbosity, to] { verbosity = to; }; };
+  CLI::Option* quiet = command.add_flag_callback("-q,--quiet", set(app::Verbosity::quiet),
+                                                 "Print errors only: the files tell the result");
+  command
+      .add_flag_callback("-v,--verbose", set(app::Verbosity::verbose),
+                         "Tell what the run begins with, and of each checkpoint")
+      ->excludes(quiet);
+}
+
 /// What the command line says: the subcommand, ready to be called, and its options.
 class CommandLine {
 public:
@@ -74,6 +85,10 @@ public:
     program_.add_subcommand("settings", "Print the reference of all settings, in Markdown")
         ->callback([this] { command_ = app::print_settings; });
     add_schema();
+    add_completion();
+    program_.add_subcommand("man", "Print the manual page, in roff")->callback([this] {
+      command_ = [this] { return print(app::man_page(program_)); };
+    });
   }
 
   CLI::App& program() { return program_; }
@@ -87,6 +102,7 @@ private:
     add_overrides(*run, run_.overrides);
     add_threads(*run, run_.overrides);
     add_flow_options(*run, run_.flow);
+    add_verbosity(*run, run_.flow.verbosity);
     set_command(*run, *file, [this] { return app::run(run_, arguments_); });
   }
 
@@ -98,6 +114,7 @@ private:
     add_overrides(*resume, resume_.overrides);
     add_threads(*resume, resume_.overrides);
     add_flow_options(*resume, resume_.flow);
+    add_verbosity(*resume, resume_.flow.verbosity);
     set_command(*resume, *directory, [this] { return app::resume(resume_, arguments_); });
   }
 
@@ -142,6 +159,23 @@ private:
     set_command(*made, *scenario, [this] { return app::new_file(new_file_); });
   }
 
+  void add_completion() {
+    CLI::App* completion = program_.add_subcommand(
+        "completion",
+        "Print a script that completes the command line: eval \"$(riesel completion bash)\"");
+    CLI::Option* shell = completion->add_option("SHELL", shell_, "bash or zsh")
+                             ->check(CLI::IsMember({"bash", "zsh"}));
+    set_command(*completion, *shell, [this] {
+      return print(shell_ == "bash" ? app::bash_completion(program_)
+                                    : app::zsh_completion(program_));
+    });
+  }
+
+  static int print(const std::string& text) {
+    fmt::print("{}", text);
+    return app::exit_done;
+  }
+
   void add_schema() {
     CLI::App* schema = program_.add_subcommand(
         "schema",
@@ -179,6 +213,7 @@ private:
   app::NewFileOptions new_file_;
   std::filesystem::path directory_;
   bool schema_of_sweeps_ = false;
+  std::string shell_;
   std::function<int()> command_;
 };
 

@@ -1,6 +1,7 @@
 #include "app/print_summary.hpp"
 
 #include "app/plain_words.hpp"
+#include "app/terminal.hpp"
 
 #include <fmt/core.h>
 
@@ -34,9 +35,14 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
              v.visits);
 }
 
+Colour colour_of(Validity verdict) {
+  if (verdict == Validity::valid) return Colour::green;
+  return verdict == Validity::suspect ? Colour::yellow : Colour::red;
+}
+
 /// The verdict, and the findings that are the reason for it.
 void print_validity(const ValidityVerdict& v) {
-  fmt::print("  {:<22}{}\n", "validity", name(v.verdict));
+  fmt::print("  {:<22}{}\n", "validity", coloured(name(v.verdict), colour_of(v.verdict)));
   for (const Finding& f : v.findings) {
     if (f.verdict == Validity::valid) continue;
     fmt::print("  {:<22}{}\n", name(f.verdict), explanation(f));
@@ -58,7 +64,9 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
              s.run.steps);
   fmt::print("  {:<22}{:.5g} +- {:.2g} m/s (after {:.3g} s)\n", "mean axial velocity",
              s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
-  fmt::print("  {:<22}{}: {}\n", "state", s.state, explanation(s.state));
+  fmt::print("  {:<22}{}: {}\n", "state",
+             coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
+             explanation(s.state));
   if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
   const io::Measured& temperature = s.fluctuations.granular_temperature;
   fmt::print("  {:<22}{:.4g} +- {:.2g} m^2/s^2\n", "granular temperature", temperature.value,

@@ -1,10 +1,14 @@
 #include "app/progress.hpp"
 
+#include "app/terminal.hpp"
+
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdio>
+#include <string_view>
 
 namespace riesel::app {
 
@@ -15,10 +19,19 @@ using namespace std::chrono_literals;
 constexpr auto between_updates_of_a_line = 200ms;
 constexpr auto between_lines = 10s;
 
+/// Over what stood in the line before. A line that reached the edge would go on in the next one.
+void show_in_place(const std::string& line) {
+  const std::size_t room = terminal_width() - 1;
+  fmt::print(stderr, "\r{:<{}}", std::string_view(line).substr(0, room), room);
+}
+
 }  // namespace
 
-Progress::Progress()
-    : terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), last_shown_(start_) {}
+Progress::Progress(Verbosity verbosity)
+    : quiet_(verbosity == Verbosity::quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_shown_(start_) {}
 
 std::string Progress::time_left(double done) const {
   const double progress = done - done_at_start_;
@@ -30,6 +43,7 @@ std::string Progress::time_left(double done) const {
 }
 
 void Progress::show(double done, const std::string& text) {
+  if (quiet_) return;
   if (done_at_start_ < 0.0) done_at_start_ = done;
   const auto now = Clock::now();
   if (now - last_shown_ < (terminal_ ? Clock::duration(between_updates_of_a_line) : between_lines))
@@ -38,7 +52,7 @@ void Progress::show(double done, const std::string& text) {
   const std::string line =
       fmt::format("{:5.1f} %  {}  {} left", 100.0 * done, text, time_left(done));
   if (terminal_)
-    fmt::print(stderr, "\r{:<79}", line);
+    show_in_place(line);
   else
     fmt::print(stderr, "{}\n", line);
   std::fflush(stderr);

@@ -2,6 +2,8 @@
 // elsewhere. All of it goes to standard error, so that standard output holds results only.
 #pragma once
 
+#include "app/verbosity.hpp"
+
 #include <chrono>
 #include <string>
 
@@ -9,7 +11,7 @@ namespace riesel::app {
 
 class Progress {
 public:
-  Progress();
+  explicit Progress(Verbosity verbosity);
 
   /// `done` from 0 to 1; `text` says what is worth knowing now.
   void show(double done, const std::string& text);
@@ -20,7 +22,7 @@ private:
   using Clock = std::chrono::steady_clock;
   std::string time_left(double done) const;
 
-  bool terminal_;
+  bool quiet_, terminal_;
   Clock::time_point start_, last_shown_;
   double done_at_start_ = -1.0;
   bool line_open_ = false;

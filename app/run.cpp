@@ -18,9 +18,11 @@ int run(const RunOptions& options, const Arguments& arguments) {
 
   if (auto* flow = std::get_if<scenarios::Flow>(&problem))
     return run_flow(settings, std::move(*flow), std::move(directory), arguments, options.flow);
+  const Verbosity verbosity = options.flow.verbosity;
   if (const auto* column = std::get_if<scenarios::ColumnCurve>(&problem))
-    return run_column(settings, *column, directory, arguments);
-  return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments);
+    return run_column(settings, *column, directory, arguments, verbosity);
+  return run_curve(settings, std::get<scenarios::ImpactCurve>(problem), directory, arguments,
+                   verbosity);
 }
 
 }  // namespace riesel::app

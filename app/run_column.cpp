@@ -56,7 +56,7 @@ void write_points(io::RunFile& file, const std::vector<io::ColumnPoint>& column)
 }  // namespace
 
 int run_column(const io::Settings& settings, const scenarios::ColumnCurve& curve,
-               const RunDirectory& directory, const Arguments& arguments) {
+               const RunDirectory& directory, const Arguments& arguments, Verbosity verbosity) {
   using Clock = std::chrono::steady_clock;
   const int threads = threads_for_curve(settings);
   const auto provenance = io::collect_provenance({.arguments = arguments,
@@ -88,7 +88,7 @@ int run_column(const io::Settings& settings, const scenarios::ColumnCurve& curve
   write_points(file, summary.column);
   file.flush();
   io::write_durably(directory.file(io::summary_name), io::to_json(summary));
-  print_summary(summary, directory.path());
+  if (verbosity != Verbosity::quiet) print_summary(summary, directory.path());
   return exit_done;
 }
 

@@ -70,7 +70,7 @@ void write_curve(io::RunFile& file, const std::vector<io::CurvePoint>& curve) {
 }  // namespace
 
 int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
-              const RunDirectory& directory, const Arguments& arguments) {
+              const RunDirectory& directory, const Arguments& arguments, Verbosity verbosity) {
   using Clock = std::chrono::steady_clock;
   const int threads = threads_for_curve(settings);
   const auto provenance = io::collect_provenance({.arguments = arguments,
@@ -101,7 +101,7 @@ int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
   write_curve(file, summary.curve);
   file.flush();
   io::write_durably(directory.file(io::summary_name), io::to_json(summary));
-  print_summary(summary, directory.path());
+  if (verbosity != Verbosity::quiet) print_summary(summary, directory.path());
   return exit_done;
 }
 

@@ -95,6 +95,7 @@ public:
         past_(std::move(past)),
         directory_(std::move(directory)),
         max_walltime_(options.max_walltime),
+        verbosity_(options.verbosity),
         schedule_(settings_, scenarios::run_length(settings_), state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
@@ -104,12 +105,14 @@ public:
         strips_(Strips::of(simulation_.state())),
         profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
         histograms_(past_.rows == 0 ? HistogramBlocks() : HistogramBlocks(past_.histograms)),
+        progress_(options.verbosity),
         first_step_(simulation_.state().step) {
     if (options.profile) simulation_.start_profile();
   }
 
   int run() {
     start_ = last_checkpoint_ = Clock::now();
+    tell_beginning();
     try {
       if (file_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
@@ -259,6 +262,23 @@ private:
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
     longest_save_ = std::max(longest_save_, seconds_since(start));
+    tell("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
+         file_.rows(), seconds_since(start));
+  }
+
+  /// For those who want to know more.
+  template <class... Parts>
+  void tell(fmt::format_string<Parts...> format, Parts&&... parts) {
+    if (verbosity_ != Verbosity::verbose) return;
+    progress_.finish();
+    fmt::print(stderr, "{}\n", fmt::format(format, std::forward<Parts>(parts)...));
+  }
+
+  void tell_beginning() {
+    const State& state = simulation_.state();
+    tell("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}", directory_.path().string(),
+         state.grains.size(), state.step, schedule_.last_step, state.time_step, threads_,
+         threads_ == 1 ? "" : "s");
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -291,7 +311,7 @@ private:
         s.transient_end);
     file_.flush();
     io::write_durably(directory_.file(io::summary_name), io::to_json(s));
-    print_summary(s, directory_.path());
+    if (verbosity_ != Verbosity::quiet) print_summary(s, directory_.path());
     if (simulation_.profile().on())
       print_profile(simulation_.profile(), times_, simulation_.state().step - first_step_);
     return exit_done;
@@ -332,6 +352,7 @@ private:
   const Past past_;
   RunDirectory directory_;
   const std::optional<double> max_walltime_;  // s
+  const Verbosity verbosity_;
   const Schedule schedule_;
   const int threads_;
   Simulation simulation_;

@@ -257,7 +257,7 @@ private:
   std::vector<std::unique_ptr<Job>> jobs_;  // a parent before its children
   std::map<std::string, Job*> by_name_;
   std::vector<Job*> by_urgency_;
-  Progress progress_;
+  Progress progress_{Verbosity::normal};
   Clock::time_point last_manifest_ = {};
   int running_ = 0;  // processes
   bool passed_on_ = false;

@@ -24,7 +24,7 @@ Contact seen_from(const Meeting& meeting, Contact contact) {
   if (meeting.turned) {
     contact.friction_x = -contact.friction_x;
     contact.friction_y = -contact.friction_y;
-    contact.rolling_torque = -contact.rolling_torque;
+    contact.rolling_torque = 0.0 - contact.rolling_torque;  // nothing has no sign
   }
   return contact;
 }

@@ -67,9 +67,9 @@ Problem prepare(const io::Settings& settings) {
   setup.velocity = settings.number("column.velocity");
   setup.model = contact_model(settings);
   setup.collision_time = collision_time(settings, setup.model, setup.bead_mass);
-  const double pair_mass = 0.5 * setup.bead_mass;
   setup.time_step =
-      time_step(settings, setup.model, collision_time(settings, setup.model, pair_mass), pair_mass);
+      time_step(settings, setup.model, collision_time(settings, setup.model, 0.5 * setup.bead_mass),
+                0.5 * setup.bead_mass);
   const auto& law = std::get<LinearLaw>(setup.model.normal);
   const auto restitution = [&](double reduced_mass) {
     return LinearContact{law.k_n, law.gamma_n, reduced_mass}.restitution();

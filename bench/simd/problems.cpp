@@ -117,9 +117,9 @@ bool ContactColumns::agrees(Original& engine) const {
   for (std::size_t i = 0; same && i < size_; ++i) {
     const auto life = life_of(live.contact(i));
     for (std::size_t m = 0; m < life.size(); ++m) same = same && life_[m][i] == life[m];
-    const ContactKick kick = live.kick(i);
-    same = same && kick_[0][i] == kick.first_x && kick_[1][i] == kick.first_y
-           && kick_[2][i] == kick.second_x && kick_[3][i] == kick.second_y;
+    const BodyKick first = live.kick_of_first(i), second = live.kick_of_second(i);
+    same = same && kick_[0][i] == first.x && kick_[1][i] == first.y && kick_[2][i] == second.x
+           && kick_[3][i] == second.y;
   }
   return same;
 }

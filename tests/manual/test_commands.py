@@ -12,7 +12,7 @@ KEPT = "bench/results/intel-xeon-2-cores-4bc4f3a.json"
 SHORTER = [
     (r"\./setup\.sh (\w+)", r"./setup.sh help | grep '^  \1 '"),
     (r"docs/paper/reproduce\.sh (\w+)", r"docs/paper/reproduce.sh --help 2>&1 | grep '^  \1 '"),
-    (r"(riesel run scenarios/periodic_tube\.yaml .*)", r"\1 --set tube.length='10 mm' --set run.duration='0.1 s'"),
+    (r"(riesel run (?:scenarios/)?periodic_tube\.yaml.*)", r"\1 --set tube.length='10 mm' --set run.duration='0.1 s'"),
     (r"(riesel resume .*)'4 s'", r"\1'0.2 s'"),
     (r"(riesel resume .*)'20 s'", r"\1'0.3 s'"),
     (r"(riesel sweep scenarios/paper/.*)", r"\1 --dry-run"),

@@ -1,0 +1,35 @@
+#include "app/terminal.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace riesel::app {
+
+namespace {
+
+bool shows_colours() {
+  const auto value_of = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string_view(value == nullptr ? "" : value);
+  };
+  return isatty(STDOUT_FILENO) == 1 && value_of("NO_COLOR").empty() && value_of("TERM") != "dumb";
+}
+
+}  // namespace
+
+std::string coloured(std::string_view text, Colour colour) {
+  if (!shows_colours()) return std::string(text);
+  return fmt::format("\x1b[{}m{}\x1b[0m", static_cast<int>(colour), text);
+}
+
+std::size_t terminal_width() {
+  constexpr std::size_t usual = 80;
+  struct winsize size = {};
+  const bool told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return told ? size.ws_col : usual;
+}
+
+}  // namespace riesel::app
