@@ -87,11 +87,14 @@ Json around(const std::string& key, const Json& schema, bool required) {
   return section.empty() ? inner : around(section, inner, required);
 }
 
-/// That `when` holds; a setting that is not given has its default.
+/// That `when` holds, and the setting that it refers to counts; one that is not given has its
+/// default.
 Json condition(const When& when, const SettingsTable& table) {
   const auto row = std::ranges::find(table, when.key, &Setting::key);
   const bool by_default = std::ranges::find(when.values, row->fallback) != when.values.end();
-  return around(when.key, {{"enum", when.values}}, !by_default);
+  const Json own = around(when.key, {{"enum", when.values}}, !by_default);
+  if (!row->only_when) return own;
+  return {{"allOf", Json::array({own, condition(*row->only_when, table)})}};
 }
 
 /// The names of a section, or of the file, for completion.

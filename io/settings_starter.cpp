@@ -56,7 +56,7 @@ private:
   bool counts(const Setting& row) const {
     if (!row.only_when) return true;
     const auto choice = std::ranges::find(*table_, row.only_when->key, &Setting::key);
-    return std::ranges::count(row.only_when->values, choice->fallback) > 0;
+    return std::ranges::count(row.only_when->values, choice->fallback) > 0 && counts(*choice);
   }
 
   bool gives(const Setting& row) const { return counts(row) && !row.starter.empty(); }
