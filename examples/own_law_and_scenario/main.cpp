@@ -59,8 +59,8 @@ scenarios::Problem cooling(const io::Settings& settings) {
   state.walls = {{.line = 0.0, .radius = radius, .count = count},
                  {.line = size, .radius = radius, .count = count}};
   const ContactModel model = scenarios::contact_model(settings);
-  state.time_step =
-      scenarios::time_step(settings, scenarios::collision_time(settings, model, 0.5 * mass));
+  const double t_col = scenarios::collision_time(settings, model, 0.5 * mass);
+  state.time_step = scenarios::time_step(settings, model, t_col, 0.5 * mass);
 
   const auto seed = static_cast<std::uint64_t>(settings.integer("seed"));
   const double area = settings.number("grains.area_fraction") * size * size;
