@@ -1,6 +1,7 @@
 // Isolated collisions, run by the engine to their end.
 #pragma once
 
+#include "engine/closed_forms.hpp"
 #include "engine/simulation.hpp"
 #include "tests/engine/systems.hpp"
 
@@ -119,6 +120,11 @@ inline Rebound head_on(const HeadOn& h, const ContactModel& model) {
   const Outcome out = collide(state, model);
   return {(out.second_velocity - out.velocity).dot(along) / h.speed, out.contact_time(),
           out.tally.max_overlap};
+}
+
+/// s, a 50th of a head-on contact with a wall.
+inline double step_of(double gamma) {
+  return LinearContact{stiffness, gamma, mass}.collision_time() / 50.0;
 }
 
 }  // namespace collisions

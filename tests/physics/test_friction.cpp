@@ -13,10 +13,6 @@ using namespace collisions;
 
 namespace {
 
-double step_of(double gamma) {
-  return LinearContact{stiffness, gamma, mass}.collision_time() / 50.0;
-}
-
 /// The velocity along a flat wall at each step, from the first touch to the first step after the
 /// last.
 std::vector<double> slips(const ContactModel& model, double normal, double along, double dt) {

@@ -11,10 +11,6 @@ using namespace collisions;
 
 namespace {
 
-double step_of(double gamma) {
-  return LinearContact{stiffness, gamma, mass}.collision_time() / 50.0;
-}
-
 ContactModel elastic(const SlipLaw& slip, double mu) {
   ContactModel model = frictionless(0.0);
   model.slip = slip;
