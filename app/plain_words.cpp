@@ -31,7 +31,7 @@ std::string explanation(const Finding& f) {
 namespace {
 
 template <class Point>
-std::string count_of_verdicts(const std::vector<Point>& points) {
+std::string verdicts_of(const std::vector<Point>& points) {
   std::string text;
   for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
     if (const auto count = std::ranges::count(points, validity, &Point::verdict))
@@ -42,11 +42,11 @@ std::string count_of_verdicts(const std::vector<Point>& points) {
 }  // namespace
 
 std::string count_of_verdicts(const io::CurveSummary& summary) {
-  return count_of_verdicts(summary.curve);
+  return verdicts_of(summary.curve);
 }
 
 std::string count_of_verdicts(const io::ColumnSummary& summary) {
-  return count_of_verdicts(summary.column);
+  return verdicts_of(summary.column);
 }
 
 std::vector<std::string> where_unphysical(const io::CurveSummary& summary) {

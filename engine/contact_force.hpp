@@ -147,9 +147,13 @@ touch(const Encounter& e, const Turn& turn, const Stretch& stretch, const Normal
   t.rate = -(e.vx * nx + e.vy * ny);
   t.slip = t.centre_slip = e.vx * ny - e.vy * nx;
   double half_step_slip = e.half_vx * ny - e.half_vy * nx;
+  // The way slipped since the last step, with the distance that the bodies had on the way.
+  const double on_the_way = distance - 0.5 * dt * (e.half_vx * nx + e.half_vy * ny);
+  double slipping = half_step_slip * (distance / on_the_way);
   if constexpr (turns) {
     t.slip += distance * turn.roll;
     half_step_slip += distance * turn.half_roll;
+    slipping += on_the_way * turn.half_roll;
   }
 
   const double elastic = normal.elastic(t.overlap);
@@ -162,11 +166,13 @@ touch(const Encounter& e, const Turn& turn, const Stretch& stretch, const Normal
   double f_n = elastic + weight * damping;
   if (attraction == Attraction::clip) f_n = elastic + damping < 0.0 ? 0.0 : std::max(f_n, 0.0);
 
+  const bool pulls = elastic + damping < 0.0 && attraction == Attraction::clip;
   const Sliding sliding{.limit = mu * std::abs(f_n),
+                        .present_limit = pulls ? 0.0 : mu * std::abs(elastic + damping),
                         .slip = t.slip,
                         .half_step_slip = half_step_slip,
-                        .spring = stretch.spring + half_step_slip * stretch.time,
-                        .damping_weight = weight,
+                        .spring = stretch.spring + slipping * stretch.time,
+                        .weight = weight,
                         .reduced_mass = e.reduced_mass,
                         .slip_mass = slip_mass(e, distance, turn),
                         .dt = dt};
@@ -179,13 +185,13 @@ touch(const Encounter& e, const Turn& turn, const Stretch& stretch, const Normal
   t.fy = t.friction_y - f_n * ny;
   t.elastic_energy = normal.stored_energy(t.overlap);
   if constexpr (Slip::has_spring) {
-    t.spring = slip_law.elongation(sliding, f_s);
+    t.spring = slip_law.elongation(sliding);
     t.spring_energy = slip_law.stored_energy(t.spring);
     t.elastic_energy += t.spring_energy;
   }
   if constexpr (turns) {
     t.torque = distance * f_s;
-    t.rolling_torque = rolling_resistance(turn, f_n, dt);
+    t.rolling_torque = rolling_resistance(turn, f_n, dt) + 0.0;  // no negative zero
   }
   t.normal_power = (f_n - elastic) * t.rate;
   return t;

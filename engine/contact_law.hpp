@@ -12,7 +12,7 @@
 //   force(sliding)                 N along s, on the first body
 //   has_spring                     whether its contacts have a history, the elongation of a spring;
 // and if they have
-//   elongation(sliding, force)     m, what the force leaves of it
+//   elongation(sliding)            m, what sliding leaves of it
 //   stored_energy(elongation)      J
 //
 // Source, unless said otherwise: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
@@ -69,11 +69,12 @@ using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw, OuterL
 /// What a slip law sees of a contact. The slip is that of the surfaces, of the first body relative
 /// to the second, along s.
 struct Sliding {
-  double limit;           ///< N, mu |F_N|
+  double limit;           ///< N, mu |F_N|, in the mean over the step
+  double present_limit;   ///< N, the same at this moment
   double slip;            ///< m/s, at the full step
   double half_step_slip;  ///< m/s, half a step before
   double spring;          ///< m, elongation of the tangential spring by the slip so far
-  double damping_weight;  ///< the part of the step in which the bodies are in touch
+  double weight;          ///< the part of the step in which the bodies are in touch
   double reduced_mass;    ///< kg
   double slip_mass;       ///< kg, inertia of the slip: m_red, and less where the bodies can turn
   double dt;              ///< s
@@ -115,25 +116,21 @@ struct ViscousSlip {
 };
 
 /// F_S = -(k_t zeta + gamma_t m_red v_S), at most the limit: Cundall and Strack, Geotechnique 29,
-/// 47 (1979). The elongation zeta of the spring is the way that the contact has slipped. Where it
-/// slides, zeta is what goes with the limit: Luding, Granular Matter 10, 235 (2008).
+/// 47 (1979). The elongation zeta of the spring is the way slipped, cut off where the spring alone
+/// reaches the limit: the contact slides. So nothing is stored that was not given; a spring that is
+/// made longer or shorter to match the limit together with the damping may store what is not there.
 struct SpringSlip {
   static constexpr bool has_spring = true;
 
   double k_t;      ///< N/m
   double gamma_t;  ///< 1/s
 
-  double force(const Sliding& s) const { return -between(s.limit, k_t * s.spring + damping(s)); }
-  double elongation(const Sliding& s, double force) const {
-    const bool slides = std::abs(k_t * s.spring + damping(s)) > s.limit;
-    return slides ? (-force - damping(s)) / k_t : s.spring;
+  double elongation(const Sliding& s) const { return between(s.present_limit / k_t, s.spring); }
+  double force(const Sliding& s) const {
+    const double present = k_t * elongation(s) + gamma_t * s.reduced_mass * s.slip;
+    return -between(s.limit, s.weight * present);
   }
   double stored_energy(double elongation) const { return 0.5 * k_t * elongation * elongation; }
-
-private:
-  double damping(const Sliding& s) const {
-    return s.damping_weight * (gamma_t * s.reduced_mass * s.slip);
-  }
 };
 
 using SlipLaw = std::variant<CappedSlip, LiteralSlip, ViscousSlip, SpringSlip>;

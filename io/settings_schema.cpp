@@ -87,19 +87,22 @@ Json around(const std::string& key, const Json& schema, bool required) {
   return section.empty() ? inner : around(section, inner, required);
 }
 
-/// That `when` holds; a setting that is not given has its default.
+/// That `when` holds, and the setting that it refers to counts; one that is not given has its
+/// default.
 Json condition(const When& when, const SettingsTable& table) {
   const auto row = std::ranges::find(table, when.key, &Setting::key);
   const bool by_default = std::ranges::find(when.values, row->fallback) != when.values.end();
-  return around(when.key, {{"enum", when.values}}, !by_default);
+  Json own = around(when.key, {{"enum", when.values}}, !by_default);
+  if (!row->only_when) return own;
+  return {{"allOf", Json::array({own, condition(*row->only_when, table)})}};
 }
 
 /// The names of a section, or of the file, for completion.
-Json section(const SettingsTable& table, const std::string& name) {
+Json section(const SettingsTable& table, const std::string& path) {
   Json properties = Json::object();
-  const auto names = name.empty() ? top_level_names(table) : names_of(table, name);
+  const auto names = path.empty() ? top_level_names(table) : names_of(table, path);
   for (const std::string& part : names) {
-    const std::string key = key_of(name, part);
+    const std::string key = key_of(path, part);
     if (has_section(table, key)) {
       properties[part] = section(table, key);
       continue;

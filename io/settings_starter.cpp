@@ -14,7 +14,8 @@ namespace {
 
 std::string indent(const std::string& section) {
   if (section.empty()) return "";
-  return std::string(2 * (1 + static_cast<std::size_t>(std::ranges::count(section, '.'))), ' ');
+  const auto depth = 1 + std::ranges::count(section, '.');
+  return fmt::format("{:{}}", "", 2 * depth);
 }
 
 /// Comment lines of at most 100 characters.
@@ -36,13 +37,13 @@ class Starter {
 public:
   explicit Starter(const SettingsTable& table) : table_(&table) {}
 
-  std::string section(const std::string& name) const {
+  std::string section(const std::string& path) const {
     std::string text;
-    const auto names = name.empty() ? top_level_names(*table_) : names_of(*table_, name);
+    const auto names = path.empty() ? top_level_names(*table_) : names_of(*table_, path);
     for (const std::string& part : names) {
-      const std::string key = key_of(name, part);
+      const std::string key = key_of(path, part);
       if (has_section(*table_, key)) {
-        text += (name.empty() ? "\n" : "") + setting(key, "", is_given(key)) + section(key);
+        text += (path.empty() ? "\n" : "") + setting(key, "", is_given(key)) + section(key);
         continue;
       }
       for (const Setting& row : *table_)
@@ -56,7 +57,7 @@ private:
   bool counts(const Setting& row) const {
     if (!row.only_when) return true;
     const auto choice = std::ranges::find(*table_, row.only_when->key, &Setting::key);
-    return std::ranges::count(row.only_when->values, choice->fallback) > 0;
+    return std::ranges::count(row.only_when->values, choice->fallback) > 0 && counts(*choice);
   }
 
   bool gives(const Setting& row) const { return counts(row) && !row.starter.empty(); }

@@ -24,7 +24,8 @@ io::CsvTable read_table(const io::Settings& settings) {
                        {.name = "vx", .unit = "m/s"},
                        {.name = "vy", .unit = "m/s"},
                        {.name = "diameter", .unit = "m"},
-                       {.name = "mass", .unit = "kg", .required = false}});
+                       {.name = "mass", .unit = "kg", .required = false},
+                       {.name = "spin", .unit = "1/s", .required = false}});
 }
 
 double positive(const io::CsvTable& table, std::size_t row, const std::string& column) {
@@ -39,6 +40,15 @@ double mass_of(const io::Settings& settings, const io::CsvTable& table, std::siz
   if (table.has("mass")) return positive(table, row, "mass");
   const double relative = positive(table, row, "diameter") / settings.number("grains.diameter");
   return settings.number("grains.mass") * relative * relative;
+}
+
+/// rad/s; of grains that do not rotate none is taken.
+double spin_of(const io::CsvTable& table, std::size_t row, bool rotate) {
+  if (!table.has("spin")) return 0.0;
+  if (!rotate)
+    table.reject(row, "spin", "has no effect, as grains do not rotate",
+                 "remove the column, or let them rotate by grains.rotation");
+  return table.value(row, "spin");
 }
 
 void require_within(const io::CsvTable& table, std::size_t row, const std::string& column,
@@ -110,7 +120,8 @@ std::vector<Grain> grains_of_file(const io::Settings& settings, const State& emp
                       .vx = table.value(row, "vx"),
                       .vy = table.value(row, "vy"),
                       .radius = 0.5 * positive(table, row, "diameter"),
-                      .mass = mass_of(settings, table, row)});
+                      .mass = mass_of(settings, table, row),
+                      .spin = spin_of(table, row, empty.grains.rotate())});
   }
   reject_in_a_wall(table, empty, grains);
   reject_in_each_other(table, empty.box, grains);

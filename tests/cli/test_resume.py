@@ -33,6 +33,23 @@ class Resume(CommandTest):
                     self.resume_to_end(short, "--set", f"run.duration={duration}")
                 self.assert_same_result(long, short)
 
+    def test_grains_that_rotate_on_springs_go_on_by_other_ways(self):
+        spinning = [option for setting in ("grains.rotation=disc", "contact.slip=spring", "contact.slip_stiffness=500 N/m",
+                                           "contact.rolling_friction=0.1", "output.interval=0.5 ms")
+                    for option in ("--set", setting)]
+        long = self.run_small_tube("long", *spinning, "--set", "run.duration=5 ms")
+        short = self.run_small_tube("short", *spinning, "--set", "run.duration=2.3 ms", "--set",
+                                    "run.stepping=plain")
+        self.resume_to_end(short, "--threads", 2, "--set", "run.duration=5 ms", "--set", "run.stepping=windows")
+        self.assertEqual(self.state_hash(short), self.state_hash(long))
+        energy = self.summary(long)["energy"]
+        self.assertGreater(energy["rotational"], 0.0)
+        self.assertLess(abs(energy["residual"]), 1e-2 * energy["initial"])
+        with h5py.File(long / "run.h5", "r") as file:
+            final = file["final"]
+            spin, mass, radius = (final[name][()] for name in ("spin", "mass", "radius"))
+            self.assertAlmostEqual((0.25 * mass * (radius * spin) ** 2).sum() / energy["rotational"], 1.0, delta=1e-9)
+
     def test_the_longer_duration_is_kept_from_the_start_on(self):
         """In both generations of the checkpoint, so that it is not lost by a kill before the next."""
         short = self.run_small_tube("short", "--set", "run.duration=1 ms")

@@ -118,6 +118,11 @@ class Schema(CommandTest):
                 self.assertNotEqual(self.mistakes(wrong), [])
         del hertz["contact"]["damping"]
         self.assertTrue(any(re.search("damping.*required", text) for text in self.mistakes(hertz)))
+        placed = {**yaml.safe_load(SMALL_TUBE), "grains": {"mass": "1 mg"},
+                  "start": {"kind": "file", "from": "grains.csv"}}
+        self.assertEqual(self.mistakes(placed), [])
+        placed["grains"]["polydispersity"] = 0.1  # hangs on size_distribution, which hangs on start.kind
+        self.assertNotEqual(self.mistakes(placed), [])
         viscous = settings_with("contact.slip", "viscous")
         self.assertNotEqual(self.mistakes(viscous), [])
         viscous["contact"]["slip_damping"] = "1e4 1/s"

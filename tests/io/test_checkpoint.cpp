@@ -16,8 +16,8 @@ using namespace file_fixture;
 
 namespace {
 
-Checkpoint special_checkpoint(std::size_t grains = 4) {
-  return {.state = special_state(grains),
+Checkpoint special_checkpoint(std::size_t grains = 4, double inertia = 0.0) {
+  return {.state = special_state(grains, inertia),
           .settings = "scenario: periodic_tube\ntitle: \"Rüttelsieb\"\n",
           .source = "# mine\nscenario: periodic_tube\n",
           .rows = 12345,
@@ -209,6 +209,17 @@ TEST_CASE("A checkpoint of another version of the format is refused with the way
   CHECK(error.ends_with("; use riesel 9.9.9"));
 }
 
+TEST_CASE("A checkpoint of grains that rotate holds all bits of their spins") {
+  const ScratchDirectory directory;
+  const auto path = directory / "c.h5";
+  auto checkpoint = special_checkpoint(5, 0.4);
+  write_checkpoint(path, checkpoint);
+  CHECK((bits_of(read_checkpoint(path)) == bits_of(checkpoint)));
+  checkpoint.state = reversed(checkpoint.state);
+  write_checkpoint(directory / "d.h5", checkpoint);
+  CHECK((contents(directory / "d.h5") == contents(path)));
+}
+
 TEST_CASE("A checkpoint of a wrong shape is refused") {
   const ScratchDirectory directory;
   const auto path = directory / "c.h5";
@@ -280,6 +291,11 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
   CHECK(refusal([](auto& c) { c.state.grains.id[2] = 4; }) == "the id 4 is out of range");
   CHECK(refusal([](auto& c) { c.state.grains.kick_x.pop_back(); })
         == "not all grains have all values");
+  CHECK(refusal([](auto& c) { c.state.grains.spin.push_back(1); })
+        == "not all grains have all values");
+  CHECK(refusal([](auto& c) { c.state.grains.inertia = 0.5; }) == "not all grains have all values");
+  CHECK(refusal([](auto& c) { c.state.grains.inertia = -0.5; })
+        == "the moment of inertia is negative");
   CHECK(refusal([](auto& c) { std::swap(c.state.contacts[0], c.state.contacts[1]); })
         == "the contact (wall -1, grain 0, partner 3) is out of order");
   CHECK(refusal([](auto& c) { c.state.contacts[1] = c.state.contacts[0]; })

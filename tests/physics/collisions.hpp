@@ -1,6 +1,7 @@
 // Isolated collisions, run by the engine to their end.
 #pragma once
 
+#include "engine/closed_forms.hpp"
 #include "engine/simulation.hpp"
 #include "tests/engine/systems.hpp"
 
@@ -17,6 +18,7 @@ using Eigen::Vector2d;
 struct Outcome {
   Vector2d velocity;         ///< m/s, of the first grain
   Vector2d second_velocity;  ///< m/s, of the second; zero if that is a wall grain
+  double spin, second_spin;  ///< rad/s, likewise
   ContactTally tally;
 
   double contact_time() const { return tally.duration.value(); }
@@ -44,13 +46,28 @@ inline Outcome collide(const State& start, const ContactModel& model) {
     simulation.advance(1);
   }
   simulation.advance(1);  // the velocity at the full step is free of the contact's last kick
-  const auto velocity = [&](std::int32_t id) {
-    const Grain g = grain_of_id(simulation.state(), id);
-    return Vector2d(g.vx, g.vy);
-  };
-  return {.velocity = velocity(0),
-          .second_velocity = at_wall ? Vector2d::Zero() : velocity(1),
+  const auto of = [&](std::int32_t id) { return grain_of_id(simulation.state(), id); };
+  const auto velocity = [](const Grain& g) { return Vector2d(g.vx, g.vy); };
+  return {.velocity = velocity(of(0)),
+          .second_velocity = at_wall ? Vector2d(0.0, 0.0) : velocity(of(1)),
+          .spin = of(0).spin,
+          .second_spin = at_wall ? 0.0 : of(1).spin,
           .tally = tally()};
+}
+
+constexpr double flat_radius = 10.0;  // m: so large that the normal does not turn in a contact
+
+/// A grain about to hit a flat wall at x = 0 with the velocity (-normal, along).
+inline State above_flat_wall(double normal, double along, double dt, double inertia = 0.0,
+                             double spin = 0.0) {
+  State state = empty_box(100.0, 100.0);
+  state.time_step = dt;
+  state.grains.inertia = inertia;
+  state.walls = {{.line = -flat_radius, .radius = flat_radius, .count = 1}};
+  Grain g = grain(radius + 2.5 * normal * dt, 0.0, -normal, along);
+  g.spin = spin;
+  add_grain(state, g);
+  return state;
 }
 
 /// A grain that meets one wall grain standing at the origin.
@@ -103,6 +120,11 @@ inline Rebound head_on(const HeadOn& h, const ContactModel& model) {
   const Outcome out = collide(state, model);
   return {(out.second_velocity - out.velocity).dot(along) / h.speed, out.contact_time(),
           out.tally.max_overlap};
+}
+
+/// s, a 50th of a head-on contact with a wall.
+inline double step_of(double gamma) {
+  return LinearContact{stiffness, gamma, mass}.collision_time() / 50.0;
 }
 
 }  // namespace collisions

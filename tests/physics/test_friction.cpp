@@ -13,21 +13,6 @@ using namespace collisions;
 
 namespace {
 
-constexpr double flat_radius = 10.0;  // m: so large that the normal does not turn during a contact
-
-/// A grain about to hit a flat wall at x = 0 with the velocity (-normal, along).
-State above_flat_wall(double normal, double along, double dt) {
-  State state = empty_box(100.0, 100.0);
-  state.time_step = dt;
-  state.walls = {{.line = -flat_radius, .radius = flat_radius, .count = 1}};
-  add_grain(state, grain(radius + 2.5 * normal * dt, 0.0, -normal, along));
-  return state;
-}
-
-double step_of(double gamma) {
-  return LinearContact{stiffness, gamma, mass}.collision_time() / 50.0;
-}
-
 /// The velocity along a flat wall at each step, from the first touch to the first step after the
 /// last.
 std::vector<double> slips(const ContactModel& model, double normal, double along, double dt) {

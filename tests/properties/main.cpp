@@ -46,7 +46,7 @@ int check_set_ups(std::uint64_t first, std::uint64_t count) {
 /// By law and by decade of the number of steps.
 int print_gains(std::uint64_t first, std::uint64_t count) {
   constexpr std::array laws{"linear", "power", "Hertz"};
-  constexpr std::array slips{"capped", "literal", "viscous"};
+  constexpr std::array slips{"capped", "literal", "viscous", "spring"};
   constexpr std::array lowest{10.0, 20.0, 50.0, 100.0};
   std::array<std::array<std::array<double, lowest.size()>, slips.size()>, laws.size()> most{};
   std::array<std::array<std::array<int, lowest.size()>, slips.size()>, laws.size()> counts{};

@@ -139,6 +139,7 @@ Impact random_impact(std::uint64_t seed) {
   const double reduced_mass = on_wall ? mass : 0.5 * mass;
   const double t_col = collision_time(impact.model.normal, reduced_mass, speed);
   state.time_step = t_col / impact.steps_per_collision;
+  add_rotation(seed, t_col, impact.model, state);
   // Just apart, so that it meets the other at a place that a step does not know.
   const double apart = 1e-3 * radius + dice.between(0.0, 1.0) * speed * state.time_step;
   const double offset = dice.between(-1.0, 1.0) * (on_wall ? wall_radius : 2.0 * radius);
@@ -155,10 +156,16 @@ Impact random_impact(std::uint64_t seed) {
     add_grain(state, grain(1.0 - distance - apart, 10e-3 + offset, speed, 0.0));
     energy = 0.25 * mass * speed * speed;
   }
+  if (state.grains.rotate()) {
+    const double surface_speed = dice.between(-1.0, 1.0) * speed;
+    state.grains.spin[0] =
+        nearest_fixed(surface_speed / radius * state.time_step / quantum_of_angle);
+    energy += 0.5 * state.grains.inertia * mass * surface_speed * surface_speed;
+  }
   Simulation simulation(std::move(state), impact.model, 1, Stepping::windows);
   const auto energy_now = [&] {
     const Energies e = observe(simulation.state()).energies;
-    return e.kinetic + e.elastic;
+    return e.kinetic + e.rotational + e.elastic;
   };
   const double before = energy_now();
   // At grazing angles an impact is over sooner than a head-on one, or does not happen; at a wall

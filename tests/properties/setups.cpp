@@ -50,6 +50,18 @@ SlipLaw random_slip_law(Dice& dice) {
 
 }  // namespace
 
+// From dice of its own: the other seeds, and all the rest, are as without.
+void add_rotation(std::uint64_t seed, double t_col, ContactModel& model, State& state) {
+  Dice dice(seed ^ 0x5eedU);
+  if (dice.below(2) == 0) return;
+  if (dice.below(3) != 0) state.grains.inertia = dice.below(2) == 0 ? disc : sphere;
+  if (state.grains.rotate()) model.rolling_friction = dice.below(2) == 0 ? 0.0 : 0.3;
+  if (dice.below(3) == 0) return;
+  const double k_n = 0.5 * mass * std::pow(std::acos(-1.0) / t_col, 2);
+  const double k_t = dice.between(0.05, 1.0) * k_n;
+  model.slip = SpringSlip{k_t, dice.below(2) == 0 ? 0.0 : dice.between(0.0, 1.0) / t_col};
+}
+
 ContactModel random_model(Dice& dice) {
   // One draw after the other: arguments of one call are evaluated in an order of the compiler's.
   const NormalLaw normal = random_normal_law(dice);
@@ -74,6 +86,7 @@ SetUp random_set_up(std::uint64_t seed) {
   // which it might leave where there are no walls.
   state.time_step = std::min(t_col / power_of_ten(dice, 0.9, 2.0),
                              0.5 * width / (speed * static_cast<double>(set_up.steps)));
+  add_rotation(seed, t_col, set_up.model, state);
   const Throw where{.left = 0.0,
                     .right = width,
                     .low = 0.0,
@@ -89,16 +102,18 @@ SetUp random_set_up(std::uint64_t seed) {
 
 std::string description(const SetUp& s) {
   static const std::vector<const char*> normal{"linear", "power", "Hertz"};
-  static const std::vector<const char*> slip{"capped", "literal", "viscous"};
+  static const std::vector<const char*> slip{"capped", "literal", "viscous", "spring"};
   std::vector<char> line(300);
   const double fastest = s.start.grains.size() == 0 ? 0.0 : std::abs(grain_at(s.start, 0).vx);
   std::snprintf(line.data(), line.size(),
-                "%zu grains, %.3g x %.3g m, walls %zu, g %.3g, %s law, %s slip, mu %.3g, %s, dt "
+                "%zu grains of inertia %.1f, %.3g x %.3g m, walls %zu, g %.3g, %s law, %s slip, mu "
+                "%.3g, %s, dt "
                 "%.3g s, %lld steps, a speed %.3g m/s",
-                s.start.grains.size(), s.start.box.width, s.start.box.length, s.start.walls.size(),
-                s.start.gravity, normal[s.model.normal.index()], slip[s.model.slip.index()],
-                s.model.friction, s.model.attraction == Attraction::clip ? "clip" : "keep",
-                s.start.time_step, static_cast<long long>(s.steps), fastest);
+                s.start.grains.size(), s.start.grains.inertia, s.start.box.width,
+                s.start.box.length, s.start.walls.size(), s.start.gravity,
+                normal[s.model.normal.index()], slip[s.model.slip.index()], s.model.friction,
+                s.model.attraction == Attraction::clip ? "clip" : "keep", s.start.time_step,
+                static_cast<long long>(s.steps), fastest);
   return line.data();
 }
 

@@ -23,6 +23,10 @@ SetUp random_set_up(std::uint64_t seed);
 /// A contact law of any kind, with its friction. Loses energy, or at least wins none.
 riesel::ContactModel random_model(systems::Dice& dice);
 
+/// Makes grains rotate and springs act for every other seed. `t_col` in s; before there are grains.
+void add_rotation(std::uint64_t seed, double t_col, riesel::ContactModel& model,
+                  riesel::State& state);
+
 /// One line for whoever has to find out what is special about it.
 std::string description(const SetUp& set_up);
 

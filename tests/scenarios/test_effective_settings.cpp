@@ -33,10 +33,11 @@ bool same(const SlipLaw& a, const SlipLaw& b) {
   if (a.index() != b.index()) return false;
   const auto force = [](const auto& law) {
     return law.force({.limit = 1e9,
+                      .present_limit = 1e9,
                       .slip = 0.1,
                       .half_step_slip = 0.1,
                       .spring = 1e-6,
-                      .damping_weight = 1.0,
+                      .weight = 1.0,
                       .reduced_mass = 1e-6,
                       .slip_mass = 1e-6,
                       .dt = 1e-6});

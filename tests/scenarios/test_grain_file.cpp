@@ -70,6 +70,13 @@ TEST_CASE("masses of a file count, and the lightest pair sets the time step") {
   CHECK_THAT(state.time_step, WithinRel(shortest / 50.0, 1e-12));
 }
 
+TEST_CASE("grains that rotate may have spins in the file, others may not") {
+  const FileStart file("spin (1/s),diameter (mm),x (mm),y (mm),vx,vy\n-30,1,5,5,0,0\n");
+  CHECK_THAT(grain_at(file.state({"grains.rotation=disc"}), 0).spin, WithinRel(-30.0, 1e-9));
+  check_mentions(file.complaint(),
+                 {"grains.csv:2:1: spin: has no effect, as grains do not rotate"});
+}
+
 TEST_CASE("a grain from a file falls on its parabola") {
   const FileStart file(head + "10, 3, 0.4, 1, 1\n");
   const auto start = tube(file.overrides({"gravity=9.81 m/s^2"}));
