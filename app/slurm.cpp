@@ -68,7 +68,6 @@ constexpr auto script = R"(#!/bin/bash
 #SBATCH --output={log}
 #SBATCH --open-mode=append
 #SBATCH --requeue
-#SBATCH --signal=B:USR1@60
 {more}
 {riesel} sweep-task {sweep} "$SLURM_ARRAY_TASK_ID" --of {tasks} --threads {threads}{walltime} &
 task=$!
@@ -105,7 +104,11 @@ std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   const std::size_t tasks = std::min({most_parts(manifest), most, options.tasks.value_or(most)});
   const auto open = open_parts(manifest, tasks);
   if (open.empty()) return {};
+  // It comes up to two minutes before the end: of short tasks, which look after themselves, too
+  // soon.
+  constexpr double time_worth_a_signal = 600.0;  // s
   std::string more, walltime;
+  if (!time || *time >= time_worth_a_signal) more += "#SBATCH --signal=B:USR1@60\n";
   if (time) {
     more += fmt::format("#SBATCH --time={:.0f}\n", std::ceil(*time / 60.0));
     walltime = fmt::format(" --max-walltime {}", quoted(fmt::format("{} s", *time)));

@@ -27,7 +27,7 @@ continue_along: contact.restitution
 # Each run takes several seconds.
 LONG = """\
 base: tube.yaml
-set: {run.duration: 3 s, output.checkpoint_interval: 1 h}
+set: {run.duration: 6 s, output.checkpoint_interval: 1 h}
 axes: {contact.restitution: [0.8, 0.9]}
 """
 
@@ -56,6 +56,13 @@ class Script(SweepTest):
         self.assertFalse((self.home / "out").exists())
         checked = subprocess.run(["bash", "-n"], input=script, text=True, check=False)
         self.assertEqual(checked.returncode, 0)
+
+    def test_only_long_tasks_are_signalled(self):
+        """The signal may come two minutes early, so that short ones would get nowhere."""
+        signalled = r"#SBATCH --signal=B:USR1@60"
+        self.assertEqual(lines_of(self.script(FOUR, "--max-walltime", "2 min"), signalled), [])
+        self.assertEqual(len(lines_of(self.script(FOUR, "--max-walltime", "1 h"), signalled)), 1)
+        self.assertEqual(len(lines_of(self.script(FOUR), signalled)), 1)
 
     def test_chains_stay_together(self):
         self.assertIn("#SBATCH --array=0-2\n", self.script(CHAINS))
@@ -167,7 +174,8 @@ class OnACluster(SweepTest):
         self.wait_until(lambda: any(job[2] != "0" for job in self.cluster.jobs() or []))
 
     def wait_until(self, happened):
-        deadline = time.monotonic() + slurm_cluster.PATIENCE
+        """Slurm may need minutes to queue a job again."""
+        deadline = time.monotonic() + 4.0 * slurm_cluster.PATIENCE
         while not happened():
             self.assertLess(time.monotonic(), deadline, self.logs() + self.cluster.logs())
-            time.sleep(0.02)
+            time.sleep(0.2)
