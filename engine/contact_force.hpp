@@ -128,7 +128,7 @@ inline double kick_time(double in_touch, double dt) { return in_touch < dt ? in_
 /// more than what stops it within the step.
 [[gnu::always_inline]] inline double rolling_resistance(const Turning& t, double f_n, double dt) {
   const double stops = t.half_spin / ((t.per_inertia_first + t.per_inertia_second) * dt);
-  return 0.0 - between(t.rolling_arm * std::abs(f_n), stops);
+  return 0.0 - capped(t.rolling_arm * std::abs(f_n), stops);
 }
 
 /// Without branches and inlined, so that a loop over contacts can be vectorised. `Turn` is Turning

@@ -80,7 +80,7 @@ struct Sliding {
   double dt;              ///< s
 };
 
-[[gnu::always_inline]] inline double between(double limit, double force) {
+[[gnu::always_inline]] inline double capped(double limit, double force) {
   return std::max(-limit, std::min(limit, force));
 }
 
@@ -91,7 +91,7 @@ struct CappedSlip {
   static constexpr bool has_spring = false;
 
   double force(const Sliding& s) const {
-    return -between(s.limit, s.slip_mass * s.half_step_slip / s.dt);
+    return -capped(s.limit, s.slip_mass * s.half_step_slip / s.dt);
   }
 };
 
@@ -111,7 +111,7 @@ struct ViscousSlip {
   double gamma_t;  ///< 1/s
 
   double force(const Sliding& s) const {
-    return -between(s.limit, gamma_t * s.reduced_mass * s.slip);
+    return -capped(s.limit, gamma_t * s.reduced_mass * s.slip);
   }
 };
 
@@ -125,10 +125,10 @@ struct SpringSlip {
   double k_t;      ///< N/m
   double gamma_t;  ///< 1/s
 
-  double elongation(const Sliding& s) const { return between(s.present_limit / k_t, s.spring); }
+  double elongation(const Sliding& s) const { return capped(s.present_limit / k_t, s.spring); }
   double force(const Sliding& s) const {
     const double present = k_t * elongation(s) + gamma_t * s.reduced_mass * s.slip;
-    return -between(s.limit, s.weight * present);
+    return -capped(s.limit, s.weight * present);
   }
   double stored_energy(double elongation) const { return 0.5 * k_t * elongation * elongation; }
 };
