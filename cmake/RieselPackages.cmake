@@ -34,6 +34,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= 3.11), python3-numpy, python3-h5py, python3-yaml")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/debian/prerm")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "molecular dynamics of rapid granular flow: reader for Python
  Reads the directories of runs and sweeps of riesel into numpy arrays.")
 

@@ -2,7 +2,7 @@
 # Installs the Debian packages given in a fresh, minimal Debian 12 and tries them there: the command runs,
 # resumes and reports, Python reads, a program is built against the libraries, and removal leaves nothing.
 #   tests/package/clean_debian.sh build/release/*.deb
-# Needs root, debootstrap and the network; MIRROR names another mirror, ROOT a directory to keep.
+# Needs root, debootstrap and the network; MIRROR names a mirror, ROOT a directory to keep.
 set -euo pipefail
 
 if (($# == 0)) || [[ "$1" == --help ]]; then
@@ -14,7 +14,6 @@ if ((EUID != 0)); then
   exit 2
 fi
 
-mirror=${MIRROR:-http://deb.debian.org/debian}
 if [[ -n "${ROOT:-}" ]]; then
   root=$ROOT
 else
@@ -27,7 +26,7 @@ inside() { chroot "$root" /usr/bin/env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOM
 
 if [[ ! -e "$root/etc/debian_version" ]]; then
   say "debootstrap"
-  debootstrap --variant=minbase bookworm "$root" "$mirror" >"$root.log" || { tail "$root.log"; exit 1; }
+  debootstrap --variant=minbase bookworm "$root" ${MIRROR:+"$MIRROR"} >"$root.log" || { tail "$root.log"; exit 1; }
   rm -f "$root.log"
 fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
@@ -53,6 +52,7 @@ run = riesel.Run(\"run\")
 print(run.estimate(\"mean_axial_velocity\"), run.provenance[\"riesel_version\"])"'
 
 say "build against the libraries"
+inside apt-get install -q -y --no-install-recommends make
 inside bash -ec '
   cd /root
   cmake -S /usr/share/doc/libriesel-dev/examples/own_law_and_scenario -B cooling >/dev/null
