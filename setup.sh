@@ -42,6 +42,7 @@ Usage: ./setup.sh COMMAND
   build      install what is missing and build the release: $riesel
   lint       check formatting, C++, Python, shell scripts and what is written about the API
              (clang-format, clang-tidy, mypy, shellcheck, Doxygen)
+  analyze    let the analyzer of Clang read the sources one by one: four minutes
   api        the headers and the manual as pages: build/api/html/index.html
   coverage   build for it, run the tests and tell which lines they do not reach;
              further arguments go to ctest
@@ -163,9 +164,6 @@ lint() {
   build ci --target riesel_build_info
   say "clang-tidy"
   lint_units | tidy -p build/lint --checks='-clang-analyzer-*' || complaints+=(clang-tidy)
-  say "clang-analyzer"
-  cpp_sources engine io scenarios app | tidy -p build/ci --checks="$main_file_checks" ||
-    complaints+=(clang-analyzer)
   ((${#complaints[@]} == 0)) || die "complaints from: ${complaints[*]}"
 }
 
@@ -177,6 +175,12 @@ coverage() {
   gcovr --root . --object-directory build/coverage --filter 'engine/' --filter 'io/' \
     --filter 'scenarios/' --filter 'app/' --exclude '.*/include-rooms/' --print-summary \
     --fail-under-line 95
+}
+
+# Not a part of lint, since it takes minutes.
+analyze() {
+  build ci --target riesel_build_info
+  cpp_sources engine io scenarios app | tidy -p build/ci --checks="$main_file_checks"
 }
 
 command=${1:-help}
@@ -200,6 +204,10 @@ case $command in
   lint)
     install_packages "${build_packages[@]}" "${lint_packages[@]}"
     lint
+    ;;
+  analyze)
+    install_packages "${build_packages[@]}" "${lint_packages[@]}"
+    analyze
     ;;
   api)
     install_packages "${lint_packages[@]}"
