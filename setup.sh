@@ -156,12 +156,10 @@ lint() {
   api || complaints+=(doxygen)
   say "mypy"
   (cd python && mypy riesel) || complaints+=(mypy)
-  # What takes the time are the headers of libraries, so most checks read units of several sources.
-  # A "redefinition" across two sources of a room wants another name, or SKIP_UNITY_BUILD_INCLUSION
-  # as in the room's CMakeLists.txt. The analyzer and two checks look at the main file only: they read
-  # the sources of what users run one by one.
+  # What takes the time are the headers of libraries, so units of several sources are read. A
+  # "redefinition" across two sources of a room wants another name, or SKIP_UNITY_BUILD_INCLUSION as
+  # in the room's CMakeLists.txt. What looks at the main file only reads them one by one: analyze.
   build lint --target riesel_build_info
-  build ci --target riesel_build_info
   say "clang-tidy"
   lint_units | tidy -p build/lint --checks='-clang-analyzer-*' || complaints+=(clang-tidy)
   ((${#complaints[@]} == 0)) || die "complaints from: ${complaints[*]}"
