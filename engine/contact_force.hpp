@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace riesel {
@@ -45,10 +46,11 @@ struct Turning {
 /// Of grains that do not rotate.
 struct NoTurning {};
 
-/// The tangential spring of a contact, for laws that have one.
+/// The tangential spring of a contact; zero for laws that have none. Without default values, and
+/// handed on by value: else GCC 12 keeps it in memory, and no loop with it is vectorised.
 struct Stretch {
-  double spring = 0.0;  ///< m, its elongation a step before
-  double time = 0.0;    ///< s, for which the slip has stretched it since
+  double spring;  ///< m, its elongation a step before
+  double time;    ///< s, for which the slip has stretched it since
 };
 
 /// What the contact does in this step.
@@ -134,9 +136,9 @@ inline double kick_time(double in_touch, double dt) { return in_touch < dt ? in_
 /// Without branches and inlined, so that a loop over contacts can be vectorised. `Turn` is Turning
 /// or NoTurning.
 template <class Turn, class Normal, class Slip>
-[[gnu::always_inline]] inline Touch
-touch(const Encounter& e, const Turn& turn, const Stretch& stretch, const Normal& normal,
-      const Slip& slip_law, double mu, Attraction attraction, double dt) {
+[[gnu::always_inline]] inline Touch touch(const Encounter& e, const Turn& turn, Stretch stretch,
+                                          const Normal& normal, const Slip& slip_law, double mu,
+                                          Attraction attraction, double dt) {
   constexpr bool turns = std::is_same_v<Turn, Turning>;
   const double distance = std::sqrt(e.x * e.x + e.y * e.y);
   const double per_distance = 1.0 / distance;
@@ -158,17 +160,19 @@ touch(const Encounter& e, const Turn& turn, const Stretch& stretch, const Normal
 
   const double elastic = normal.elastic(t.overlap);
   const double damping = normal.damping(t.overlap, t.rate, e.reduced_mass);
-  const Passage in_touch = passage(e, distance, (elastic + damping) / e.reduced_mass, dt);
+  const double present = elastic + damping;
+  const Passage in_touch = passage(e, distance, present / e.reduced_mass, dt);
   t.since = in_touch.since;
   t.until = in_touch.until;
   const double weight = (kick_time(t.since, dt) + kick_time(t.until, dt)) / dt;
 
-  double f_n = elastic + weight * damping;
-  if (attraction == Attraction::clip) f_n = elastic + damping < 0.0 ? 0.0 : std::max(f_n, 0.0);
+  // One bound for both kinds of attraction instead of a branch: GCC 12 does not vectorise that.
+  const double least =
+      attraction == Attraction::clip ? 0.0 : -std::numeric_limits<double>::infinity();
+  const double f_n = present < least ? 0.0 : std::max(elastic + weight * damping, least);
 
-  const bool pulls = elastic + damping < 0.0 && attraction == Attraction::clip;
   const Sliding sliding{.limit = mu * std::abs(f_n),
-                        .present_limit = pulls ? 0.0 : mu * std::abs(elastic + damping),
+                        .present_limit = mu * std::abs(std::max(present, least)),
                         .slip = t.slip,
                         .half_step_slip = half_step_slip,
                         .spring = stretch.spring + slipping * stretch.time,

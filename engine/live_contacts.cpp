@@ -87,7 +87,7 @@ template <class Slip, class Columns>
     return {.spring = c.life[RIESEL_LIFE(spring)][i],
             .time = std::min(u.dt, u.time - c.life[RIESEL_LIFE(begin)][i])};
   else
-    return {};
+    return {.spring = 0.0, .time = 0.0};
 }
 
 /// What friction took in the step before, as Contact has it: without what went to the spring, with
@@ -323,8 +323,9 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
   const Columns c = columns();
   for (std::size_t i = size() - beginning_; i < size(); ++i) {
     const Touch t = touch(encounter_of<partner>(c, i, bodies, units),
-                          turning_of<partner, Turn>(c, i, bodies, 0.0, units), Stretch{}, normal,
-                          slip, model.friction, model.attraction, units.dt);
+                          turning_of<partner, Turn>(c, i, bodies, 0.0, units),
+                          Stretch{.spring = 0.0, .time = 0.0}, normal, slip, model.friction,
+                          model.attraction, units.dt);
     c.life[RIESEL_LIFE(begin)][i] = units.time - t.since;
     c.life[RIESEL_LIFE(entry_rate)][i] = t.rate;
     c.life[RIESEL_LIFE(entry_slip)][i] = t.centre_slip;

@@ -14,7 +14,7 @@ std::vector<PresentForce> present_forces(const State& state, const ContactModel&
   const auto touch_of = [&](const Contact& contact, const Meeting& meeting, const Encounter& e) {
     return std::visit(
         [&](const auto& normal, const auto& slip) {
-          const Stretch spring{.spring = contact.spring};
+          const Stretch spring{.spring = contact.spring, .time = 0.0};
           const auto touch_of_turning = [&](const auto& turn) {
             return touch(e, turn, spring, normal, slip, model.friction, model.attraction, units.dt);
           };

@@ -5,7 +5,8 @@
 // only choose candidates that are looked at exactly afterwards.
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)                                \
+#if defined(RIESEL_VECTOR_KERNEL)  // whoever compiles has said for which machine
+#elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)                              \
     && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 #define RIESEL_VECTOR_KERNEL                                                                       \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
