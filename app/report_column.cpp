@@ -73,12 +73,7 @@ void list_points(const io::ColumnSummary& s, io::HtmlPage& page) {
 }  // namespace
 
 Report make_report(const ColumnRecord& record) {
-  ReportDraft draft("riesel: " + record.summary.run.scenario);
-  tell_result(record.summary, draft.page());
-  show_curves(record.summary, draft);
-  list_points(record.summary, draft.page());
-  draft.add_origin(record.summary.run, record.history, record.effective_settings);
-  return draft.report();
+  return report_of(record, tell_result, show_curves, list_points);
 }
 
 }  // namespace riesel::app

@@ -81,12 +81,7 @@ std::vector<ImpactLine> lines_of(const io::CurveSummary& summary) {
 }
 
 Report make_report(const ImpactRecord& record) {
-  ReportDraft draft("riesel: " + record.summary.run.scenario);
-  tell_result(record.summary, draft.page());
-  show_curves(record.summary, draft);
-  list_points(record.summary, draft.page());
-  draft.add_origin(record.summary.run, record.history, record.effective_settings);
-  return draft.report();
+  return report_of(record, tell_result, show_curves, list_points);
 }
 
 }  // namespace riesel::app

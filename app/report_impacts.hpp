@@ -1,22 +1,15 @@
 // The report of an impact scenario: its curves, and where they are no property of hard grains.
 #pragma once
 
+#include "app/curve_record.hpp"
 #include "app/report_curves.hpp"
-#include "app/report_parts.hpp"
-#include "io/run_reader.hpp"
 #include "io/summary.hpp"
 
-#include <string>
 #include <vector>
 
 namespace riesel::app {
 
-/// What a finished run left.
-struct ImpactRecord {
-  io::CurveSummary summary;
-  io::RunHistory history;
-  std::string effective_settings;
-};
+using ImpactRecord = CurveRecord<io::CurveSummary>;
 
 /// Equal records give equal reports, byte by byte.
 Report make_report(const ImpactRecord& record);

@@ -1,13 +1,6 @@
 #include "app/run_column.hpp"
 
-#include "app/cost.hpp"
-#include "app/exit_status.hpp"
-#include "app/print_summary.hpp"
-#include "io/durable_file.hpp"
-#include "io/run_file.hpp"
-#include "io/summary.hpp"
-
-#include <chrono>
+#include "app/run_points.hpp"
 
 namespace riesel::app {
 
@@ -35,9 +28,9 @@ io::ColumnPoint point(const scenarios::ColumnCurve& curve, double gap_ratio,
   return p;
 }
 
-void write_points(io::RunFile& file, const std::vector<io::ColumnPoint>& column) {
+void write_points(io::RunFile& file, const io::ColumnSummary& summary) {
   std::vector<std::vector<double>> rows;
-  for (const io::ColumnPoint& p : column)
+  for (const io::ColumnPoint& p : summary.column)
     rows.push_back({p.gap_ratio, p.gap, p.restitution, p.rebound, p.detachment, p.contacts,
                     p.contact_time, p.max_overlap, static_cast<double>(p.verdict)});
   file.write_curve(
@@ -57,39 +50,17 @@ void write_points(io::RunFile& file, const std::vector<io::ColumnPoint>& column)
 
 int run_column(const io::Settings& settings, const scenarios::ColumnCurve& curve,
                const RunDirectory& directory, const Arguments& arguments, Verbosity verbosity) {
-  using Clock = std::chrono::steady_clock;
-  const int threads = threads_for_curve(settings);
-  const auto provenance = io::collect_provenance({.arguments = arguments,
-                                                  .seed = settings.integer("seed"),
-                                                  .threads = threads,
-                                                  .source = settings.source_text(),
-                                                  .settings = settings.effective_yaml()});
-  const auto start = Clock::now();
-  const std::vector<ColumnResult> results = drop_all(curve.setup, gaps_of(curve), threads);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-
-  io::ColumnSummary summary{
-      .run = {}, .t_col = curve.setup.collision_time, .rigid = curve.rigid, .column = {}};
-  std::int64_t steps = 0;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    summary.column.push_back(point(curve, curve.gap_ratios[i], results[i]));
-    steps += results[i].steps;
-  }
-  summary.run = {.scenario = settings.scenario(),
-                 .grains = curve.setup.beads,
-                 .steps = steps,
-                 .state_hash = hash_of(results),
-                 .wall_seconds = seconds,
-                 .particle_steps_per_second =
-                     curve.setup.beads * static_cast<double>(steps) / seconds,
-                 .threads = threads};
-  // Not before: a curve cannot be resumed, and what is interrupted may be called again.
-  auto file = io::RunFile::create(directory.file(io::run_file_name), provenance, {});
-  write_points(file, summary.column);
-  file.flush();
-  io::write_durably(directory.file(io::summary_name), io::to_json(summary));
-  if (verbosity != Verbosity::quiet) print_summary(summary, directory.path());
-  return exit_done;
+  const auto summarise = [&](const std::vector<ColumnResult>& results) {
+    io::ColumnSummary summary{
+        .run = {}, .t_col = curve.setup.collision_time, .rigid = curve.rigid, .column = {}};
+    for (std::size_t i = 0; i < results.size(); ++i)
+      summary.column.push_back(point(curve, curve.gap_ratios[i], results[i]));
+    return summary;
+  };
+  return run_points(
+      settings, curve.setup.beads, directory, arguments, verbosity,
+      [&](int threads) { return drop_all(curve.setup, gaps_of(curve), threads); }, summarise,
+      write_points);
 }
 
 }  // namespace riesel::app

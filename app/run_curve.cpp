@@ -1,15 +1,8 @@
 #include "app/run_curve.hpp"
 
-#include "app/cost.hpp"
-#include "app/exit_status.hpp"
-#include "app/print_summary.hpp"
-#include "io/durable_file.hpp"
-#include "io/run_file.hpp"
-#include "io/summary.hpp"
+#include "app/run_points.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <numeric>
 #include <span>
 
 namespace riesel::app {
@@ -46,9 +39,9 @@ io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::P
   return mean;
 }
 
-void write_curve(io::RunFile& file, const std::vector<io::CurvePoint>& curve) {
+void write_curve(io::RunFile& file, const io::CurveSummary& summary) {
   std::vector<std::vector<double>> rows;
-  for (const io::CurvePoint& p : curve)
+  for (const io::CurvePoint& p : summary.curve)
     rows.push_back({p.v_x, p.v_y, p.dv_x, p.dv_y, p.contacts, p.contact_time, p.max_overlap,
                     static_cast<double>(p.passed), static_cast<double>(p.stuck), p.cut_short,
                     p.brake_failure_fraction, static_cast<double>(p.verdict)});
@@ -71,38 +64,17 @@ void write_curve(io::RunFile& file, const std::vector<io::CurvePoint>& curve) {
 
 int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
               const RunDirectory& directory, const Arguments& arguments, Verbosity verbosity) {
-  using Clock = std::chrono::steady_clock;
-  const int threads = threads_for_curve(settings);
-  const auto provenance = io::collect_provenance({.arguments = arguments,
-                                                  .seed = settings.integer("seed"),
-                                                  .threads = threads,
-                                                  .source = settings.source_text(),
-                                                  .settings = settings.effective_yaml()});
-  const auto start = Clock::now();
-  const std::vector<ImpactResult> results = follow_all(curve.setup, curve.impacts, threads);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-
-  io::CurveSummary summary;
-  for (const auto& point : curve.points)
-    summary.curve.push_back(
-        average(curve.setup, point, std::span(results).subspan(point.first_impact, point.impacts)));
-  const std::int64_t steps =
-      std::accumulate(results.begin(), results.end(), std::int64_t{0},
-                      [](std::int64_t sum, const ImpactResult& r) { return sum + r.steps; });
-  summary.run = {.scenario = settings.scenario(),
-                 .grains = 1,
-                 .steps = steps,
-                 .state_hash = hash_of(results),
-                 .wall_seconds = seconds,
-                 .particle_steps_per_second = static_cast<double>(steps) / seconds,
-                 .threads = threads};
-  // Not before: a curve cannot be resumed, and what is interrupted may be called again.
-  auto file = io::RunFile::create(directory.file(io::run_file_name), provenance, {});
-  write_curve(file, summary.curve);
-  file.flush();
-  io::write_durably(directory.file(io::summary_name), io::to_json(summary));
-  if (verbosity != Verbosity::quiet) print_summary(summary, directory.path());
-  return exit_done;
+  const auto summarise = [&](const std::vector<ImpactResult>& results) {
+    io::CurveSummary summary;
+    for (const auto& point : curve.points)
+      summary.curve.push_back(average(
+          curve.setup, point, std::span(results).subspan(point.first_impact, point.impacts)));
+    return summary;
+  };
+  return run_points(
+      settings, 1, directory, arguments, verbosity,
+      [&](int threads) { return follow_all(curve.setup, curve.impacts, threads); }, summarise,
+      write_curve);
 }
 
 }  // namespace riesel::app

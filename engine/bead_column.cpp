@@ -1,10 +1,10 @@
 #include "engine/bead_column.hpp"
 
 #include "engine/hash.hpp"
+#include "engine/parallel_problems.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 
 namespace riesel {
 
@@ -103,19 +103,7 @@ ColumnResult drop(const ColumnSetup& setup, double gap, Stepping stepping) {
 
 std::vector<ColumnResult> drop_all(const ColumnSetup& setup, const std::vector<double>& gaps,
                                    int threads) {
-  std::vector<ColumnResult> results(gaps.size());
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    try {
-      results[i] = drop(setup, gaps[i]);
-    } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-  return results;
+  return solve_all(gaps, threads, [&](double gap) { return drop(setup, gap); });
 }
 
 std::uint64_t hash_of(const std::vector<ColumnResult>& results) {

@@ -1,10 +1,10 @@
 #include "engine/impact.hpp"
 
 #include "engine/hash.hpp"
+#include "engine/parallel_problems.hpp"
 #include "engine/simulation.hpp"
 
 #include <cmath>
-#include <exception>
 #include <utility>
 
 namespace riesel {
@@ -95,19 +95,7 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
 
 std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector<Impact>& impacts,
                                      int threads) {
-  std::vector<ImpactResult> results(impacts.size());
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t i = 0; i < impacts.size(); ++i) {
-    try {
-      results[i] = follow(setup, impacts[i]);
-    } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-  return results;
+  return solve_all(impacts, threads, [&](const Impact& impact) { return follow(setup, impact); });
 }
 
 std::uint64_t hash_of(const std::vector<ImpactResult>& results) {

@@ -1,6 +1,7 @@
 #include "io/hdf5_header.hpp"
 
 #include "io/hdf5_handle.hpp"
+#include "io/hdf5_messages.hpp"
 
 #include <array>
 #include <string_view>
@@ -10,16 +11,6 @@ namespace riesel::io {
 namespace {
 
 using namespace std::string_view_literals;
-
-enum Message : std::uint64_t {
-  dataspace = 0x1,
-  datatype = 0x3,
-  layout = 0x8,
-  filters = 0xB,
-  attribute = 0xC,
-  continuation = 0x10,
-  symbol_table = 0x11
-};
 
 constexpr std::size_t prefix_size = 16, message_head_size = 8;
 constexpr std::uint64_t shared_message = 0x2;  // flag: it stands elsewhere
@@ -96,23 +87,23 @@ std::pair<std::string, Hdf5Attribute> read_attribute(const Bytes& body) {
 /// Puts what the message says into the header; what no reader asks for is passed over.
 void take(std::uint64_t message, const Bytes& body, Hdf5Header& header) {
   switch (message) {
-  case dataspace:
+  case hdf5_message::space:
     header.extent = read_extent(body);
     break;
-  case datatype:
+  case hdf5_message::type:
     header.type = read_type(body);
     break;
-  case layout:
+  case hdf5_message::layout:
     header.layout = read_layout(body);
     break;
-  case filters:
+  case hdf5_message::filters:
     require_fletcher32(body);
     header.has_checksums = true;
     break;
-  case attribute:
+  case hdf5_message::attribute:
     header.attributes.insert(read_attribute(body));
     break;
-  case symbol_table:
+  case hdf5_message::members:
     header.members = {.tree = body.number(0, 8), .heap = body.number(8, 8)};
     break;
   default:
@@ -121,8 +112,10 @@ void take(std::uint64_t message, const Bytes& body, Hdf5Header& header) {
 }
 
 bool is_of_use(std::uint64_t message) {
-  return message == dataspace || message == datatype || message == layout || message == filters
-         || message == attribute || message == continuation || message == symbol_table;
+  return message == hdf5_message::space || message == hdf5_message::type
+         || message == hdf5_message::layout || message == hdf5_message::filters
+         || message == hdf5_message::attribute || message == hdf5_message::continuation
+         || message == hdf5_message::members;
 }
 
 }  // namespace
@@ -146,7 +139,7 @@ Hdf5Header read_hdf5_header(const Bytes& file, std::uint64_t address) {
     const Bytes body = rest.part(message_head_size, size);
     if (is_of_use(message))
       require((rest.number(4, 1) & shared_message) == 0, "the header of an object is not its own");
-    if (message == continuation)
+    if (message == hdf5_message::continuation)
       blocks.push_back(file.part(body.number(0, 8), body.number(8, 8)));
     else
       take(message, body, header);

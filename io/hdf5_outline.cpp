@@ -1,6 +1,7 @@
 #include "io/hdf5_outline.hpp"
 
 #include "io/byte_writer.hpp"
+#include "io/hdf5_messages.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,16 +16,7 @@ constexpr std::uint64_t unlimited = UINT64_MAX;  // an extent
 // Half of the members that a node has room for, by kind of node. The third cannot be chosen.
 constexpr std::size_t leaf_k = 16, group_k = 16, chunk_k = 32;
 
-enum MessageType : std::uint16_t {
-  message_space = 0x01,
-  message_type = 0x03,
-  message_fill = 0x05,
-  message_layout = 0x08,
-  message_attribute = 0x0c,
-  message_members = 0x11,
-};
-
-std::string message(MessageType type, const ByteWriter& content) {
+std::string message(hdf5_message::Type type, const ByteWriter& content) {
   ByteWriter padded;
   padded.text(content.bytes()).align();
   return ByteWriter()
@@ -116,7 +108,7 @@ std::string attribute(const std::string& name, const std::string& type, const st
       .number(type.size(), 2)
       .number(space.size(), 2);
   content.text(name).zeros(1).align().text(type).align().text(space).align().text(value);
-  return message(message_attribute, content);
+  return message(hdf5_message::attribute, content);
 }
 
 std::string fill_message(const Hdf5DataPlan& plan) {
@@ -127,7 +119,7 @@ std::string fill_message(const Hdf5DataPlan& plan) {
     fill.number(4, 4).number(std::bit_cast<std::uint32_t>(static_cast<float>(plan.fill)), 4);
   else
     fill.number(0, 4);
-  return message(message_fill, fill);
+  return message(hdf5_message::fill, fill);
 }
 
 /// Each dimension has a list of one scale.
@@ -291,19 +283,19 @@ std::string Hdf5Outline::layout_message(const Hdf5DataPlan& plan) {
     std::uint64_t size = size_of(plan.element);
     for (const auto length : plan.extent) size *= length;
     layout.number(in_one_piece, 1).number(plan.piece == 0 ? undefined : plan.piece, 8);
-    return message(message_layout, layout.number(size, 8));
+    return message(hdf5_message::layout, layout.number(size, 8));
   }
   layout.number(in_chunks, 1).number(plan.extent.size() + 1, 1);
   layout.number(plan.chunks.empty() ? undefined : add_chunk_tree(plan), 8);
   layout.number(plan.rows_per_chunk, 4);
   for (std::size_t i = 1; i < plan.extent.size(); ++i) layout.number(plan.extent[i], 4);
-  return message(message_layout, layout.number(size_of(plan.element), 4));
+  return message(hdf5_message::layout, layout.number(size_of(plan.element), 4));
 }
 
 std::uint64_t Hdf5Outline::add_data(const Hdf5DataPlan& plan) {
   std::vector<std::string> messages = {
-      message(message_space, ByteWriter().text(space(plan.extent, plan.rows_per_chunk > 0))),
-      message(message_type, ByteWriter().text(type_of(plan.element))),
+      message(hdf5_message::space, ByteWriter().text(space(plan.extent, plan.rows_per_chunk > 0))),
+      message(hdf5_message::type, ByteWriter().text(type_of(plan.element))),
       fill_message(plan),
       layout_message(plan),
   };
@@ -347,7 +339,7 @@ std::uint64_t Hdf5Outline::add_group(const std::map<std::string, std::uint64_t>&
   const auto root =
       add(tree_node(0, 0, leaves, {undefined, undefined}, tree.bytes(), (4 * group_k + 1) * 8));
   std::vector<std::string> messages = {
-      message(message_members, ByteWriter().number(root, 8).number(heap, 8))};
+      message(hdf5_message::members, ByteWriter().number(root, 8).number(heap, 8))};
   messages.insert(messages.end(), attributes.messages_.begin(), attributes.messages_.end());
   return add_header(messages);
 }

@@ -28,6 +28,25 @@ const State& expected() {
   return state;
 }
 
+/// One section of the test for each pair of laws; `gamma_t` (1/s) of the viscous slip.
+ContactModel with_each_law(ContactModel model, double gamma_t) {
+  const NormalLaw normal =
+      GENERATE(NormalLaw(LinearLaw{stiffness, damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
+               NormalLaw(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}));
+  const SlipLaw slip =
+      GENERATE_COPY(SlipLaw(CappedSlip{}), SlipLaw(LiteralSlip{}), SlipLaw(ViscousSlip{gamma_t}),
+                    SlipLaw(SpringSlip{700.0, 1e4}));
+  model.normal = normal;
+  model.slip = slip;
+  return model;
+}
+
+void check_pieces(const State& state, const ContactModel& model) {
+  const State whole = advanced(state, model, 300, 1, Stepping::plain);
+  CHECK(same(advanced(state, model, 300, 1, Stepping::windows), whole));
+  CHECK(same(advanced(advanced(shuffled(state, 8), model, 123), model, 177), whole));
+}
+
 }  // namespace
 
 TEST_CASE("the expected run has something to get wrong") {
@@ -193,18 +212,9 @@ TEST_CASE("a run taken up in every step has the same bits") {
 }
 
 TEST_CASE("every law gives the same bits in pieces") {
-  ContactModel model = paper_model();
-  const NormalLaw normal =
-      GENERATE(NormalLaw(LinearLaw{stiffness, damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
-               NormalLaw(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}));
-  const SlipLaw slip = GENERATE(SlipLaw(CappedSlip{}), SlipLaw(LiteralSlip{}),
-                                SlipLaw(ViscousSlip{1e5}), SlipLaw(SpringSlip{700.0, 1e4}));
-  model.normal = normal;
-  model.slip = slip;
+  ContactModel model = with_each_law(paper_model(), 1e5);
   model.attraction = Attraction::clip;
-  const State whole = advanced(start(), model, 300, 1, Stepping::plain);
-  CHECK(same(advanced(start(), model, 300, 1, Stepping::windows), whole));
-  CHECK(same(advanced(advanced(shuffled(start(), 8), model, 123), model, 177), whole));
+  check_pieces(start(), model);
 }
 
 TEST_CASE("grains that rotate, with springs, have the same bits however they are stepped") {
@@ -227,16 +237,5 @@ TEST_CASE("grains that rotate, with springs, have the same bits however they are
 }
 
 TEST_CASE("grains that rotate have the same bits under every law in pieces") {
-  ContactModel model = rolling_model();
-  const NormalLaw normal =
-      GENERATE(NormalLaw(LinearLaw{stiffness, damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
-               NormalLaw(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}));
-  const SlipLaw slip = GENERATE(SlipLaw(CappedSlip{}), SlipLaw(LiteralSlip{}),
-                                SlipLaw(ViscousSlip{3e4}), SlipLaw(SpringSlip{700.0, 1e4}));
-  model.normal = normal;
-  model.slip = slip;
-  const State tube = small_tube(39, 40, sphere);
-  const State whole = advanced(tube, model, 300, 1, Stepping::plain);
-  CHECK(same(advanced(tube, model, 300, 1, Stepping::windows), whole));
-  CHECK(same(advanced(advanced(shuffled(tube, 8), model, 123), model, 177), whole));
+  check_pieces(small_tube(39, 40, sphere), with_each_law(rolling_model(), 3e4));
 }

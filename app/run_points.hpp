@@ -1,0 +1,60 @@
+// What the runs of curves share: many short problems, computed at once and written as one table.
+#pragma once
+
+#include "app/cost.hpp"
+#include "app/exit_status.hpp"
+#include "app/print_summary.hpp"
+#include "app/run_directory.hpp"
+#include "app/verbosity.hpp"
+#include "io/durable_file.hpp"
+#include "io/run_file.hpp"
+#include "io/summary.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <numeric>
+
+namespace riesel::app {
+
+/// Computes the curve and writes its run directory; returns the exit status.
+///   follow(threads)             vector of results, each with the `steps` that it took and a
+///                               hash_of() all of them
+///   summarise(results)          the summary, its `run` left empty
+///   write_table(file, summary)  the curve in run.h5
+/// `grains`: how many move in each problem.
+template <class Follow, class Summarise, class WriteTable>
+int run_points(const io::Settings& settings, int grains, const RunDirectory& directory,
+               const Arguments& arguments, Verbosity verbosity, Follow follow, Summarise summarise,
+               WriteTable write_table) {
+  using Clock = std::chrono::steady_clock;
+  const int threads = threads_for_curve(settings);
+  const auto provenance = io::collect_provenance({.arguments = arguments,
+                                                  .seed = settings.integer("seed"),
+                                                  .threads = threads,
+                                                  .source = settings.source_text(),
+                                                  .settings = settings.effective_yaml()});
+  const auto start = Clock::now();
+  const auto results = follow(threads);
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const std::int64_t steps =
+      std::accumulate(results.begin(), results.end(), std::int64_t{0},
+                      [](std::int64_t sum, const auto& result) { return sum + result.steps; });
+
+  auto summary = summarise(results);
+  summary.run = {.scenario = settings.scenario(),
+                 .grains = grains,
+                 .steps = steps,
+                 .state_hash = hash_of(results),
+                 .wall_seconds = seconds,
+                 .particle_steps_per_second = grains * static_cast<double>(steps) / seconds,
+                 .threads = threads};
+  // Not before: a curve cannot be resumed, and what is interrupted may be called again.
+  auto file = io::RunFile::create(directory.file(io::run_file_name), provenance, {});
+  write_table(file, summary);
+  file.flush();
+  io::write_durably(directory.file(io::summary_name), io::to_json(summary));
+  if (verbosity != Verbosity::quiet) print_summary(summary, directory.path());
+  return exit_done;
+}
+
+}  // namespace riesel::app
