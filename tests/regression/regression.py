@@ -70,13 +70,23 @@ FAST = {
 }
 CASES = {**SLOW, **FAST}
 
+# Of grains that rotate only the bits are kept: name as above, and how they rotate.
+ROLLING = {
+    "slow discs with springs": ({**linear(2000, 0.92), "slip": "spring", "slip_stiffness": 570,
+                                 "slip_damping": 100, "rolling_friction": 0.02}, 1, 2.0),
+    "slow Hertz spheres": (hertz(3e6, 0.7), 1, 1.2),
+}
+ROTATION = {"slow discs with springs": "disc", "slow Hertz spheres": "sphere"}
+HASH_CASES = {**CASES, **ROLLING}
+
 
 def run(name, seed, duration=None, **contact):
     """{velocity, state, mean, error, balance, hash, commit} of a run of the case, with other contact settings
     if there are any. velocity: mean over the second half of the run, which the program's own
     statistics have no part in; mean and error: those of the program."""
-    settings, start, usual_duration = CASES[name]
-    document = {**BASE, "seed": seed, "contact": {**settings, **contact},
+    settings, start, usual_duration = HASH_CASES[name]
+    grains = {**BASE["grains"], "rotation": ROTATION.get(name, "none")}
+    document = {**BASE, "grains": grains, "seed": seed, "contact": {**settings, **contact},
                 "start": {"axial_velocity": start}, "run": {"duration": duration or usual_duration}}
     with tempfile.TemporaryDirectory(prefix="riesel-regression-") as home:
         file = pathlib.Path(home, "tube.json")
@@ -164,7 +174,7 @@ def renew_velocities():
 
 
 def renew_hashes():
-    runs = runs_of(CASES, [1], duration=HASH_DURATION)
+    runs = runs_of(HASH_CASES, [1], duration=HASH_DURATION)
     write(HASHES, "hashes", {"machine_type": machine_type(),
                              "hashes": {name: results[0]["hash"] for name, results in runs.items()}},
           runs["slow"][0]["commit"])
