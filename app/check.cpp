@@ -7,6 +7,7 @@
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
 #include "io/trajectory_file.hpp"
+#include "scenarios/contact_settings.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -62,6 +63,21 @@ void warn_of_overlap(const NormalLaw& normal, const Pair& pair, double diameter)
         "overlaps over 1 % of the diameter are to be expected; raise contact.stiffness by a factor "
         "{:.2g}",
         std::pow(overlap / (0.01 * diameter), 2.0));
+}
+
+/// The spring and the damping of the slip, between bodies of such a reduced mass (kg).
+void print_slip(const io::Settings& settings, const SlipLaw& slip, double reduced_mass,
+                double time_step) {
+  const double inertia = scenarios::inertia(settings);
+  if (const double time = spring_time(slip, inertia, reduced_mass); std::isfinite(time))
+    line("tangential spring", "half a period = {:.4g} s", time);
+  constexpr auto damping = "contact.slip_damping";
+  const double gamma_t = settings.has(damping) ? settings.number(damping) : 0.0;
+  const double stable = 2.0 / (1.0 + (inertia > 0.0 ? 1.0 / inertia : 0.0));
+  if (gamma_t * time_step >= stable)
+    warn("{} is too strong for the time step: friction would change its sign from step to step; "
+         "raise run.steps_per_collision above {:.3g}",
+         damping, settings.number("run.steps_per_collision") * gamma_t * time_step / stable);
 }
 
 void warn_of_time_step(const io::Settings& settings) {
@@ -131,6 +147,7 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   print_contact("grain and wall", flow.model.normal, {mass, fastest});
   line("time step", "{:.4g} s", state.time_step);
   warn_of_time_step(settings);
+  print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
   warn_of_overlap(flow.model.normal, {0.5 * mass, fastest}, diameter);
 
   const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
@@ -163,20 +180,23 @@ void print_cost(const io::Settings& settings, const Curve& curve, std::size_t sa
 
 void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve) {
   const ImpactSetup& setup = curve.setup;
-  double fastest_normal = 0.0, fastest = 0.0, slowest = 1e300, shortest_step = 1e300;
+  double fastest_normal = 0.0, fastest = 0.0, slowest = 1e300, longest_step = 0.0,
+         shortest_step = 1e300;
   for (const Impact& impact : curve.impacts) {
     fastest_normal = std::max(fastest_normal, impact.v_x);
     fastest = std::max(fastest, impact.v_y);
     slowest = std::min(slowest, impact.v_y);
+    longest_step = std::max(longest_step, impact.time_step);
     shortest_step = std::min(shortest_step, impact.time_step);
   }
   line("impacts", "{} in {} points, v_y = {:.3g} ... {:.3g} m/s", curve.impacts.size(),
        curve.points.size(), slowest, fastest);
   const double speed = std::max(fastest_normal, slowest);
   print_contact("grain and wall", setup.model.normal, {setup.grain_mass, speed});
-  line("time step", "{:.4g} s, down to {:.3g} s where passages are short",
-       setup.collision_time / settings.number("run.steps_per_collision"), shortest_step);
+  line("time step", "{:.4g} s, down to {:.3g} s where passages are short", longest_step,
+       shortest_step);
   warn_of_time_step(settings);
+  print_slip(settings, setup.model.slip, setup.grain_mass, longest_step);
   if (fastest_normal > 0.0)
     warn_of_overlap(setup.model.normal, {setup.grain_mass, fastest_normal},
                     2.0 * setup.grain_radius);

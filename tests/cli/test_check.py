@@ -50,6 +50,16 @@ class Check(CommandTest):
         self.assertGreater(plain_number(text, r"memory +about (\d+) MB"), 0)
         self.assertNotIn("warning", text)
 
+    def test_a_tangential_spring_is_told_by_its_half_period(self):
+        """Of two discs, whose turning leaves a third of the inertia."""
+        text = self.check(MILD_TUBE, "--set", "contact.slip=spring", "--set",
+                          "contact.slip_stiffness=2e7 N/m", "--set", "grains.rotation=disc")
+        half_period = math.pi * math.sqrt(0.5e-6 / 3 / 2e7)
+        told = plain_number(text, r"tangential spring +half a period = (\S+) s")
+        self.assertAlmostEqual(told / half_period, 1.0, delta=1e-3)
+        self.assertAlmostEqual(plain_number(text, r"time step +(\S+) s") * 50 / told, 1.0, delta=1e-3)
+        self.assertNotIn("tangential spring", self.check(MILD_TUBE))
+
     def test_impacts_are_told_in_their_numbers(self):
         for name, impacts in {"single_wall_grain": 60, "wall_array": 1800}.items():
             with self.subTest(name):
@@ -104,6 +114,18 @@ class Check(CommandTest):
     def test_of_few_steps_per_collision(self):
         self.assert_warned(self.check(MILD_TUBE, "--set", "run.steps_per_collision=10"),
                            "10 steps per collision", "50")
+
+    def test_of_damping_of_the_slip_that_the_step_does_not_follow(self):
+        """gamma_t dt above 2, or 2/3 of discs; more steps mend it as the warning says."""
+        dt = plain_number(self.check(MILD_TUBE), r"time step +(\S+) s")
+        for rotation, limit in (("none", 2.0), ("disc", 2.0 / 3.0)):
+            options = ["--set", "contact.slip=viscous", "--set", f"grains.rotation={rotation}"]
+            for factor, is_due in ((0.95, False), (1.05, True)):
+                damping = f"contact.slip_damping={factor * limit / dt} 1/s"
+                text = self.check(MILD_TUBE, *options, "--set", damping)
+                self.assertEqual("slip_damping is too strong" in text, is_due, text)
+            needed = plain_number(text, r"steps_per_collision above (\S+)")
+            self.assertAlmostEqual(needed, 50 * 1.05, delta=0.1)
 
     def test_of_velocities_above_the_critical_one(self):
         critical = plain_number(self.check(MILD_TUBE), r"v_crit +(\S+) m/s")
