@@ -217,8 +217,21 @@ private:
     times_.output += seconds_since(start);
   }
 
+  /// Beyond that nothing can be told of the grains, nor of how they went on.
+  void fail_if_too_fast() const {
+    const State& state = simulation_.state();
+    const double fastest = fastest_speed(state);
+    const double largest = largest_speed(state.box, state.time_step, state.grains.size());
+    if (fastest >= largest)
+      throw RunFailure(
+          fmt::format("grains move with {:.3g} m/s at t = {:.6g} s (step {}), too fast "
+                      "for this tube and time step, which hold {:.3g} m/s",
+                      fastest, state.time(), state.step, largest));
+  }
+
   void add_row() {
     const auto start = Clock::now();
+    fail_if_too_fast();
     last_ = observe(simulation_.state());
     profiles_.add(
         sum_over_strips(strips_, simulation_.state(), simulation_.model(), last_.mean_vy));

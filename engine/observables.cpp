@@ -102,6 +102,22 @@ Origin origin_of(const State& state) {
           .momentum_y = sums.momentum_y};
 }
 
+double fastest_speed(const State& state) {
+  const GrainView grains(state);
+  double fastest2 = 0.0;
+  for (std::size_t i = 0; i < state.grains.size(); ++i) {
+    const Grain g = grains[i];
+    fastest2 = std::max(fastest2, g.vx * g.vx + g.vy * g.vy);
+  }
+  return std::sqrt(fastest2);
+}
+
+double largest_speed(const Box& box, double time_step, std::size_t grains) {
+  constexpr double range = 0x1p36;  // (m/s)^2, half of that of an exact sum
+  return std::min(0.125 * std::min(box.width, box.length) / time_step,
+                  std::sqrt(range / static_cast<double>(grains)));
+}
+
 Observables observe(const State& state) {
   const GrainSums sums = sum_over_grains(state);
   const SpinSums spins = sum_over_spins(state);

@@ -42,6 +42,13 @@ struct Observables {
 /// What the balances of a run start from: to be kept in State::origin at step 0.
 Origin origin_of(const State& state);
 
+/// m/s, of any grain.
+double fastest_speed(const State& state);
+
+/// m/s, up to which the state holds what so many grains do: faster ones come around the box within
+/// a few steps, or sums of their squares leave the range of ExactSum.
+double largest_speed(const Box& box, double time_step, std::size_t grains);
+
 Observables observe(const State& state);
 
 /// The largest overlap of all contacts since step 0 over the radius of the smallest body that can

@@ -5,6 +5,7 @@
 // gravity. Started fast, they may reach another one, which the paper shows to be an artefact of
 // soft grains.
 #include "engine/closed_forms.hpp"
+#include "engine/observables.hpp"
 #include "engine/random.hpp"
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/continued_start.hpp"
@@ -228,11 +229,23 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
                     fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
 }
 
+void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
+                        const State& state) {
+  const double largest = largest_speed(state.box, state.time_step, grains.size());
+  const bool held =
+      std::ranges::all_of(grains, [&](const Grain& g) { return std::hypot(g.vx, g.vy) < largest; });
+  if (held) return;
+  settings.reject(settings.text("start.kind") == "file" ? "start.from" : "start.axial_velocity",
+                  "too fast for this tube and time step",
+                  fmt::format("choose velocities below {:.3g} m/s", largest));
+}
+
 Problem start_with(const std::vector<Grain>& grains, const io::Settings& settings,
                    const ContactModel& model, State state) {
   std::vector<double> masses;
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
+  reject_fast_grains(settings, grains, state);
   for (const Grain& grain : grains) add_grain(state, grain);
   return Flow{.state = std::move(state), .model = model};
 }

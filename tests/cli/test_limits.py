@@ -34,6 +34,11 @@ class Limits(CommandTest):
         result = self.tube("speed", "limits.speed=3.5 m/s")
         self.assert_stopped("speed", result, "limits.speed", "grain ", "m/s")
 
+    def test_grains_too_fast_for_the_numbers_of_the_state_stop_it(self):
+        """An eighth of the tube in a step; a few more, and they would seem slow again."""
+        result = self.tube("fast", "gravity=8e6 m/s^2", "wall.spacing=4 mm")
+        self.assert_stopped("fast", result, "too fast for this tube and time step")
+
     def test_an_overlap_too_deep_stops_it(self):
         result = self.tube("overlap", "limits.overlap=0.02")
         self.assert_stopped("overlap", result, "limits.overlap", "contact.stiffness")

@@ -92,6 +92,7 @@ MISTAKES_IN_OVERRIDES = {
     "grains.area_fraction=2": ["grains.area_fraction:", "from 0.001 to 0.9", "'2'"],
     "seed=[1": ["not valid YAML"],
     "contact.damping=1e4": ["contact.", "damping", "restitution", "remove one"],
+    "start.axial_velocity=1000 km/s": ["start.axial_velocity:", "too fast", "m/s"],
     "scenario=wall_array": ["tube.yaml:3:10:", "the scenario wall_array does not have it"],
 }
 
