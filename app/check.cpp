@@ -97,7 +97,10 @@ double memory_in_use() {
 
 void print_critical_velocity(double chord_length, double t_col, double fastest) {
   const double v_crit = chord_length / t_col;
-  line("v_crit", "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col)", v_crit, chord_length);
+  line("v_crit",
+       "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col) with the random velocity of the "
+       "start; lower in a cooler flow",
+       v_crit, chord_length);
   if (fastest > v_crit)
     warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the "
          "contact "

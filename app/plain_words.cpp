@@ -1,5 +1,7 @@
 #include "app/plain_words.hpp"
 
+#include "engine/time_series.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,11 +10,23 @@
 
 namespace riesel::app {
 
-std::string explanation(const std::string& state) {
-  if (state == "steady") return "no trend after the transient";
-  if (state == "accelerating") return "the grains still gain speed: the mean is no steady velocity";
-  if (state == "drifting") return "there still is a trend: the mean is no steady velocity";
-  return "too few independent samples for a steady mean";
+std::string explanation_of_state(const io::FlowSummary& s) {
+  if (s.state == "steady") return "no trend after the transient";
+  if (s.state == "accelerating")
+    return "the grains still gain speed: the mean is no steady velocity";
+  if (s.state == "drifting") return "there still is a trend: the mean is no steady velocity";
+  if (s.independent_samples < min_independent_samples)
+    return fmt::format("{:.2g} of {:.0f} independent samples for a steady mean",
+                       s.independent_samples, min_independent_samples);
+  return fmt::format("the transient takes {:.3g} of {:.3g} s, too much for a steady mean",
+                     s.transient_end, s.time);
+}
+
+double sufficient_duration(const io::FlowSummary& s) {
+  const double after_transient = s.time - s.transient_end;
+  const double wanted = 1.5 * min_independent_samples / std::max(s.independent_samples, 1.0);
+  const double seconds = 3.0 * s.transient_end + std::max(wanted - 1.0, 0.0) * after_transient;
+  return std::max(seconds, 1.5 * s.time);
 }
 
 std::string explanation_of_end(const std::string& ended_by) {

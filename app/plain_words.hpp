@@ -9,8 +9,11 @@
 
 namespace riesel::app {
 
-/// What it means that a flow is "steady", "accelerating", "drifting" or "too_short".
-std::string explanation(const std::string& state);
+/// What the state of the flow means and, where it is too short, what is missing.
+std::string explanation_of_state(const io::FlowSummary& summary);
+
+/// s, for how long a run that is too short might have to last, by what is known of it.
+double sufficient_duration(const io::FlowSummary& summary);
 
 /// Why a run came to its end: "duration", "precision" or "at_most".
 std::string explanation_of_end(const std::string& ended_by);

@@ -35,6 +35,17 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
              v.visits);
 }
 
+/// Whether the mean is that of a steady flow; how to come to one if the run was too short.
+void print_state(const io::FlowSummary& s, const std::filesystem::path& directory) {
+  fmt::print("  {:<22}{}: {}\n", "state",
+             coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
+             explanation_of_state(s));
+  if (s.state == "too_short")
+    fmt::print("  {:<22}riesel resume {} --set {}='{:.2g} s'\n", "go on by", directory.string(),
+               s.ended_by == "duration" ? "run.duration" : "run.until.at_most",
+               sufficient_duration(s));
+}
+
 Colour colour_of(Validity verdict) {
   if (verdict == Validity::valid) return Colour::green;
   return verdict == Validity::suspect ? Colour::yellow : Colour::red;
@@ -64,9 +75,7 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
              s.run.steps);
   fmt::print("  {:<22}{:.5g} +- {:.2g} m/s (after {:.3g} s)\n", "mean axial velocity",
              s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
-  fmt::print("  {:<22}{}: {}\n", "state",
-             coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
-             explanation(s.state));
+  print_state(s, directory);
   if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
   const io::Measured& temperature = s.fluctuations.granular_temperature;
   fmt::print("  {:<22}{:.4g} +- {:.2g} m^2/s^2\n", "granular temperature", temperature.value,

@@ -2,6 +2,8 @@
 
 #include "app/cost.hpp"
 #include "app/sweep_directory.hpp"
+#include "io/file_error.hpp"
+#include "io/summary_reader.hpp"
 #include "io/sweep_table.hpp"
 
 #include <fmt/core.h>
@@ -49,6 +51,26 @@ double seconds_left(const io::Manifest& manifest, int jobs) {
   return std::max(all / jobs, longest);
 }
 
+/// Of the flows that are done: how many are steady and valid, and what the others are.
+void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& sweep) {
+  std::map<std::string, int> verdicts;
+  for (const io::ManifestPoint& point : manifest.points) {
+    if (!is_done(point)) continue;
+    try {
+      const io::Summary any =
+          io::read_summary(point_directory(sweep, point.name) / io::summary_name);
+      if (const auto* flow = std::get_if<io::FlowSummary>(&any))
+        ++verdicts[fmt::format("{} and {}", flow->state, name(flow->validity.verdict.verdict))];
+    } catch (const io::FileError&) {
+      ++verdicts["unreadable"];
+    }
+  }
+  std::string text;
+  for (const auto& [verdict, count] : verdicts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, verdict);
+  if (!text.empty()) fmt::print("  flows: {}\n", text);
+}
+
 }  // namespace
 
 void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep, int jobs) {
@@ -73,6 +95,7 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
     if (const auto count = counts.find(to_string(status)); count != counts.end())
       summary += fmt::format("{}{} {}", summary.empty() ? "" : ", ", count->second, count->first);
   fmt::print("{}: {} points: {}\n", sweep.string(), manifest.points.size(), summary);
+  print_verdicts(manifest, sweep);
   for (const io::ManifestPoint& point : manifest.points)
     if (!point.reason.empty())
       fmt::print("  {} {} ({}): {}\n", point.name, point.status, coordinates_of(point, manifest),

@@ -34,11 +34,16 @@ void require_finished_run(const fs::path& directory) {
     throw UnusableInput(directory.string()
                         + ": holds no run and no sweep; give the directory of one (see 'riesel "
                           "run' and 'riesel sweep')");
-  if (!fs::exists(directory / io::summary_name))
-    throw UnusableInput(directory.string() + ": its run has not come to its end; "
-                        + (io::DirectoryLock::is_held(directory)
-                               ? "wait until it has"
-                               : "go on with it by 'riesel resume " + directory.string() + "'"));
+  if (fs::exists(directory / io::summary_name)) return;
+  if (fs::exists(directory / post_mortem_name))
+    throw UnusableInput(
+        directory.string() + ": its run failed; its last state is in "
+        + (directory / post_mortem_name).string()
+        + ", from which another run can start: start: {kind: continued, from: ...}");
+  throw UnusableInput(directory.string() + ": its run has not come to its end; "
+                      + (io::DirectoryLock::is_held(directory)
+                             ? "wait until it has"
+                             : "go on with it by 'riesel resume " + directory.string() + "'"));
 }
 
 Report report_of(const io::FlowSummary& summary, const std::string& effective_settings,

@@ -56,7 +56,7 @@ private:
             "Mean axial velocity {} after {:.3g} s, from {} independent samples (68 % error "
             "bar). State: {}: {}.{}",
             with_error(s.mean_axial_velocity, "m/s"), s.transient_end,
-            number(s.independent_samples, "{:.3g}"), s.state, explanation(s.state),
+            number(s.independent_samples, "{:.3g}"), s.state, explanation_of_state(s),
             is_steady ? "" : " The mean is not to be used as a property of the flow."),
         is_steady ? "good" : "doubtful");
     tell_validity();

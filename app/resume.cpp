@@ -2,7 +2,6 @@
 #include "app/run_flow.hpp"
 #include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
-#include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_length.hpp"
@@ -33,14 +32,16 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
 }
 
 io::FoundCheckpoint find(const std::filesystem::path& path) {
-  const bool run_without =
-      std::filesystem::exists(path / io::effective_settings_name)
-      && !std::filesystem::exists(path / io::checkpoint_name)
-      && !std::filesystem::exists(io::previous_generation(path / io::checkpoint_name));
-  if (run_without)
+  if (stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "
                           "again");
+  if (std::filesystem::exists(path / io::manifest_name))
+    throw UnusableInput(path.string()
+                        + ": holds a sweep; go on with it by 'riesel sweep' and its file");
+  if (std::filesystem::is_regular_file(path) && path.extension() == ".yaml")
+    throw UnusableInput(path.string() + ": is no checkpoint; give the directory of a run, or its "
+                        + io::checkpoint_name);
   try {
     return io::find_checkpoint(path);
   } catch (const io::FileError& error) {

@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "io/build_info.hpp"
+#include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
@@ -12,6 +13,13 @@ namespace riesel::app {
 
 namespace fs = std::filesystem;
 
+bool stopped_before_checkpoint(const fs::path& directory) {
+  const fs::path checkpoint = directory / io::checkpoint_name;
+  return fs::exists(directory / io::effective_settings_name) && !fs::exists(checkpoint)
+         && !fs::exists(io::previous_generation(checkpoint))
+         && !fs::exists(directory / io::summary_name);
+}
+
 RunDirectory::RunDirectory(const fs::path& path, const io::Settings& settings)
     : path_(path), lock_(std::make_unique<io::DirectoryLock>(path)) {
   io::write_durably(file(io::effective_settings_name),
@@ -19,7 +27,13 @@ RunDirectory::RunDirectory(const fs::path& path, const io::Settings& settings)
 }
 
 RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
-  if (fs::exists(path / io::run_file_name) || fs::exists(path / io::trajectory_name))
+  const bool holds_run =
+      fs::exists(path / io::run_file_name) || fs::exists(path / io::trajectory_name);
+  if (holds_run && stopped_before_checkpoint(path))
+    throw UnusableInput(path.string()
+                        + ": holds a run that was stopped before its first checkpoint; "
+                          "remove it, or choose another directory with --out");
+  if (holds_run)
     throw UnusableInput(
         path.string()
         + ": holds a run already; choose another directory with --out, or go on with that "

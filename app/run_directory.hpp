@@ -14,6 +14,12 @@ namespace riesel::app {
 /// How the program was called, for the provenance.
 using Arguments = std::vector<std::string>;
 
+/// The last state of a run that failed, as a checkpoint.
+inline constexpr auto post_mortem_name = "post_mortem.h5";
+
+/// Whether it holds a run that has begun, but has nothing to go on from, and no result.
+bool stopped_before_checkpoint(const std::filesystem::path& directory);
+
 class RunDirectory {
 public:
   /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run in

@@ -74,7 +74,8 @@ struct Schedule {
 
 private:
   static std::int64_t steps_of(const char* key, const io::Settings& settings, double time_step) {
-    return std::max<std::int64_t>(1, std::llround(settings.number(key) / time_step));
+    constexpr double never = 1e15;  // steps: more than any run has
+    return std::llround(std::clamp(settings.number(key) / time_step, 1.0, never));
   }
 };
 
@@ -289,6 +290,9 @@ private:
 
   void tell_beginning() {
     const State& state = simulation_.state();
+    if (past_.rows > 0 && verbosity_ != Verbosity::quiet)
+      fmt::print(stderr, "{}: goes on from t = {:.6g} s, step {} of {}\n",
+                 directory_.path().string(), state.time(), state.step, schedule_.last_step);
     tell("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}", directory_.path().string(),
          state.grains.size(), state.step, schedule_.last_step, state.time_step, threads_,
          threads_ == 1 ? "" : "s");
@@ -304,8 +308,7 @@ private:
             .steps = state.step,
             .state_hash = state_hash(state),
             .wall_seconds = wall_seconds(),
-            .particle_steps_per_second =
-                grains * static_cast<double>(state.step - first_step_) / seconds_since(start_),
+            .particle_steps_per_second = grains * static_cast<double>(state.step) / wall_seconds(),
             .threads = threads_};
   }
 
@@ -352,7 +355,6 @@ private:
   /// The name of the file that holds the state. A state with numbers that are none is no
   /// checkpoint.
   std::string keep_for_post_mortem() const {
-    constexpr auto post_mortem_name = "post_mortem.h5";
     try {
       io::write_checkpoint(directory_.file(post_mortem_name), checkpoint());
       return post_mortem_name;

@@ -6,6 +6,7 @@
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/summary.hpp"
+#include "io/trajectory_file.hpp"
 
 #include <map>
 
@@ -83,7 +84,8 @@ void clear(const fs::path& point) {
   const fs::path checkpoint = point / io::checkpoint_name;
   for (const fs::path& file :
        {checkpoint, io::previous_generation(checkpoint), point / io::run_file_name,
-        point / io::summary_name, point / io::effective_settings_name})
+        point / io::summary_name, point / io::effective_settings_name, point / io::trajectory_name,
+        point / io::trajectory_index_name})
     fs::remove(file);
 }
 

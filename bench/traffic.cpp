@@ -6,7 +6,7 @@ namespace riesel::bench {
 
 double plain_traffic(const State& state) {
   State copy = state;
-  const Candidates candidates(copy, 1, Candidates::short_skin);
+  const Candidates candidates(copy, CappedSlip{}, 1, Candidates::short_skin);
   const Slice& all = candidates.slices().front();
   const auto per_grain = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(state.grains.size());

@@ -60,8 +60,11 @@ double largest(const std::vector<Slice>& slices, double Slice::*member) {
 
 }  // namespace
 
-Candidates::Candidates(State& state, int threads, double skin_per_diameter)
-    : units_(state.box), slices_(static_cast<std::size_t>(threads)), fall_(fall_per_step(state)) {
+Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter)
+    : slip_(slip),
+      units_(state.box),
+      slices_(static_cast<std::size_t>(threads)),
+      fall_(fall_per_step(state)) {
   const Grains& grains = state.grains;
   max_radius_ = *std::max_element(grains.radius.begin(), grains.radius.end());
   double largest_partner = max_radius_;
@@ -301,12 +304,7 @@ void Candidates::end_lost_contacts(const State& state) {
     for (Contact& contact : owner.lasting) {
       if (!is_lost(contact)) continue;
       const Meeting meeting = meeting_of(contact.name, state, slot_of_);
-      const Bodies b = bodies(state.grains);
-      contact.friction_loss += loss_by_friction(contact.friction_x, contact.friction_y,
-                                                encounter(meeting, b, units), units.dt);
-      if (b.rotate())
-        contact.friction_loss += loss_by_torques(contact.torque, contact.rolling_torque,
-                                                 turning(meeting, b, 0.0, units), units.dt);
+      add_last_loss(contact, meeting, bodies(state.grains), slip_, units);
       owner.tally.end(contact, meeting.reach());
     }
 }

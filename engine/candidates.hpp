@@ -9,6 +9,7 @@
 #pragma once
 
 #include "engine/cells.hpp"
+#include "engine/contact_law.hpp"
 #include "engine/pair_search.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
@@ -28,7 +29,7 @@ public:
   /// Sorts `state` and takes over its contacts. Throws std::invalid_argument if the box is too
   /// short for the nearest image to be unique, wall grains are too close together, or a contact of
   /// the state cannot be one.
-  Candidates(State& state, int threads, double skin_per_diameter);
+  Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter);
 
   std::vector<Slice>& slices() { return slices_; }
   const std::vector<Slice>& slices() const { return slices_; }
@@ -76,7 +77,8 @@ private:
   std::size_t kept() const;
   void end_lost_contacts(const State& state);
 
-  double skin_;  // m
+  SlipLaw slip_;  // of the contacts that end in a sorting
+  double skin_;   // m
   double max_radius_;
   CoarseUnits units_;
   Cells cells_;

@@ -34,8 +34,15 @@ void Cells::lay_out(const State& state, double range) {
   const auto [leftmost, rightmost] = std::minmax_element(grains.x.begin(), grains.x.end());
   left_edge_ = *leftmost;
   const double extent = quanta_from_left(*rightmost);
-  columns_ = static_cast<std::size_t>(std::max(1.0, extent * state.box.quantum_x() / range));
-  rows_ = static_cast<std::size_t>(std::max(1.0, state.box.length / range));
+  const double width = extent * state.box.quantum_x();
+  // Cells may be larger than the range, and are where grains are few and small for the box: about
+  // as many as grains are enough.
+  const double enough = 64.0 + 4.0 * static_cast<double>(grains.size());
+  const double size = std::max(range, std::sqrt(width * state.box.length / enough));
+  const double least_rows = std::min(3.0, state.box.length / range);
+  columns_ = static_cast<std::size_t>(std::clamp(width / size, 1.0, enough));
+  rows_ = static_cast<std::size_t>(
+      std::max(1.0, std::clamp(state.box.length / size, least_rows, enough)));
   columns_per_quantum_ = static_cast<double>(columns_) / std::max(1.0, extent);
   scratch_.resize(grains.size());
 }

@@ -91,20 +91,18 @@ template <class Slip, class Columns>
 }
 
 /// What friction took in the step before, as Contact has it: without what went to the spring, with
-/// what is left in it when the contact is over.
-template <class Turn, class Slip, class Columns>
-[[gnu::always_inline]] inline double loss_before(const Columns& c, std::size_t i, bool touching,
-                                                 const Encounter& e, const Turn& turn,
-                                                 const Touch& t, const Slip& slip, double dt) {
-  double loss = loss_by_friction(c.life[RIESEL_LIFE(friction_x)][i],
-                                 c.life[RIESEL_LIFE(friction_y)][i], e, dt);
+/// what is left in it when the contact is over. life(member) is as that step left it;
+/// `spring_energy` (J) is what is in the spring now.
+template <class Life, class Turn, class Slip>
+[[gnu::always_inline]] inline double loss_before(const Life& life, const Encounter& e,
+                                                 const Turn& turn, const Slip& slip,
+                                                 double spring_energy, double dt) {
+  double loss =
+      loss_by_friction(life(RIESEL_LIFE(friction_x)), life(RIESEL_LIFE(friction_y)), e, dt);
   if constexpr (std::is_same_v<Turn, Turning>)
-    loss += loss_by_torques(c.life[RIESEL_LIFE(torque)][i], c.life[RIESEL_LIFE(rolling_torque)][i],
-                            turn, dt);
-  if constexpr (Slip::has_spring) {
-    const double now = touching ? t.spring_energy : 0.0;
-    loss -= now - slip.stored_energy(c.life[RIESEL_LIFE(spring)][i]);
-  }
+    loss += loss_by_torques(life(RIESEL_LIFE(torque)), life(RIESEL_LIFE(rolling_torque)), turn, dt);
+  if constexpr (Slip::has_spring)
+    loss -= spring_energy - slip.stored_energy(life(RIESEL_LIFE(spring)));
   return loss;
 }
 
@@ -121,7 +119,9 @@ template <LiveContacts::Partner partner, class Turn, class Slip, class Columns>
   const auto add = [&](std::size_t member, double value) {
     c.life[member][i] += touching ? value : 0.0;
   };
-  c.life[RIESEL_LIFE(friction_loss)][i] += loss_before(c, i, touching, e, turn, t, slip, u.dt);
+  const auto life = [&](std::size_t member) { return c.life[member][i]; };
+  c.life[RIESEL_LIFE(friction_loss)][i] +=
+      loss_before(life, e, turn, slip, touching ? t.spring_energy : 0.0, u.dt);
   set(RIESEL_LIFE(friction_x), t.friction_x);
   set(RIESEL_LIFE(friction_y), t.friction_y);
   const double deepest = c.life[RIESEL_LIFE(max_overlap)][i];
@@ -217,6 +217,20 @@ RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, Ste
 }
 
 }  // namespace
+
+void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& b, const SlipLaw& law,
+                   const StepUnits& units) {
+  const auto words = std::bit_cast<Words>(contact);
+  const auto life = [&](std::size_t member) { return words[life_begin + member]; };
+  const Encounter e = encounter(meeting, b, units);
+  contact.friction_loss += std::visit(
+      [&](const auto& slip) {
+        return b.rotate()
+                   ? loss_before(life, e, turning(meeting, b, 0.0, units), slip, 0.0, units.dt)
+                   : loss_before(life, e, NoTurning{}, slip, 0.0, units.dt);
+      },
+      law);
+}
 
 LiveContacts::Columns LiveContacts::columns() {
   Columns c{.first = body_[0].data(),

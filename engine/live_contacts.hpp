@@ -19,6 +19,12 @@
 
 namespace riesel {
 
+/// For a contact that no step of LiveContacts sees the end of: what friction took in its last step,
+/// and what is left in its spring. The meeting is that of name.grain and its partner, as
+/// meeting_of() has it.
+void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodies,
+                   const SlipLaw& slip, const StepUnits& units);
+
 class LiveContacts {
 public:
   enum class Partner { grain, wall };

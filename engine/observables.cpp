@@ -41,17 +41,19 @@ struct SpinSums {
 };
 
 SpinSums sum_over_spins(const State& state) {
-  ExactSum spin, temperature, energy;
+  ExactSum temperature, energy;
+  Int128 half_quanta = 0;  // of angle per step: spins of small grains leave the range of ExactSum
   const GrainView grains(state);
   for (std::size_t i = 0; state.grains.rotate() && i < state.grains.size(); ++i) {
     const Grain g = grains[i];
     const double surface_speed = g.radius * g.spin;
     const double twice_per_mass = state.grains.inertia * (surface_speed * surface_speed);
-    spin.add(g.spin);
+    half_quanta += 2 * Int128{state.grains.spin[i]} + state.grains.spin_kick[i];
     temperature.add(twice_per_mass);
     energy.add(0.5 * g.mass * twice_per_mass);
   }
-  return {spin.value(), temperature.value(), energy.value()};
+  const double spin = static_cast<double>(half_quanta) * (0.5 * quantum_of_angle / state.time_step);
+  return {spin, temperature.value(), energy.value()};
 }
 
 /// The tally with the lasting contacts in it, as if they ended now.

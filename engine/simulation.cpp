@@ -207,7 +207,7 @@ void Simulation::prepare() {
   flights_.reset();
   coarse_ = {};
   const double skin = prepared_->by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
-  candidates_ = std::make_unique<Candidates>(state_, prepared_->threads, skin);
+  candidates_ = std::make_unique<Candidates>(state_, model_.slip, prepared_->threads, skin);
   if (prepared_->by_flights) {
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
   } else {

@@ -40,8 +40,11 @@ std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& ov
     }
   }
   if (node == nullptr) {
+    const bool is_sweep =
+        std::ranges::find(file.entries, "base", &YamlEntry::key) != file.entries.end();
     throw SettingsError({file.place.source, 1, 1}, row.key, "is missing",
-                        "add 'scenario:' with " + expectation(row));
+                        is_sweep ? "this is a sweep file: use 'riesel sweep'"
+                                 : "add 'scenario:' with " + expectation(row));
   }
   return std::get<std::string>(read_value(row, *node));
 }

@@ -79,8 +79,17 @@ private:
     for (const auto& value : {row.starter, row.fallback})
       if (!value.empty()) return value;
     if (row.kind == Kind::number || row.kind == Kind::numbers)
-      return describe_unit(row.unit).example;
+      return example_of(row) + "  # for example";
     return "...";
+  }
+
+  /// Within the range: a number without a unit may be a part of something, or several times it.
+  static std::string example_of(const Setting& row) {
+    const std::string example = describe_unit(row.unit).example;
+    const bool is_pure = example.find(' ') == std::string::npos;
+    return is_pure && !row.range.contains(std::stod(example))
+               ? fmt::format("{}", row.range.low + 1.0)
+               : example;
   }
 
   std::string described(const Setting& row) const {
@@ -100,8 +109,8 @@ private:
 std::string starter_file(const SettingsTable& table, const std::string& scenario,
                          const std::string& summary) {
   return comment(summary, "")
-         + comment("Settings behind a # in the first column are as they are by default, or not "
-                   "given: remove the #, and that of their section, to change them.",
+         + comment("Settings behind a # in the first column are as they are by default, or "
+                   "examples: remove the #, and that of their section, to change them.",
                    "")
          + "scenario: " + scenario + "\n" + Starter(table).section("");
 }

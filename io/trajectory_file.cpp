@@ -235,6 +235,8 @@ private:
   void read_blocks() {
     const OutlinePlace& place = head_.places.at(head_.in_use);
     require(head_.outline_size <= place.capacity && place.capacity <= head_.end
+                && place.address <= fs::file_size(path_)
+                && head_.outline_size <= fs::file_size(path_) - place.address
                 && head_.blocks <= head_.outline_size / 8,
             "its head is damaged");
     const std::string outline = file_->read_at(place.address, head_.outline_size);

@@ -28,6 +28,16 @@ io::CsvTable read_table(const io::Settings& settings) {
                        {.name = "spin", .unit = "1/s", .required = false}});
 }
 
+/// m; grains much smaller than the tube would be lost among its positions.
+double diameter_of(const io::CsvTable& table, std::size_t row, double tube_length) {
+  const double least = 1e-6 * tube_length;
+  const double value = table.value(row, "diameter");
+  if (value < least)
+    table.reject(row, "diameter", "is not a millionth of the length of the tube",
+                 fmt::format("give the diameter of the grain, at least {:.3g} m", least));
+  return value;
+}
+
 double positive(const io::CsvTable& table, std::size_t row, const std::string& column) {
   const double value = table.value(row, column);
   if (value <= 0.0)
@@ -38,7 +48,7 @@ double positive(const io::CsvTable& table, std::size_t row, const std::string& c
 /// Where no mass is given, it goes as the area.
 double mass_of(const io::Settings& settings, const io::CsvTable& table, std::size_t row) {
   if (table.has("mass")) return positive(table, row, "mass");
-  const double relative = positive(table, row, "diameter") / settings.number("grains.diameter");
+  const double relative = table.value(row, "diameter") / settings.number("grains.diameter");
   return settings.number("grains.mass") * relative * relative;
 }
 
@@ -119,7 +129,7 @@ std::vector<Grain> grains_of_file(const io::Settings& settings, const State& emp
                       .y = table.value(row, "y"),
                       .vx = table.value(row, "vx"),
                       .vy = table.value(row, "vy"),
-                      .radius = 0.5 * positive(table, row, "diameter"),
+                      .radius = 0.5 * diameter_of(table, row, empty.box.length),
                       .mass = mass_of(settings, table, row),
                       .spin = spin_of(table, row, empty.grains.rotate())});
   }

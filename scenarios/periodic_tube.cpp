@@ -240,12 +240,24 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
                   fmt::format("choose velocities below {:.3g} m/s", largest));
 }
 
+/// An eighth of a turn in a step; a few times more, and it would seem slow again.
+void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
+                       const State& state) {
+  const double largest = 0.25 * pi / state.time_step;
+  const bool held =
+      std::ranges::all_of(grains, [&](const Grain& g) { return std::abs(g.spin) < largest; });
+  if (!held)
+    settings.reject("start.from", "has spins too fast for this time step",
+                    fmt::format("choose spins below {:.3g} 1/s", largest));
+}
+
 Problem start_with(const std::vector<Grain>& grains, const io::Settings& settings,
                    const ContactModel& model, State state) {
   std::vector<double> masses;
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
   reject_fast_grains(settings, grains, state);
+  reject_fast_spins(settings, grains, state);
   for (const Grain& grain : grains) add_grain(state, grain);
   return Flow{.state = std::move(state), .model = model};
 }
@@ -259,6 +271,7 @@ Problem start_from_file(const io::Settings& settings, const ContactModel& model,
 
 Problem continue_run(const io::Settings& settings, const ContactModel& model, State state) {
   const State earlier = earlier_state(settings);
+  reject_narrow_tube(settings, 2.0 * std::ranges::max(earlier.grains.radius), state);
   set_time_step(settings, model, earlier.grains.mass, state);
   take_over(earlier, model, state);
   return Flow{.state = std::move(state), .model = model};
@@ -269,10 +282,10 @@ Problem prepare(const io::Settings& settings) {
   const ContactModel model = contact_model(settings);
   const std::string& kind = settings.text("start.kind");
   if (kind == "file") return start_from_file(settings, model, std::move(state));
+  if (kind == "continued") return continue_run(settings, model, std::move(state));
   const SizeDistribution sizes(settings);
   reject_narrow_tube(settings, sizes.largest(), state);
   reject_overfilled_tube(settings, state);
-  if (kind == "continued") return continue_run(settings, model, std::move(state));
   const std::vector<Grain> grains = start_grains(settings, sizes, state);
   return start_with(grains, settings, model, std::move(state));
 }

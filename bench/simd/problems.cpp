@@ -21,7 +21,7 @@ std::array<double, 7> life_of(const Contact& c) {
 Original::Original(State state, const ContactModel& model)
     : state_(std::move(state)),
       model_(model),
-      candidates_(state_, 1, Candidates::short_skin),
+      candidates_(state_, model_.slip, 1, Candidates::short_skin),
       units_(state_) {
   if (!std::holds_alternative<LinearLaw>(model.normal)
       || !std::holds_alternative<CappedSlip>(model.slip) || model.attraction != Attraction::keep)

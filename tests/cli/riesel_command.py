@@ -28,7 +28,7 @@ run: {duration: 5 ms}
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 # A line of it comes every ten seconds: never here, but on a busy machine.
-PROGRESS = re.compile(r" *[0-9.]+ %  .*  [-0-9:]+ left")
+PROGRESS = re.compile(r" *[0-9.]+ %  .*  [-0-9:]+ left|.*: goes on from t = \S+ s, step \d+ of \d+")
 
 
 def bytes_of_files(directory):

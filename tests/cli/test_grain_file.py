@@ -48,3 +48,33 @@ class GrainFile(CommandTest):
                                                    "grains: {size_distribution: file, sizes_from: sizes.csv}"))
         out = self.run_to_end("sieved.yaml", "out")
         self.assert_same_result(out, self.run_to_end(out / "effective.yaml", "again"))
+
+    def check(self, grains):
+        self.write("here/grains.csv", grains)
+        return self.riesel("check", "here/tube.yaml")
+
+    def test_small_grains_far_apart_are_as_good_as_others(self):
+        self.assert_done(self.check("x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n"
+                                    "5, 5, 0, 1, 0.001\n6, 5, 0, 1, 0.001\n"))
+
+    def test_grains_that_positions_cannot_tell_apart_are_refused(self):
+        self.assert_refused(self.check("x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n5, 5, 0, 1, 1e-300\n"),
+                            "grains.csv:2", "diameter", "at least")
+
+    def test_what_moves_or_turns_too_fast_for_a_step_is_refused(self):
+        header = "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm), spin (1/s)\n"
+        self.settings = self.write("here/tube.yaml", SETTINGS + "grains: {rotation: disc}\n")
+        self.assert_done(self.check(header + "5, 5, 0, 1, 1, 1e5\n"))
+        self.assert_refused(self.check(header + "5, 5, 0, 1, 1, 1e7\n"), "start.from:", "spins too fast")
+        self.assert_refused(self.check(header + "5, 5, 0, 1e6, 1, 0\n"), "start.from:", "too fast")
+
+    def test_a_run_of_grains_smaller_than_the_usual_ones_can_be_continued(self):
+        """In a tube that is too short for the latter."""
+        small = SETTINGS.replace("length: 20 mm", "length: 3 mm").replace("width: 20 mm", "width: 3 mm")
+        self.write("here/tube.yaml", small)
+        self.write("here/grains.csv", "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n"
+                                      "1, 1, 0, 1, 0.2\n2, 2, 0, 1, 0.2\n")
+        first = self.run_to_end("here/tube.yaml", "first")
+        follower = self.run_to_end("here/tube.yaml", "next", "--set", "start.kind=continued",
+                                   "--set", f"start.from={first}")
+        self.assertEqual(self.summary(follower)["grains"], 2)

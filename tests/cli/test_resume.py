@@ -141,7 +141,7 @@ class ResumeRefuses(CommandTest):
     def test_another_file(self):
         tube = self.write("tube.yaml", "scenario: periodic_tube\n")
         result = self.riesel("resume", tube)
-        self.assert_refused(result, "tube.yaml", "not begin like a checkpoint of riesel")
+        self.assert_refused(result, "tube.yaml", "is no checkpoint", "directory of a run")
         self.assertEqual([path.name for path in self.home.iterdir()], ["tube.yaml"])
 
     def test_a_missing_run_file(self):

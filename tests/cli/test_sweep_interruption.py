@@ -109,6 +109,23 @@ class Interruption(SweepTest):
         self.wait_until(lambda: not any(map(is_alive, children)), "the end of the runs")
         self.assertIn("2 interrupted, 1 waiting", self.riesel("status", "out").stdout)
 
+    def test_a_run_killed_before_its_first_checkpoint_begins_again(self):
+        self.write("sweep.yaml", """\
+base: tube.yaml
+set: {run.duration: 20 ms, output.trajectory_interval: 1 ms}
+axes: {contact.restitution: [0.8]}
+""")
+        arguments = ("sweep", "sweep.yaml", "--out", "out", "--jobs", 1)
+        self.assertEqual(self.riesel(*arguments).returncode, DONE)
+        point, = self.home.glob("out/points/*")
+        whole = self.state_hash(point)
+        for left_behind in ("checkpoint.h5", "checkpoint.h5.previous", "summary.json"):
+            (point / left_behind).unlink(missing_ok=True)
+        self.assertTrue((point / "trajectory.h5").exists())
+        again = self.riesel(*arguments)
+        self.assertEqual(again.returncode, DONE, again)
+        self.assertEqual(self.state_hash(point), whole)
+
     def test_by_kills(self):
         self.interrupt(LONG_CHAIN, [(signal.SIGKILL, -signal.SIGKILL)] * 3)
         self.assert_goes_on_as_uninterrupted(LONG_CHAIN)
