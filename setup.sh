@@ -29,7 +29,7 @@ cluster_packages=(slurm-wlm munge)
 
 riesel=build/release/app/riesel
 run_input=scenarios/periodic_tube.yaml
-run_output=runs/periodic_tube
+run_output=runs/setup
 
 usage() {
   cat <<END
@@ -122,12 +122,20 @@ run_scenario() {
   elif [[ ! -e "$out/summary.json" ]]; then
     say "Continuing the interrupted run in $out"
     "$riesel" resume "$out" >"$out.txt" || die "could not continue; to start again: rm -r $out"
-  else
+  elif grep -qF "$(state_hash "$out")" "$out.txt"; then
     say "Nothing to do: $out is the result of this program and this input"
+  else
+    say "$out was resumed since: its result is in $out/summary.json ('$riesel report $out' draws it)"
+    return
   fi
   say "Summary"
   cat "$out.txt"
+  say "The program is $riesel; go on with docs/first_run.md:"
+  printf '    export PATH=$PWD/%s:$PATH\n' "$(dirname "$riesel")"
 }
+
+# Of the result in a directory.
+state_hash() { sed -n 's/.*"state_hash": "\([0-9a-f]*\)".*/\1/p' "$1/summary.json"; }
 
 cpp_files() { find engine io scenarios app tests bench examples -name '*.[ch]pp' | sort; }
 cpp_sources() { find "$@" -name '*.cpp' | sort; }

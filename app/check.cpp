@@ -122,7 +122,8 @@ void warn_of_open_walls(const State& state) {
 void print_trajectory(const io::Settings& settings, const State& state, double steps) {
   constexpr auto interval = "output.trajectory_interval";
   if (!settings.has(interval)) return;
-  const double frames = std::floor(steps * state.time_step / settings.number(interval)) + 1.0;
+  const double frames =
+      std::min(std::floor(steps * state.time_step / settings.number(interval)), steps) + 1.0;
   line("trajectory", "{:.0f} frames, {:.3g} MB", frames,
        frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
 }

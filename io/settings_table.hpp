@@ -63,7 +63,8 @@ struct Setting {
   std::string doc = {};  ///< for the reference page; ends with a full stop
   /// The row counts only under this condition, and under that of the row it refers to.
   std::optional<When> only_when = {};
-  bool matters = true;  ///< the results depend on it
+  bool matters = true;         ///< the results depend on it
+  bool names_content = false;  ///< of a path: they depend on what stands in the file, not on where
 };
 
 using SettingsTable = std::vector<Setting>;

@@ -1,10 +1,14 @@
 #include "io/sweep_points.hpp"
 
 #include "engine/hash.hpp"
+#include "io/file_error.hpp"
+#include "io/whole_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace riesel::io {
@@ -33,10 +37,20 @@ std::vector<Combination> combinations_of(const std::vector<std::size_t>& counts)
   return all;
 }
 
-std::string hash_text(const std::string& text) {
+template <class Text>
+std::string hash_text(const Text& text) {
   Hash hash;
   for (const char c : text) hash.add(c);
   return fmt::format("{:016x}", hash.value());
+}
+
+/// Of what stands in a file, if it can be read: whether it can is for the run to say.
+std::string hash_content(const std::string& path) {
+  try {
+    return hash_text(read_whole_file(path));
+  } catch (const FileError&) {
+    return "none";
+  }
 }
 
 bool is_of_start(const Setting& row) { return section_of(row.key) == start_section; }
@@ -102,9 +116,25 @@ private:
     return sweep_.branches.empty() ? "" : sweep_.branches[combination[sweep_.axes.size()]].name;
   }
 
+  /// What the results depend on: those of the wanted settings that matter, files by their content.
+  template <class Wanted>
+  std::string identity_of(const Settings& settings, Wanted wanted) {
+    std::set<std::string> files;
+    std::string text = settings.effective_yaml([&](const Setting& row) {
+      if (row.names_content && wanted(row)) files.insert(settings.text(row.key));
+      return row.matters && !row.names_content && wanted(row);
+    });
+    for (const std::string& file : files) {
+      const auto [known, is_new] = contents_.try_emplace(file);
+      if (is_new) known->second = hash_content(file);
+      text += known->second;
+    }
+    return text;
+  }
+
   void add_point(const Combination& combination) {
     auto settings = settings_of(combination);
-    const auto identity = settings.effective_yaml([](const Setting& row) { return row.matters; });
+    const auto identity = identity_of(settings, [](const Setting&) { return true; });
     auto yaml = settings.effective_yaml();
     points_.push_back({.settings = std::move(settings),
                        .yaml = std::move(yaml),
@@ -119,8 +149,8 @@ private:
     auto settings = settings_of(combination);
     const auto parent = points_.size() - 1;
     const auto& parents_name = points_[parent].name;
-    const auto identity = settings.effective_yaml(
-        [](const Setting& row) { return row.matters && !is_of_start(row); });
+    const auto identity =
+        identity_of(settings, [](const Setting& row) { return !is_of_start(row); });
     auto yaml = settings.effective_yaml([](const Setting& row) { return !is_of_start(row); });
     yaml += fmt::format("\n{}:\n  kind: continued\n  from: ../{}\n", start_section, parents_name);
     points_.push_back({.settings = std::move(settings),
@@ -143,7 +173,8 @@ private:
 
   const SweepFile& sweep_;
   const SettingsTables& tables_;
-  std::vector<std::size_t> counts_;  // places on each axis, branches, seeds
+  std::vector<std::size_t> counts_;              // places on each axis, branches, seeds
+  std::map<std::string, std::string> contents_;  // of files, as hashes
   std::vector<SweepPoint> points_;
 };
 

@@ -28,20 +28,20 @@ io::CsvTable read_table(const io::Settings& settings) {
                        {.name = "spin", .unit = "1/s", .required = false}});
 }
 
-/// m; grains much smaller than the tube would be lost among its positions.
-double diameter_of(const io::CsvTable& table, std::size_t row, double tube_length) {
-  const double least = 1e-6 * tube_length;
-  const double value = table.value(row, "diameter");
-  if (value < least)
-    table.reject(row, "diameter", "is not a millionth of the length of the tube",
-                 fmt::format("give the diameter of the grain, at least {:.3g} m", least));
-  return value;
-}
-
 double positive(const io::CsvTable& table, std::size_t row, const std::string& column) {
   const double value = table.value(row, column);
   if (value <= 0.0)
     table.reject(row, column, "is not above 0", "give the " + column + " of the grain");
+  return value;
+}
+
+/// m; grains much smaller than the tube would be lost among its positions.
+double diameter_of(const io::CsvTable& table, std::size_t row, double tube_length) {
+  const double least = 1e-6 * tube_length;
+  const double value = positive(table, row, "diameter");
+  if (value < least)
+    table.reject(row, "diameter", "is not a millionth of the length of the tube",
+                 fmt::format("give the diameter of the grain, at least {:.3g} m", least));
   return value;
 }
 

@@ -51,7 +51,8 @@ io::SettingsTable start_settings() {
        .doc = "File of the grains, CSV with the columns `x (mm)`, `y (mm)`, `vx (m/s)`, `vy "
               "(m/s)`, `diameter (mm)` and, if not in proportion to the area, `mass (mg)`, or "
               "with other units (docs/files.md).",
-       .only_when = io::When{"start.kind", {"file"}}},
+       .only_when = io::When{"start.kind", {"file"}},
+       .names_content = true},
   };
 }
 
@@ -235,7 +236,14 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
   const bool held =
       std::ranges::all_of(grains, [&](const Grain& g) { return std::hypot(g.vx, g.vy) < largest; });
   if (held) return;
-  settings.reject(settings.text("start.kind") == "file" ? "start.from" : "start.axial_velocity",
+  const bool of_file = settings.text("start.kind") == "file";
+  const auto speed_by = [&](const char* key) {
+    return of_file ? 0.0 : std::abs(settings.number(key));
+  };
+  const bool by_chance = speed_by("start.random_velocity") > speed_by("start.axial_velocity");
+  settings.reject(of_file     ? "start.from"
+                  : by_chance ? "start.random_velocity"
+                              : "start.axial_velocity",
                   "too fast for this tube and time step",
                   fmt::format("choose velocities below {:.3g} m/s", largest));
 }

@@ -72,7 +72,8 @@ io::SettingsTable size_settings() {
        .required = true,
        .doc = "File of diameters, CSV with the column `diameter (mm)` or another unit "
               "(docs/files.md); each grain draws one of them.",
-       .only_when = io::When{"grains.size_distribution", {"file"}}},
+       .only_when = io::When{"grains.size_distribution", {"file"}},
+       .names_content = true},
   };
 }
 

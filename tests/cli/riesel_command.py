@@ -155,6 +155,8 @@ class CommandTest(unittest.TestCase):
 
     def assert_one_message(self, text, *mentions):
         """Says who speaks, what is wrong, and, after a semicolon, what to do about it."""
+        text = "".join(line for line in text.splitlines(keepends=True)
+                       if not PROGRESS.fullmatch(line.rstrip("\n")))
         self.assertRegex(text, r"\Ariesel: [^\n]+; [^\n]+\n\Z")
         for mention in mentions:
             self.assertIn(mention, text)

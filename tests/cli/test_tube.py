@@ -246,7 +246,7 @@ class LostGrains(CommandTest):
         tube = self.write("tube.yaml", SMALL_TUBE)
         for name, overrides in {
                 "soft": ["contact.stiffness=20", "start.random_velocity=20 m/s"],
-                "hot": ["start.random_velocity=1000 m/s"],
+                "hot": ["start.random_velocity=200 m/s"],
         }.items():
             with self.subTest(name):
                 options = [part for override in overrides for part in ("--set", override)]

@@ -19,13 +19,19 @@ const SettingsTables& sweep_tables() {
     with_start.at("tube").push_back({.key = "start.kind",
                                      .kind = Kind::choice,
                                      .fallback = "fresh",
-                                     .choices = {"fresh", "continued"},
+                                     .choices = {"fresh", "continued", "file"},
                                      .doc = "Start."});
     with_start.at("tube").push_back({.key = "start.from",
                                      .kind = Kind::path,
                                      .required = true,
                                      .doc = "Run.",
                                      .only_when = When{"start.kind", {"continued"}}});
+    with_start.at("tube").push_back({.key = "start.from",
+                                     .kind = Kind::path,
+                                     .required = true,
+                                     .doc = "Grains.",
+                                     .only_when = When{"start.kind", {"file"}},
+                                     .names_content = true});
     with_start.at("tube").push_back({.key = "start.speed",
                                      .unit = "m/s",
                                      .fallback = "1 m/s",
@@ -151,6 +157,17 @@ TEST_CASE("the name of a point depends on what its results depend on, and on not
                           "run.steps_per_collision: 51", "start.speed: 2"}) {
     CHECK(name(std::string("set: {") + key + "}\n") != expected);
   }
+}
+
+TEST_CASE("the name of a point depends on what stands in a file, not on where that is") {
+  const file_fixture::ScratchDirectory directory;
+  const auto name_with = [&](const char* file, const char* content) {
+    std::ofstream(directory / file) << content;
+    return name("set: {start.kind: file, start.from: " + (directory / file).string() + "}\n");
+  };
+  const auto expected = name_with("a.csv", "1\n");
+  CHECK(name_with("b.csv", "1\n") == expected);
+  CHECK(name_with("a.csv", "2\n") != expected);
 }
 
 TEST_CASE("a continuation goes forward and back, each point from the one before") {
