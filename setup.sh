@@ -131,7 +131,7 @@ run_scenario() {
   say "Summary"
   cat "$out.txt"
   say "The program is $riesel; go on with docs/first_run.md:"
-  printf '    export PATH=$PWD/%s:$PATH\n' "$(dirname "$riesel")"
+  echo "    export PATH=\$PWD/$(dirname "$riesel"):\$PATH"
 }
 
 # Of the result in a directory.

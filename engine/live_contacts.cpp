@@ -218,18 +218,18 @@ RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, Ste
 
 }  // namespace
 
-void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& b, const SlipLaw& law,
-                   const StepUnits& units) {
+void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodies,
+                   const SlipLaw& slip, const StepUnits& units) {
   const auto words = std::bit_cast<Words>(contact);
   const auto life = [&](std::size_t member) { return words[life_begin + member]; };
-  const Encounter e = encounter(meeting, b, units);
+  const Encounter e = encounter(meeting, bodies, units);
   contact.friction_loss += std::visit(
-      [&](const auto& slip) {
-        return b.rotate()
-                   ? loss_before(life, e, turning(meeting, b, 0.0, units), slip, 0.0, units.dt)
-                   : loss_before(life, e, NoTurning{}, slip, 0.0, units.dt);
+      [&](const auto& law) {
+        return bodies.rotate()
+                   ? loss_before(life, e, turning(meeting, bodies, 0.0, units), law, 0.0, units.dt)
+                   : loss_before(life, e, NoTurning{}, law, 0.0, units.dt);
       },
-      law);
+      slip);
 }
 
 LiveContacts::Columns LiveContacts::columns() {

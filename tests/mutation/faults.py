@@ -39,7 +39,7 @@ FAULTS = [
      "const double mean_vx = 2.0 * e.half_vx - e.vx, mean_vy = 2.0 * e.half_vy - e.vy;",
      "const double mean_vx = e.half_vx, mean_vy = e.half_vy;"),
     ("a spring forgotten where a contact ends in a sorting", "engine/live_contacts.cpp",
-     ": loss_before(life, e, NoTurning{}, slip, 0.0, units.dt);",
+     ": loss_before(life, e, NoTurning{}, law, 0.0, units.dt);",
      ": loss_before(life, e, NoTurning{}, CappedSlip{}, 0.0, units.dt);"),
     ("action without reaction", "engine/live_contacts.cpp",
      "const double other_y = -fy * c.per_mass_second[i] * u.kick_y;",
