@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -36,24 +35,7 @@ std::string energy_error_exceeded(double ratio) {
                      ratio);
 }
 
-struct Fastest {
-  double speed = 0.0;  // m/s
-  std::int32_t id = 0;
-};
-
-Fastest fastest_grain(const State& state) {
-  Fastest fastest;
-  const GrainView grains(state);
-  for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
-    const Grain g = grains[slot];
-    const double speed = std::hypot(g.vx, g.vy);
-    const std::int32_t id = state.grains.id[slot];
-    if (speed > fastest.speed || (speed == fastest.speed && id < fastest.id)) fastest = {speed, id};
-  }
-  return fastest;
-}
-
-std::string speed_exceeded(const Fastest& fastest) {
+std::string speed_exceeded(const FastestGrain& fastest) {
   return fmt::format("grain {} moves with {:.4g} m/s: the brake of the walls has failed; lower the "
                      "velocity at the start, or raise contact.stiffness",
                      fastest.id, fastest.speed);
@@ -76,7 +58,7 @@ std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Ob
   const double error = energy_error_ratio(state, seen.energies);
   look(limits_.energy_error, "limits.energy_error", error,
        [&] { return energy_error_exceeded(error); });
-  const Fastest fastest = limits_.speed ? fastest_grain(state) : Fastest{};
+  const FastestGrain fastest = limits_.speed ? fastest_grain(state) : FastestGrain{};
   look(limits_.speed, "limits.speed", fastest.speed, [&] { return speed_exceeded(fastest); });
   return messages;
 }

@@ -74,8 +74,7 @@ struct Schedule {
 
 private:
   static std::int64_t steps_of(const char* key, const io::Settings& settings, double time_step) {
-    constexpr double never = 1e15;  // steps: more than any run has
-    return std::llround(std::clamp(settings.number(key) / time_step, 1.0, never));
+    return std::llround(std::clamp(settings.number(key) / time_step, 1.0, scenarios::most_steps));
   }
 };
 
@@ -221,7 +220,7 @@ private:
   /// Beyond that nothing can be told of the grains, nor of how they went on.
   void fail_if_too_fast() const {
     const State& state = simulation_.state();
-    const double fastest = fastest_speed(state);
+    const double fastest = fastest_grain(state).speed;
     const double largest = largest_speed(state.box, state.time_step, state.grains.size());
     if (fastest >= largest)
       throw RunFailure(

@@ -58,10 +58,12 @@ double collision_time(const NormalLaw& normal, double reduced_mass, double speed
       normal);
 }
 
+double slip_gain_by_turning(double inertia) { return inertia > 0.0 ? 1.0 + 1.0 / inertia : 1.0; }
+
 double spring_time(const SlipLaw& slip, double inertia, double reduced_mass) {
   const auto* spring = std::get_if<SpringSlip>(&slip);
   if (spring == nullptr) return std::numeric_limits<double>::infinity();
-  const double slip_mass = inertia > 0.0 ? reduced_mass / (1.0 + 1.0 / inertia) : reduced_mass;
+  const double slip_mass = reduced_mass / slip_gain_by_turning(inertia);
   return pi * std::sqrt(slip_mass / spring->k_t);
 }
 

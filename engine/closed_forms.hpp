@@ -35,6 +35,10 @@ double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double 
 /// time.
 double collision_time(const NormalLaw& normal, double reduced_mass, double speed);
 
+/// By what a tangential force changes the slip of two bodies more than if they did not rotate;
+/// their moment of inertia is `inertia` m r^2 (0: they do not).
+double slip_gain_by_turning(double inertia);
+
 /// s, half a period of the tangential spring between two bodies whose moment of inertia is
 /// `inertia` m r^2 (0: they do not rotate); infinite for slip laws without a spring.
 double spring_time(const SlipLaw& slip, double inertia, double reduced_mass);

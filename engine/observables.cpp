@@ -104,14 +104,16 @@ Origin origin_of(const State& state) {
           .momentum_y = sums.momentum_y};
 }
 
-double fastest_speed(const State& state) {
+FastestGrain fastest_grain(const State& state) {
+  FastestGrain fastest;
   const GrainView grains(state);
-  double fastest2 = 0.0;
-  for (std::size_t i = 0; i < state.grains.size(); ++i) {
-    const Grain g = grains[i];
-    fastest2 = std::max(fastest2, g.vx * g.vx + g.vy * g.vy);
+  for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
+    const Grain g = grains[slot];
+    const double speed = std::hypot(g.vx, g.vy);
+    const std::int32_t id = state.grains.id[slot];
+    if (speed > fastest.speed || (speed == fastest.speed && id < fastest.id)) fastest = {speed, id};
   }
-  return std::sqrt(fastest2);
+  return fastest;
 }
 
 double largest_speed(const Box& box, double time_step, std::size_t grains) {

@@ -42,8 +42,11 @@ struct Observables {
 /// What the balances of a run start from: to be kept in State::origin at step 0.
 Origin origin_of(const State& state);
 
-/// m/s, of any grain.
-double fastest_speed(const State& state);
+struct FastestGrain {
+  double speed = 0.0;   ///< m/s
+  std::int32_t id = 0;  ///< the smallest one of those that are as fast
+};
+FastestGrain fastest_grain(const State& state);
 
 /// m/s, up to which the state holds what so many grains do: faster ones come around the box within
 /// a few steps, or sums of their squares leave the range of ExactSum.

@@ -223,7 +223,6 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
   const double shortest = collision_time(settings, model, 0.5 * *lightest);
   collision_time(settings, model, *heaviest);
   state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
-  constexpr double most_steps = 1e15;  // far below what a counter holds
   const RunLength length = run_length(settings);
   if (length.at_most / state.time_step > most_steps)
     settings.reject(length.key, "more time steps than can be counted",

@@ -8,6 +8,8 @@
 
 namespace riesel::scenarios {
 
+inline constexpr double most_steps = 1e15;  ///< of any run: far below what a counter holds
+
 struct RunLength {
   double at_most;                        ///< s, simulated
   std::optional<double> relative_error;  ///< of the mean axial velocity, to stop at; or none
