@@ -46,7 +46,6 @@ class Look:
     memory: float  # MB, resident
     step: int
     wall: float  # s, that all lives have used up to this step, as the checkpoint tells
-    processor: float  # s, that this life has used
 
 
 def memory_of(process):
@@ -57,11 +56,6 @@ def memory_of(process):
         return None
     resident = re.search(r"^VmRSS:\s*(\d+) kB", text, re.MULTILINE)
     return int(resident[1]) / 1024 if resident else None
-
-
-def processor_time_of(process):
-    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text(encoding="ascii").rsplit(")")[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def counted(checkpoint):
@@ -93,8 +87,7 @@ class Soak:
             return
         now = counted(self.out / "checkpoint.h5")
         self.looks.append(Look(self.lives, (time.monotonic() - self.begin) / 3600,
-                               time.monotonic() - born, memory, now["step"], now["wall_seconds"],
-                               processor_time_of(process)))
+                               time.monotonic() - born, memory, now["step"], now["wall_seconds"]))
 
     def live(self, seconds):
         """One life: from a start or resume to a kill."""
