@@ -6,6 +6,7 @@
 #include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
+#include "engine/validity.hpp"
 #include "io/trajectory_file.hpp"
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/run_length.hpp"
@@ -58,11 +59,12 @@ void warn_of_overlap(const NormalLaw& normal, const Pair& pair, double diameter)
       normal);
   line("expected overlap", "up to {:.2g} m, {:.2g} % of the diameter, in an impact of {:.3g} m/s",
        overlap, 100.0 * overlap / diameter, pair.speed);
-  if (overlap > 0.01 * diameter)
+  const double ratio = overlap / (0.5 * diameter);
+  if (ratio > suspect_overlap_ratio)
     warn(
-        "overlaps over 1 % of the diameter are to be expected; raise contact.stiffness by a factor "
-        "{:.2g}",
-        std::pow(overlap / (0.01 * diameter), 2.0));
+        "overlaps over {:.3g} % of the radius are to be expected, and the run to be suspect; raise "
+        "contact.stiffness by a factor {:.2g}",
+        100.0 * suspect_overlap_ratio, std::pow(ratio / suspect_overlap_ratio, 2.0));
 }
 
 /// The spring and the damping of the slip, between bodies of such a reduced mass (kg).

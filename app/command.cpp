@@ -2,6 +2,7 @@
 // exit status.
 #include "app/command.hpp"
 
+#include "app/command_words.hpp"
 #include "app/commands.hpp"
 #include "app/completion.hpp"
 #include "app/exit_status.hpp"
@@ -11,10 +12,12 @@
 #include "io/build_info.hpp"
 #include "io/file_error.hpp"
 #include "io/settings_error.hpp"
+#include "io/settings_names.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -22,6 +25,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -101,7 +105,19 @@ public:
     });
   }
 
-  CLI::App& program() { return program_; }
+  /// Throws CLI::ParseError, and app::UnusableInput for a subcommand that there is not.
+  void parse() {
+    std::vector<std::string> words(arguments_.begin() + 1, arguments_.end());
+    if (!words.empty() && words.front() == "help") {  // help run: run --help
+      words.erase(words.begin());
+      words.emplace_back("--help");
+    }
+    if (!words.empty() && !words.front().starts_with('-')) refuse_unknown_command(words.front());
+    std::ranges::reverse(words);  // as CLI11 wants them
+    program_.parse(words);
+  }
+
+  const CLI::App& program() const { return program_; }
   const std::function<int()>& command() const { return command_; }
 
 private:
@@ -206,6 +222,16 @@ private:
     });
   }
 
+  void refuse_unknown_command(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const app::Subcommand& known : app::subcommands_of(program_)) names.push_back(known.name);
+    if (std::ranges::find(names, name) != names.end()) return;
+    const auto nearest = io::nearest_name(name, names);
+    throw app::UnusableInput(
+        fmt::format("there is no command '{}'; {}see 'riesel --help'", name,
+                    nearest ? fmt::format("did you mean '{}'? ", *nearest) : ""));
+  }
+
   static int print(const std::string& text) {
     fmt::print("{}", text);
     return app::exit_done;
@@ -262,7 +288,7 @@ int run_program(int argc, char** argv) {
   app::end_on_interrupts();
   CommandLine line(argc, argv);
   try {
-    line.program().parse(argc, argv);
+    line.parse();
     if (!line.command()) throw CLI::RequiredError::Subcommand(1);
   } catch (const CLI::ParseError& error) {
     const bool asked_for_text = line.program().exit(error) == 0;

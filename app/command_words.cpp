@@ -21,7 +21,7 @@ WordKind kind_of(const std::string& name) {
 
 std::string value_name(const std::string& name) {
   static const std::map<std::string, std::string> known = {
-      {"--out", "DIR"}, {"--set", "KEY=VALUE"}, {"--max-walltime", "TIME"}};
+      {"--out", "DIR"}, {"--set", "KEY=VALUE"}, {"--max-walltime", "TIME"}, {"--sbatch", "OPTION"}};
   const auto found = known.find(name);
   return found == known.end() ? "N" : found->second;
 }

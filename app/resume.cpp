@@ -21,11 +21,11 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
     const std::string key = setting.substr(0, equals);
     const std::string section = io::section_of(key);
     const bool allowed = key == "run.duration" || section == "run.until" || key == "run.threads"
-                         || key == "run.stepping" || section == "output";
+                         || key == "run.stepping" || section == "output" || section == "limits";
     if (!allowed || key == "output.interval" || key == "output.trajectory_interval")
       throw io::SettingsError({.source = "--set " + setting}, key,
                               "cannot change when a run is resumed",
-                              "only run.duration, run.until, run.threads, run.stepping and "
+                              "only run.duration, run.until, run.threads, run.stepping, limits and "
                               "output.checkpoint_interval can; for anything else "
                               "start a new run");
   }

@@ -24,7 +24,7 @@ constexpr std::string_view finer = "raise run.steps_per_collision";
 
 constexpr Criterion overlap_criterion = {"max_overlap_ratio",
                                          &Evidence::max_overlap_ratio,
-                                         0.2,
+                                         suspect_overlap_ratio,
                                          0.5,
                                          false,
                                          "grains sink deep into each other",

@@ -30,6 +30,8 @@ struct Evidence {
   double energy_error_ratio;      ///< see energy_error_ratio()
 };
 
+inline constexpr double suspect_overlap_ratio = 0.2;  ///< of Evidence::max_overlap_ratio
+
 struct Finding {
   std::string_view name;
   double value;

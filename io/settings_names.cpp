@@ -85,6 +85,19 @@ std::optional<std::string> mistyped_remedy(const std::string& key, const Setting
   return {};
 }
 
+/// For keys that are no keys: YAML took something else apart.
+std::optional<std::string> yaml_remedy(const std::string& key) {
+  const auto name = name_in_section(key);
+  if (const auto colon = name.find(':'); colon != std::string::npos && colon + 1 < name.size()) {
+    return fmt::format("put a blank behind the colon: '{}: {}'", name.substr(0, colon),
+                       name.substr(colon + 1));
+  }
+  if (!name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) != 0) {
+    return "a comma begins the next key; write a decimal point, as in 0.92";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(const std::string& name,
@@ -115,6 +128,7 @@ std::string enumerate(const std::vector<std::string>& names) {
 std::string unknown_key_remedy(const std::string& key, const std::string& scenario,
                                const SettingsTables& tables) {
   const auto& table = tables.at(scenario);
+  if (const auto remedy = yaml_remedy(key)) return *remedy;
   if (const auto remedy = misplaced_remedy(key, table)) return *remedy;
   if (const auto remedy = other_scenario_remedy(key, scenario, tables)) return *remedy;
   if (const auto remedy = mistyped_remedy(key, table)) return *remedy;

@@ -146,15 +146,25 @@ std::vector<double> draw_radii(const io::Settings& settings, const SizeDistribut
   }
 }
 
+/// The tube and the grains do not fit: the key that was given of the two, or that of the tube.
+std::string to_blame(const io::Settings& settings, const char* key_of_tube) {
+  constexpr auto diameter = "grains.diameter";
+  return settings.given(diameter) && !settings.given(key_of_tube) ? diameter : key_of_tube;
+}
+
 /// `largest`: diameter of a grain, m.
 void reject_narrow_tube(const io::Settings& settings, double largest, const State& empty) {
   const double needed = largest + 2.0 * empty.walls.front().radius;
   if (empty.box.width < needed)
-    settings.reject("tube.width", "too narrow for the grains between the wall grains",
-                    fmt::format("choose more than {:.6g} m", needed));
+    settings.reject(to_blame(settings, "tube.width"),
+                    "the tube is too narrow for the grains between the wall grains",
+                    fmt::format("choose smaller grains, or tube.width above {:.6g} m", needed));
   if (empty.box.length < 4.0 * largest * (1.0 - 1e-12))
-    settings.reject("tube.length", "too short for a periodic tube of grains of this size",
-                    fmt::format("choose at least four grain diameters, {:.6g} m", 4.0 * largest));
+    settings.reject(
+        to_blame(settings, "tube.length"), "the periodic tube is too short for grains of this size",
+        fmt::format("choose smaller grains, or for tube.length at least four diameters, "
+                    "{:.6g} m",
+                    4.0 * largest));
 }
 
 void reject_overfilled_tube(const io::Settings& settings, const State& empty) {

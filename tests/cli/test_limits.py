@@ -39,6 +39,14 @@ class Limits(CommandTest):
         result = self.tube("fast", "gravity=8e6 m/s^2", "wall.spacing=4 mm")
         self.assert_stopped("fast", result, "too fast for this tube and time step")
 
+    def test_a_run_that_was_stopped_goes_on_with_another_limit_to_the_same_end(self):
+        result = self.tube("again", "limits.overlap=0.02", "output.checkpoint_interval=1e-6 s")
+        self.assert_stopped("again", result, "limits.overlap")
+        result = self.riesel("resume", "again", "--set", "limits.overlap=0.9", "--threads", 1)
+        self.assertEqual(result.returncode, DONE, result)
+        self.assertEqual(self.summary(self.home / "again")["state_hash"],
+                         self.summary(self.unlimited())["state_hash"])
+
     def test_an_overlap_too_deep_stops_it(self):
         result = self.tube("overlap", "limits.overlap=0.02")
         self.assert_stopped("overlap", result, "limits.overlap", "contact.stiffness")

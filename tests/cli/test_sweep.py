@@ -337,7 +337,7 @@ class Mistakes(SweepTest):
         "base: tube.yaml\naxes: {tube.width: [10 mm, 9 kg]}": [
             ":2:28: tube.width: expected a length", "'9 kg'"],
         "base: tube.yaml\naxes: {tube.width: [10 mm, 0.1 mm]}": [
-            ":2:8: tube.width: too narrow", "choose more than"],
+            ":2:8: tube.width: the tube is too narrow", "tube.width above"],
         "base: tube.yaml\naxes: {tube.width: {from: 1 cm, to: 2, points: 3, spacing: lgo}}": [
             ":2:60: tube.width.spacing:", "did you mean 'log'?"],
         "base: tube.yaml\naxes: {contact: {friction: [1]}}": [":2:8: contact: is a section"],

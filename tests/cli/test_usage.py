@@ -19,7 +19,16 @@ class Usage(CommandTest):
         self.assert_usage_error(mentions="subcommand")
 
     def test_an_unknown_subcommand_is_named(self):
-        self.assert_usage_error("simulate", mentions="simulate")
+        self.assert_usage_error("simulate", mentions="'simulate'")
+        self.assert_usage_error("help", "simulate", mentions="'simulate'")
+        self.assert_usage_error("rum", "tube.yaml", mentions="did you mean 'run'?")
+
+    def test_help_is_a_command_too(self):
+        for words in ([], ["run"], ["sweep"]):
+            with self.subTest(words):
+                result = self.riesel("help", *words)
+                self.assert_done(result)
+                self.assertEqual(result.stdout, self.riesel(*words, "--help").stdout)
 
     def test_an_unknown_option_is_named(self):
         for arguments in (["--fast"], ["run", "--fast"], ["run", "--fast", "tube.yaml"]):
