@@ -2,7 +2,7 @@
 //
 // To look at an error bar again and again until it is small enough prefers the moments at which it
 // is small by chance. So a run is looked at rarely, each time it has become a quarter longer, and
-// has to please twice in a row. What is left of the bias is measured in docs/statistics.md.
+// has to please twice in a row. What is left of the bias is measured in docs/statistics-methods.md.
 //
 // The rule knows the series and nothing else: a run that was interrupted stops where the
 // uninterrupted one does.

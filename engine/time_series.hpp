@@ -5,7 +5,7 @@
 // small. The usual cure, to sum the autocorrelation function up to a window, overlooks a slow
 // component beneath fast noise. The errors here come from the slowest motions themselves, eight
 // cosines across the whole series, and take from Student's distribution what is owed to so few.
-// docs/statistics.md has the formulas and what was measured.
+// docs/statistics-methods.md has the formulas and what was measured.
 //
 // The unit of time is the sample interval. Pure functions; std::invalid_argument for a sample that
 // is not finite.

@@ -3,7 +3,7 @@
 // A soft-sphere calculation stands for hard grains as long as contacts are shallow, short, resolved
 // by the time step and push the grains apart before they have passed through each other. Each of
 // these is a finding with its own thresholds; the verdict is the worst of them. The thresholds and
-// their reasons are in docs/validity.md.
+// their reasons are in docs/validity-methods.md.
 #pragma once
 
 #include <optional>

@@ -22,7 +22,7 @@ from tube import WINDOWS
 
 
 def mean_and_error(samples):
-    """The mean and its error from the eight slowest cosines, as docs/statistics.md has it, without its allowance for
+    """The mean and its error from the eight slowest cosines, as docs/statistics-methods.md has it, without its allowance for
     short series."""
     n = len(samples)
     if n < 16:

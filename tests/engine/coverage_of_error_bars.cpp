@@ -1,6 +1,6 @@
 // How often the error bars of the engine cover the truth, how often a stationary series is called
 // unsteady, how often an unsteady one is caught, and what becomes of the error bars if a run ends
-// when they are small: the tables of docs/statistics.md.
+// when they are small: the tables of docs/statistics-methods.md.
 //
 // Thousands of series per line take minutes, so this is no unit test but a program to be run by
 // hand. Its argument is the number of series per line; with 4000 of them a rate of 68 % is known to
