@@ -36,8 +36,9 @@ void warn(fmt::format_string<Parts...> format, Parts&&... parts) {
 
 /// A head-on contact of the kind that a system has.
 struct Pair {
-  double reduced_mass;  // kg
-  double speed;         // m/s, the fastest to be expected
+  double reduced_mass;    // kg
+  double speed;           // m/s, the fastest to be expected
+  double smaller_radius;  // m
 };
 
 /// t_col and e_N, the latter in closed form for the linear law only.
@@ -51,20 +52,23 @@ void print_contact(const char* what, const NormalLaw& normal, const Pair& pair) 
   }
 }
 
-void warn_of_overlap(const NormalLaw& normal, const Pair& pair, double diameter) {
-  const double overlap = std::visit(
+/// As the verdict on the run will measure it: over the radius of the smaller body.
+double expected_overlap_ratio(const NormalLaw& normal, const Pair& pair) {
+  return std::visit(
       [&](const auto& law) {
-        return elastic_max_overlap(law.elastic_line(), pair.reduced_mass, pair.speed);
+        return elastic_max_overlap(law.elastic_line(), pair.reduced_mass, pair.speed)
+               / pair.smaller_radius;
       },
       normal);
-  line("expected overlap", "up to {:.2g} m, {:.2g} % of the diameter, in an impact of {:.3g} m/s",
-       overlap, 100.0 * overlap / diameter, pair.speed);
-  const double ratio = overlap / (0.5 * diameter);
+}
+
+void warn_of_overlap(double ratio, double speed) {
+  line("expected overlap",
+       "up to {:.2g} of the radius of the smaller body, in an impact of {:.3g} m/s", ratio, speed);
   if (ratio > suspect_overlap_ratio)
-    warn(
-        "overlaps over {:.3g} % of the radius are to be expected, and the run to be suspect; raise "
-        "contact.stiffness by a factor {:.2g}",
-        100.0 * suspect_overlap_ratio, std::pow(ratio / suspect_overlap_ratio, 2.0));
+    warn("overlaps over {:.3g} of the radius make the run suspect; raise contact.stiffness by a "
+         "factor {:.2g}",
+         suspect_overlap_ratio, std::pow(ratio / suspect_overlap_ratio, 2.0));
 }
 
 /// The spring and the damping of the slip, between bodies of such a reduced mass (kg).
@@ -124,10 +128,11 @@ void warn_of_open_walls(const State& state) {
 void print_trajectory(const io::Settings& settings, const State& state, double steps) {
   constexpr auto interval = "output.trajectory_interval";
   if (!settings.has(interval)) return;
-  const double frames =
-      std::min(std::floor(steps * state.time_step / settings.number(interval)), steps) + 1.0;
-  line("trajectory", "{:.0f} frames, {:.3g} MB", frames,
-       frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
+  const double steps_per_frame =
+      std::max(std::round(settings.number(interval) / state.time_step), 1.0);
+  const double frames = std::floor(steps / steps_per_frame) + 1.0;
+  line("trajectory", "{:.0f} frames, {:.0f} kB of grains", frames,
+       frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e3);
 }
 
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
@@ -149,15 +154,24 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   line("wall grains", "{} per wall, spacing {:.6g} m", state.walls.front().count,
        state.walls.front().spacing(state.box));
   warn_of_open_walls(state);
-  print_contact("grain and grain", flow.model.normal, {0.5 * mass, fastest});
-  print_contact("grain and wall", flow.model.normal, {mass, fastest});
+  const double radius = 0.5 * diameter, wall_radius = state.walls.front().radius;
+  const Pair grains_meet{.reduced_mass = 0.5 * mass, .speed = fastest, .smaller_radius = radius};
+  const Pair wall_is_met{.reduced_mass = mass,
+                         .speed = fastest / std::numbers::sqrt2,  // only one of the two moves
+                         .smaller_radius = std::min(radius, wall_radius)};
+  print_contact("grain and grain", flow.model.normal, grains_meet);
+  print_contact("grain and wall", flow.model.normal, wall_is_met);
   line("time step", "{:.4g} s", state.time_step);
   warn_of_time_step(settings);
   print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
-  warn_of_overlap(flow.model.normal, {0.5 * mass, fastest}, diameter);
+  const Pair& deeper = std::max(grains_meet, wall_is_met, [&](const Pair& a, const Pair& b) {
+    return expected_overlap_ratio(flow.model.normal, a)
+           < expected_overlap_ratio(flow.model.normal, b);
+  });
+  warn_of_overlap(expected_overlap_ratio(flow.model.normal, deeper), deeper.speed);
 
   const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
-  const double reach = 0.5 * diameter + state.walls.front().radius;
+  const double reach = radius + wall_radius;
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(start.mean_vy));
 
   constexpr double seconds_to_measure = 0.3;
@@ -198,14 +212,16 @@ void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& cur
   line("impacts", "{} in {} points, v_y = {:.3g} ... {:.3g} m/s", curve.impacts.size(),
        curve.points.size(), slowest, fastest);
   const double speed = std::max(fastest_normal, slowest);
-  print_contact("grain and wall", setup.model.normal, {setup.grain_mass, speed});
+  const double smaller = std::min(setup.grain_radius, setup.reach() - setup.grain_radius);
+  print_contact("grain and wall", setup.model.normal, {setup.grain_mass, speed, smaller});
   line("time step", "{:.4g} s, down to {:.3g} s where passages are short", longest_step,
        shortest_step);
   warn_of_time_step(settings);
   print_slip(settings, setup.model.slip, setup.grain_mass, longest_step);
   if (fastest_normal > 0.0)
-    warn_of_overlap(setup.model.normal, {setup.grain_mass, fastest_normal},
-                    2.0 * setup.grain_radius);
+    warn_of_overlap(
+        expected_overlap_ratio(setup.model.normal, {setup.grain_mass, fastest_normal, smaller}),
+        fastest_normal);
   const double path = setup.single_wall_grain()
                           ? chord(setup.reach(), curve.impacts.front().x)
                           : chord_of_impact(setup.reach(), fastest_normal, setup.collision_time);
@@ -219,11 +235,13 @@ void check_column(const io::Settings& settings, const scenarios::ColumnCurve& cu
   const auto [smallest, widest] = std::ranges::minmax(curve.gap_ratios);
   line("drops", "{} of {} beads, gaps of {:.3g} ... {:.3g} m", curve.gap_ratios.size(), setup.beads,
        curve.gap(smallest), curve.gap(widest));
-  print_contact("bead and bead", setup.model.normal, {0.5 * setup.bead_mass, setup.velocity});
-  print_contact("bead and plate", setup.model.normal, {setup.bead_mass, setup.velocity});
+  const Pair at_plate{setup.bead_mass, setup.velocity, setup.bead_radius};
+  print_contact("bead and bead", setup.model.normal,
+                {0.5 * setup.bead_mass, setup.velocity, setup.bead_radius});
+  print_contact("bead and plate", setup.model.normal, at_plate);
   line("time step", "{:.4g} s", setup.time_step);
   warn_of_time_step(settings);
-  warn_of_overlap(setup.model.normal, {setup.bead_mass, setup.velocity}, 2.0 * setup.bead_radius);
+  warn_of_overlap(expected_overlap_ratio(setup.model.normal, at_plate), at_plate.speed);
   line("hard beads", "{}", description_of(curve.rigid));
   if (smallest < 1.0)
     warn("t_col is longer than the time between two impacts at the plate, down to {:.2g} of it: "

@@ -81,6 +81,7 @@ class CommandLine {
 public:
   CommandLine(int argc, char** argv) : arguments_(argv, argv + argc) {
     program_.set_version_flag("--version", version_text());
+    program_.footer("'riesel help COMMAND' tells the options of a command.");
     program_.require_subcommand(0, 1);  // so that a wrong one is named; see command()
     add_run();
     add_resume();
@@ -135,8 +136,8 @@ private:
   void add_resume() {
     CLI::App* resume =
         program_.add_subcommand("resume", "Go on with a run from its last checkpoint");
-    CLI::Option* directory =
-        resume->add_option("DIR", resume_.checkpoint, "Directory of the run, or its checkpoint.h5");
+    CLI::Option* directory = resume->add_option("DIR", resume_.checkpoint,
+                                                "Directory of the run, or a checkpoint in it");
     add_overrides(*resume, resume_.overrides);
     add_threads(*resume, resume_.overrides);
     add_flow_options(*resume, resume_.flow);

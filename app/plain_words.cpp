@@ -22,7 +22,12 @@ std::string explanation_of_state(const io::FlowSummary& s) {
                      s.transient_end, s.time);
 }
 
+bool asks_for_more(const io::FlowSummary& s) {
+  return s.state == "too_short" || s.state == "drifting" || s.ended_by == "at_most";
+}
+
 double sufficient_duration(const io::FlowSummary& s) {
+  if (s.state != "too_short") return 2.0 * s.time;
   const double after_transient = s.time - s.transient_end;
   const double wanted = 1.5 * min_independent_samples / std::max(s.independent_samples, 1.0);
   const double seconds = 3.0 * s.transient_end + std::max(wanted - 1.0, 0.0) * after_transient;

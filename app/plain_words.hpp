@@ -12,7 +12,10 @@ namespace riesel::app {
 /// What the state of the flow means and, where it is too short, what is missing.
 std::string explanation_of_state(const io::FlowSummary& summary);
 
-/// s, for how long a run that is too short might have to last, by what is known of it.
+/// Whether a longer run may end in a steady mean, or in one as precise as was asked for.
+bool asks_for_more(const io::FlowSummary& summary);
+
+/// s, for how long such a run might have to last at least, by what is known of it.
 double sufficient_duration(const io::FlowSummary& summary);
 
 /// Why a run came to its end: "duration", "precision" or "at_most".

@@ -12,9 +12,9 @@ namespace riesel::app {
 namespace {
 
 void print_balance(const io::FlowSummary::Balance& b) {
-  const std::string factors =
-      b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s x {:.4g} m/s", b.n_dot.value, b.dv_y.value)
-                          : std::string("none begun, lasting ones");
+  const std::string factors = b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s",
+                                                                b.n_dot.value, b.dv_y.value)
+                                                  : std::string("none begun, lasting ones");
   fmt::print("  {:<22}{} = {:.4g} +- {:.2g} m/s^2, gravity {:.4g} m/s^2\n", "wall collisions",
              factors, b.n_dot_dv_y.value, b.n_dot_dv_y.error, b.gravity);
 }
@@ -35,12 +35,21 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
              v.visits);
 }
 
+/// With its error bar; a flow that gains speed has none.
+void print_mean(const io::FlowSummary& s) {
+  const auto& [value, error] = s.mean_axial_velocity;
+  const std::string bar =
+      s.state == "accelerating" ? std::string{} : fmt::format(" +- {:.2g}", error);
+  fmt::print("  {:<22}{:.5g}{} m/s (after {:.3g} s)\n", "mean axial velocity", value, bar,
+             s.transient_end);
+}
+
 /// Whether the mean is that of a steady flow; how to come to one if the run was too short.
 void print_state(const io::FlowSummary& s, const std::filesystem::path& directory) {
   fmt::print("  {:<22}{}: {}\n", "state",
              coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
              explanation_of_state(s));
-  if (s.state == "too_short")
+  if (asks_for_more(s))
     fmt::print("  {:<22}riesel resume {} --set {}='{:.2g} s'\n", "go on by", directory.string(),
                s.ended_by == "duration" ? "run.duration" : "run.until.at_most",
                sufficient_duration(s));
@@ -73,8 +82,7 @@ void print_common(const io::RunSummary& run, const std::filesystem::path& direct
 void print_summary(const io::FlowSummary& s, const std::filesystem::path& directory) {
   fmt::print("{}: {} grains, {:.6g} s in {} steps\n", s.run.scenario, s.run.grains, s.time,
              s.run.steps);
-  fmt::print("  {:<22}{:.5g} +- {:.2g} m/s (after {:.3g} s)\n", "mean axial velocity",
-             s.mean_axial_velocity.value, s.mean_axial_velocity.error, s.transient_end);
+  print_mean(s);
   print_state(s, directory);
   if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
   const io::Measured& temperature = s.fluctuations.granular_temperature;

@@ -9,20 +9,26 @@
 
 #include <fmt/core.h>
 
+#include <set>
+
 namespace riesel::app {
 
 namespace {
 
-/// What may change without making it another run.
+/// What may change without making it another run: keys and sections.
+bool may_change(const std::string& key) {
+  static const std::set<std::string> names = {"run.duration", "run.until",
+                                              "run.threads",  "run.stepping",
+                                              "limits",       "output.checkpoint_interval"};
+  return names.contains(key) || names.contains(io::section_of(key));
+}
+
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
   for (const std::string& setting : overrides) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) continue;  // not a setting at all: for others to say
     const std::string key = setting.substr(0, equals);
-    const std::string section = io::section_of(key);
-    const bool allowed = key == "run.duration" || section == "run.until" || key == "run.threads"
-                         || key == "run.stepping" || section == "output" || section == "limits";
-    if (!allowed || key == "output.interval" || key == "output.trajectory_interval")
+    if (!may_change(key))
       throw io::SettingsError({.source = "--set " + setting}, key,
                               "cannot change when a run is resumed",
                               "only run.duration, run.until, run.threads, run.stepping, limits and "

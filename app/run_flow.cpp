@@ -41,6 +41,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// One of those that the settings ask for.
+struct LimitExceeded : RunFailure {
+  using RunFailure::RunFailure;
+};
+
 /// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the
 /// same rhythm.
 struct Schedule {
@@ -117,8 +122,10 @@ public:
       if (file_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
       while (!is_over() && !is_interrupted()) advance();
+    } catch (const LimitExceeded& failure) {
+      return fail(failure, "; with another limit it goes on from there, see 'riesel resume'");
     } catch (const RunFailure& failure) {
-      return fail(failure);
+      return fail(failure, "");
     }
     progress_.finish();
     save();
@@ -248,7 +255,7 @@ private:
 
   void heed_limits() {
     for (const std::string& message : limits_.newly_exceeded(simulation_.state(), last_)) {
-      if (limits_.stops()) throw RunFailure(message);
+      if (limits_.stops()) throw LimitExceeded(message);
       progress_.finish();
       fmt::print(stderr, "riesel: {}\n", message);
     }
@@ -341,13 +348,13 @@ private:
   }
 
   /// Keeps what there is: the state may tell why.
-  int fail(const RunFailure& failure) {
+  int fail(const RunFailure& failure, const char* way_on) {
     progress_.finish();
     file_.write_final_state(simulation_.state());
     file_.flush();
     if (trajectory_) trajectory_->commit();
-    fmt::print(stderr, "riesel: the run failed: {}\nthe state of that moment is in {}\n",
-               failure.what(), directory_.file(keep_for_post_mortem()).string());
+    fmt::print(stderr, "riesel: the run failed: {}\nthe state of that moment is in {}{}\n",
+               failure.what(), directory_.file(keep_for_post_mortem()).string(), way_on);
     return exit_failed;
   }
 

@@ -41,8 +41,8 @@ inline constexpr double runaway_fraction = 0.1;
 /// samples. The transient is twice what MSER-5 cuts; a run of which MSER-5 cuts more than two
 /// fifths has not arrived: it cannot be steady, and a single cut is its transient. The rest is
 /// judged by the estimates of time_series.hpp. About one in a hundred stationary series is called
-/// accelerating or drifting (measured: docs/statistics-methods.md). std::invalid_argument for a sample that
-/// is not finite.
+/// accelerating or drifting (measured: docs/statistics-methods.md). std::invalid_argument for a
+/// sample that is not finite.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain = std::nullopt);
 

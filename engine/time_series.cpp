@@ -23,7 +23,8 @@ constexpr double student_99 = 3.35539;
 
 // The error of a mean grows by this over the number of independent samples. It pays for the fall of
 // the spectrum within the cosines, and for the choice among short series: those whose correlation
-// is underestimated are the ones that pass as long enough. Measured, see docs/statistics-methods.md.
+// is underestimated are the ones that pass as long enough. Measured, see
+// docs/statistics-methods.md.
 constexpr double finite_sample_allowance = 6.0;
 
 // The random walk is measured on ten blocks: nine steps, whose variance has eight degrees of

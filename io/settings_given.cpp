@@ -60,7 +60,13 @@ public:
   void add_file(const YamlNode& file) { add_entries("", file.entries); }
 
   void add_override(const YamlEntry& entry) {
+    const bool takes_out = entry.value.shape == YamlNode::Shape::null;
     if (has_section(table_, entry.key)) {
+      if (takes_out) {
+        std::erase_if(given_.by_key,
+                      [&](const auto& given) { return given.first.starts_with(entry.key + "."); });
+        return;
+      }
       const auto example = key_of(entry.key, names_of(table_, entry.key).front());
       const bool on_command_line = entry.key_place.line == 0;
       throw SettingsError(entry.key_place, entry.key, "is a section and has no value of its own",
@@ -68,7 +74,6 @@ public:
                               ? fmt::format("override its keys, as in --set {}=...", example)
                               : fmt::format("give its keys, such as {}", example));
     }
-    const bool takes_out = entry.value.shape == YamlNode::Shape::null;
     if (takes_out && given_.by_key.erase(entry.key) > 0) return;
     add(entry.key, entry);
   }

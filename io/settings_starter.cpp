@@ -78,6 +78,7 @@ private:
   static std::string value_of(const Setting& row) {
     for (const auto& value : {row.starter, row.fallback})
       if (!value.empty()) return value;
+    if (!row.example.empty()) return row.example + "  # for example";
     if (row.kind == Kind::number || row.kind == Kind::numbers)
       return example_of(row) + "  # for example";
     return "...";

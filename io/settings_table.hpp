@@ -57,6 +57,7 @@ struct Setting {
                           ///< number, no unit is taken
   std::string fallback = {};  ///< the default as YAML text; empty: none
   std::string starter = {};  ///< the value in a new file, where the default would not do or is none
+  std::string example = {};  ///< the value in a new file, behind a #, of what has no default
   bool required = false;     ///< an error if not given (and if `only_when` holds)
   Range range = {};
   std::vector<std::string> choices = {};

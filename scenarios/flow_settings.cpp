@@ -23,6 +23,7 @@ io::SettingsTable output_settings() {
        .matters = false},
       {.key = "output.trajectory_interval",
        .unit = "s",
+       .example = "1 ms",
        .range = io::positive(),
        .doc =
            "Simulated time between two frames of trajectory.h5 (docs/files.md). By default there "

@@ -153,18 +153,24 @@ std::string to_blame(const io::Settings& settings, const char* key_of_tube) {
 }
 
 /// `largest`: diameter of a grain, m.
-void reject_narrow_tube(const io::Settings& settings, double largest, const State& empty) {
-  const double needed = largest + 2.0 * empty.walls.front().radius;
-  if (empty.box.width < needed)
-    settings.reject(to_blame(settings, "tube.width"),
-                    "the tube is too narrow for the grains between the wall grains",
-                    fmt::format("choose smaller grains, or tube.width above {:.6g} m", needed));
-  if (empty.box.length < 4.0 * largest * (1.0 - 1e-12))
+void reject_small_tube(const io::Settings& settings, double largest, const State& empty) {
+  const auto [width, length] = empty.box;
+  if (length < 4.0 * largest * (1.0 - 1e-12))
     settings.reject(
         to_blame(settings, "tube.length"), "the periodic tube is too short for grains of this size",
         fmt::format("choose smaller grains, or for tube.length at least four diameters, "
                     "{:.6g} m",
                     4.0 * largest));
+  const double wall_diameter = 2.0 * empty.walls.front().radius;
+  if (const double most = 0.5 * length - largest; wall_diameter > most)
+    settings.reject(
+        "wall.grain_diameter", "too large for a periodic tube of this length",
+        fmt::format("choose at most {:.6g} m; is a unit forgotten, as in '0.66 mm'?", most));
+  const double needed = largest + wall_diameter;
+  if (width < needed)
+    settings.reject(to_blame(settings, "tube.width"),
+                    "the tube is too narrow for the grains between the wall grains",
+                    fmt::format("choose smaller grains, or tube.width above {:.6g} m", needed));
 }
 
 void reject_overfilled_tube(const io::Settings& settings, const State& empty) {
@@ -282,13 +288,13 @@ Problem start_with(const std::vector<Grain>& grains, const io::Settings& setting
 Problem start_from_file(const io::Settings& settings, const ContactModel& model, State state) {
   const std::vector<Grain> grains = grains_of_file(settings, state);
   const double largest = 2.0 * std::ranges::max(grains, {}, &Grain::radius).radius;
-  reject_narrow_tube(settings, largest, state);
+  reject_small_tube(settings, largest, state);
   return start_with(grains, settings, model, std::move(state));
 }
 
 Problem continue_run(const io::Settings& settings, const ContactModel& model, State state) {
   const State earlier = earlier_state(settings);
-  reject_narrow_tube(settings, 2.0 * std::ranges::max(earlier.grains.radius), state);
+  reject_small_tube(settings, 2.0 * std::ranges::max(earlier.grains.radius), state);
   set_time_step(settings, model, earlier.grains.mass, state);
   take_over(earlier, model, state);
   return Flow{.state = std::move(state), .model = model};
@@ -301,7 +307,7 @@ Problem prepare(const io::Settings& settings) {
   if (kind == "file") return start_from_file(settings, model, std::move(state));
   if (kind == "continued") return continue_run(settings, model, std::move(state));
   const SizeDistribution sizes(settings);
-  reject_narrow_tube(settings, sizes.largest(), state);
+  reject_small_tube(settings, sizes.largest(), state);
   reject_overfilled_tube(settings, state);
   const std::vector<Grain> grains = start_grains(settings, sizes, state);
   return start_with(grains, settings, model, std::move(state));

@@ -30,11 +30,13 @@ io::SettingsTable run_length_settings() {
        .doc = "Simulated time. Give this or `run.until`."},
       {.key = error_key,
        .unit = "1",
+       .example = "1 %",
        .range = io::above_up_to(0.0, 1.0),
        .doc = "The run ends when the mean axial velocity is steady with an error bar of at most "
               "this part of it (docs/statistics.md)."},
       {.key = limit_key,
        .unit = "s",
+       .example = "20 s",
        .range = io::positive(),
        .doc = "Simulated time after which such a run ends in any case."},
   };
@@ -43,8 +45,9 @@ io::SettingsTable run_length_settings() {
 RunLength run_length(const io::Settings& settings) {
   const bool until = settings.has(error_key) || settings.has(limit_key);
   if (until && settings.has(duration_key))
-    settings.reject(duration_key, "excludes run.until, and both are given",
-                    "remove one of the two, on the command line by --set run.duration=");
+    settings.reject(
+        duration_key, "excludes run.until, and both are given",
+        "remove one of the two, on the command line by --set run.duration= or --set run.until=");
   if (until) return until_precise(settings);
   if (!settings.has(duration_key))
     settings.reject(duration_key, "is missing", "give a time such as '2 s', or run.until");

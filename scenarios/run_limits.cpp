@@ -6,16 +6,19 @@ io::SettingsTable run_limits_settings() {
   return {
       {.key = "limits.overlap",
        .unit = "1",
+       .example = "0.5",
        .range = io::positive(),
        .doc = "Limit of the largest overlap of a contact over the radius of the smaller body "
               "(docs/validity.md). By default there is none."},
       {.key = "limits.energy_error",
        .unit = "1",
+       .example = "10 %",
        .range = io::positive(),
        .doc = "Limit of the energy that comes or goes by errors of the time step, as a part of the "
               "initial energy and the work of gravity. By default there is none."},
       {.key = "limits.speed",
        .unit = "m/s",
+       .example = "50 m/s",
        .range = io::positive(),
        .doc = "Limit of the speed of any grain. By default there is none."},
       {.key = "limits.action",

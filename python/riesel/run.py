@@ -29,6 +29,10 @@ class Estimate(NamedTuple):
     def __str__(self) -> str:
         return f"{self.value:.4g} +- {self.error:.2g}"
 
+    def __sub__(self, other: "Estimate") -> "Estimate":
+        """The difference of two independent means."""
+        return Estimate(self.value - other.value, math.hypot(self.error, other.error))
+
 
 class Finding(NamedTuple):
     """One of the findings that validity rests on (docs/validity.md)."""

@@ -107,7 +107,7 @@ class Check(CommandTest):
         """From the overlap on at which the verdict on a run says `suspect`."""
         softer = MILD_TUBE.replace("200 kN/m", "0.2 kN/m")
         text = self.check(softer)
-        self.assert_warned(text, "overlaps over 20 % of the radius", "contact.stiffness")
+        self.assert_warned(text, "overlaps over 0.2 of the radius", "contact.stiffness")
         factor = plain_number(text, r"by a factor (\S+)")
         self.assertGreater(factor, 1.0)
         stiffer = softer.replace("0.2 kN/m", f"{0.2 * 1.05 * factor} kN/m")
@@ -147,5 +147,5 @@ class Check(CommandTest):
     def test_of_grains_so_soft_that_they_are_lost_at_once(self):
         self.write("settings.yaml", SMALL_TUBE.replace("2000 N/m", "2 N/m"))
         result = self.riesel("check", "settings.yaml", "--threads", 1)
-        self.assert_warned(result.stdout, "overlaps over 20 %", "contact.stiffness")
+        self.assert_warned(result.stdout, "overlaps over 0.2", "contact.stiffness")
         self.assertIn(result.returncode, (DONE, FAILED), result)

@@ -146,7 +146,9 @@ class UntilInPieces(UntilTest):
         out = self.run_to_end(self.write("short.yaml", short), "out")
         self.resume_to_end(out, *INSTEAD)
         self.assert_same_result(whole, out)
-        self.resume_to_end(out, "--set", "run.until.relative_error=", "--set", "run.until.at_most=",
+        result = self.riesel("resume", out, "--set", "run.duration=4 s")
+        self.assert_refused(result, "run.duration: excludes run.until", "--set run.until=")
+        self.resume_to_end(out, "--set", "run.until=",
                            "--set", "run.duration=1.5 s")
         self.assertEqual(self.end_of(out)[0], "duration")
 

@@ -296,6 +296,7 @@ TEST_CASE("overrides are checked like the file, and errors name them") {
         == "--set run={threads: 2}: run: is a section and has no value of its own; override its "
            "keys, "
            "as in --set run.steps_per_collision=...");
+  CHECK(error(tube, {"contact="}).find("contact.stiffness: is missing") != std::string::npos);
   CHECK(error(tube, {"seed=[1"}).find("--set seed=[1: not valid YAML (") == 0);
   CHECK(error(tube, {"seed=*x"}).find("--set seed=*x: not valid YAML (") == 0);
   CHECK(error(tube, {"contact.slip=viscous"})

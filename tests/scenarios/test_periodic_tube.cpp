@@ -130,9 +130,12 @@ TEST_CASE("a tube that is too narrow for its grains is refused, with the width i
                  {"--set tube.width=1.5 mm", "tube.width:", "too narrow", "0.00171"});
   check_mentions(complaint(tube_yaml, {"tube.width=0.5 mm"}), {"tube.width:", "0.00171"});
   CHECK(complaint(tube_yaml, {"tube.width=1.72 mm", "grains.area_fraction=0.2"}) == "accepted");
+  // A wall grain without its unit, in a tube that is wide enough for it.
+  check_mentions(complaint(tube_yaml, {"wall.grain_diameter=0.66", "tube.width=2 m"}),
+                 {"wall.grain_diameter: too large", "at most 0.0089", "'0.66 mm'"});
   // The key that was given is blamed.
   check_mentions(complaint(tube_yaml, {"grains.diameter=1 m", "tube.width=", "tube.length="}),
-                 {"grains.diameter: the tube is too narrow", "smaller grains"});
+                 {"grains.diameter: the periodic tube is too short", "smaller grains"});
 }
 
 TEST_CASE("a tube that is too short for its grains is refused, with the length it takes") {
