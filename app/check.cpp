@@ -131,8 +131,8 @@ void print_trajectory(const io::Settings& settings, const State& state, double s
   const double steps_per_frame =
       std::max(std::round(settings.number(interval) / state.time_step), 1.0);
   const double frames = std::floor(steps / steps_per_frame) + 1.0;
-  line("trajectory", "{:.0f} frames, {:.0f} kB of grains", frames,
-       frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e3);
+  line("trajectory", "{:.0f} frames, {:.1f} MB", frames,
+       frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
 }
 
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {

@@ -194,5 +194,11 @@ class Trajectory(TrajectoryTest):
 
     def test_its_size_is_told_before(self):
         tube = self.write("tube.yaml", TUBE)
-        told = self.riesel("check", tube, "--set", "run.duration=10 s").stdout
-        self.assertRegex(told, r"\n  trajectory +50001 frames, 48.*MB\n")
+        for duration in ("7 ms", "11.9 ms"):
+            with self.subTest(duration):
+                options = ["--set", f"run.duration={duration}"]
+                told = self.riesel("check", tube, *options).stdout
+                out = self.run_to_end(tube, duration.replace(" ", ""), *options)
+                with h5py.File(out / "trajectory.h5") as file:
+                    written = len(file["particles/grains/position/value"])
+                self.assertRegex(told, rf"\n  trajectory +{written} frames, 0.\d MB\n")
