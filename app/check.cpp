@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace riesel::app {
@@ -34,23 +35,23 @@ void warn(fmt::format_string<Parts...> format, Parts&&... parts) {
   fmt::print("  warning: {}\n", fmt::format(format, std::forward<Parts>(parts)...));
 }
 
+/// t_col and e_N, the latter in closed form for the linear law only.
+void print_contact(const char* what, const NormalLaw& normal, double reduced_mass, double speed) {
+  const double t_col = collision_time(normal, reduced_mass, speed);
+  if (const auto* linear = std::get_if<LinearLaw>(&normal)) {
+    const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass};
+    line(what, "t_col = {:.4g} s, e_N = {:.4f}", t_col, contact.restitution());
+  } else {
+    line(what, "t_col = {:.4g} s at {:.3g} m/s", t_col, speed);
+  }
+}
+
 /// A head-on contact of the kind that a system has.
 struct Pair {
   double reduced_mass;    // kg
   double speed;           // m/s, the fastest to be expected
   double smaller_radius;  // m
 };
-
-/// t_col and e_N, the latter in closed form for the linear law only.
-void print_contact(const char* what, const NormalLaw& normal, const Pair& pair) {
-  const double t_col = collision_time(normal, pair.reduced_mass, pair.speed);
-  if (const auto* linear = std::get_if<LinearLaw>(&normal)) {
-    const LinearContact contact{linear->k_n, linear->gamma_n, pair.reduced_mass};
-    line(what, "t_col = {:.4g} s, e_N = {:.4f}", t_col, contact.restitution());
-  } else {
-    line(what, "t_col = {:.4g} s at {:.3g} m/s", t_col, pair.speed);
-  }
-}
 
 /// As the verdict on the run will measure it: over the radius of the smaller body.
 double expected_overlap_ratio(const NormalLaw& normal, const Pair& pair) {
@@ -135,12 +136,33 @@ void print_trajectory(const io::Settings& settings, const State& state, double s
        frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
 }
 
+/// Grains that come from a file bring their own.
+struct TypicalGrain {
+  double mass, radius;
+};
+
+TypicalGrain typical_grain(const io::Settings& settings, const Grains& grains) {
+  if (settings.text("start.kind") != "file")
+    return {settings.number("grains.mass"), 0.5 * settings.number("grains.diameter")};
+  const auto n = static_cast<double>(grains.size());
+  return {std::accumulate(grains.mass.begin(), grains.mass.end(), 0.0) / n,
+          std::accumulate(grains.radius.begin(), grains.radius.end(), 0.0) / n};
+}
+
+/// One restitution is that of one mass.
+void print_contacts_of_sizes(const NormalLaw& normal, const Grains& grains, double speed) {
+  const auto [lightest, heaviest] = std::ranges::minmax(grains.mass);
+  constexpr double alike = 1.5;
+  if (heaviest < alike * lightest) return;
+  print_contact("two lightest grains", normal, 0.5 * lightest, speed);
+  print_contact("two heaviest grains", normal, 0.5 * heaviest, speed);
+}
+
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const State& state = flow.state;
   const Grains& grains = state.grains;
   const auto n = static_cast<double>(grains.size());
-  const double mass = settings.number("grains.mass");
-  const double diameter = settings.number("grains.diameter");
+  const auto [mass, radius] = typical_grain(settings, grains);
   const Observables start = observe(state);
   const double random = std::sqrt(start.granular_temperature);
   // Two grains of a normal distribution rarely meet at more than four standard deviations of each;
@@ -148,19 +170,20 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const double fastest = std::max(4.0 * std::numbers::sqrt2 * random, 1e-3);
 
   double area = 0.0;
-  for (const double radius : grains.radius) area += std::numbers::pi * radius * radius;
+  for (const double r : grains.radius) area += std::numbers::pi * r * r;
   line("grains", "{}, area fraction {:.4f}", grains.size(),
        area / (state.box.width * state.box.length));
   line("wall grains", "{} per wall, spacing {:.6g} m", state.walls.front().count,
        state.walls.front().spacing(state.box));
   warn_of_open_walls(state);
-  const double radius = 0.5 * diameter, wall_radius = state.walls.front().radius;
+  const double wall_radius = state.walls.front().radius;
   const Pair grains_meet{.reduced_mass = 0.5 * mass, .speed = fastest, .smaller_radius = radius};
   const Pair wall_is_met{.reduced_mass = mass,
                          .speed = fastest / std::numbers::sqrt2,  // only one of the two moves
                          .smaller_radius = std::min(radius, wall_radius)};
-  print_contact("grain and grain", flow.model.normal, grains_meet);
-  print_contact("grain and wall", flow.model.normal, wall_is_met);
+  print_contact("grain and grain", flow.model.normal, grains_meet.reduced_mass, grains_meet.speed);
+  print_contact("grain and wall", flow.model.normal, wall_is_met.reduced_mass, wall_is_met.speed);
+  print_contacts_of_sizes(flow.model.normal, grains, fastest);
   line("time step", "{:.4g} s", state.time_step);
   warn_of_time_step(settings);
   print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
@@ -212,12 +235,12 @@ void check_curve(const io::Settings& settings, const scenarios::ImpactCurve& cur
   line("impacts", "{} in {} points, v_y = {:.3g} ... {:.3g} m/s", curve.impacts.size(),
        curve.points.size(), slowest, fastest);
   const double speed = std::max(fastest_normal, slowest);
-  const double smaller = std::min(setup.grain_radius, setup.reach() - setup.grain_radius);
-  print_contact("grain and wall", setup.model.normal, {setup.grain_mass, speed, smaller});
+  print_contact("grain and wall", setup.model.normal, setup.grain_mass, speed);
   line("time step", "{:.4g} s, down to {:.3g} s where passages are short", longest_step,
        shortest_step);
   warn_of_time_step(settings);
   print_slip(settings, setup.model.slip, setup.grain_mass, longest_step);
+  const double smaller = std::min(setup.grain_radius, setup.reach() - setup.grain_radius);
   if (fastest_normal > 0.0)
     warn_of_overlap(
         expected_overlap_ratio(setup.model.normal, {setup.grain_mass, fastest_normal, smaller}),
@@ -236,9 +259,8 @@ void check_column(const io::Settings& settings, const scenarios::ColumnCurve& cu
   line("drops", "{} of {} beads, gaps of {:.3g} ... {:.3g} m", curve.gap_ratios.size(), setup.beads,
        curve.gap(smallest), curve.gap(widest));
   const Pair at_plate{setup.bead_mass, setup.velocity, setup.bead_radius};
-  print_contact("bead and bead", setup.model.normal,
-                {0.5 * setup.bead_mass, setup.velocity, setup.bead_radius});
-  print_contact("bead and plate", setup.model.normal, at_plate);
+  print_contact("bead and bead", setup.model.normal, 0.5 * setup.bead_mass, setup.velocity);
+  print_contact("bead and plate", setup.model.normal, at_plate.reduced_mass, at_plate.speed);
   line("time step", "{:.4g} s", setup.time_step);
   warn_of_time_step(settings);
   warn_of_overlap(expected_overlap_ratio(setup.model.normal, at_plate), at_plate.speed);

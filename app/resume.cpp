@@ -48,6 +48,10 @@ io::FoundCheckpoint find(const std::filesystem::path& path) {
   if (std::filesystem::is_regular_file(path) && path.extension() == ".yaml")
     throw UnusableInput(path.string() + ": is no checkpoint; give the directory of a run, or its "
                         + io::checkpoint_name);
+  if (std::filesystem::is_directory(path) && !has_checkpoint(path))
+    throw UnusableInput(
+        path.string()
+        + ": holds no run to go on with; give the directory of one (see 'riesel run')");
   try {
     return io::find_checkpoint(path);
   } catch (const io::FileError& error) {

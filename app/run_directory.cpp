@@ -13,10 +13,13 @@ namespace riesel::app {
 
 namespace fs = std::filesystem;
 
-bool stopped_before_checkpoint(const fs::path& directory) {
+bool has_checkpoint(const fs::path& directory) {
   const fs::path checkpoint = directory / io::checkpoint_name;
-  return fs::exists(directory / io::effective_settings_name) && !fs::exists(checkpoint)
-         && !fs::exists(io::previous_generation(checkpoint))
+  return fs::exists(checkpoint) || fs::exists(io::previous_generation(checkpoint));
+}
+
+bool stopped_before_checkpoint(const fs::path& directory) {
+  return fs::exists(directory / io::effective_settings_name) && !has_checkpoint(directory)
          && !fs::exists(directory / io::summary_name);
 }
 

@@ -17,6 +17,9 @@ using Arguments = std::vector<std::string>;
 /// The last state of a run that failed, as a checkpoint.
 inline constexpr auto post_mortem_name = "post_mortem.h5";
 
+/// Of either generation.
+bool has_checkpoint(const std::filesystem::path& directory);
+
 /// Whether it holds a run that has begun, but has nothing to go on from, and no result.
 bool stopped_before_checkpoint(const std::filesystem::path& directory);
 

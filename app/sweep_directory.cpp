@@ -1,5 +1,6 @@
 #include "app/sweep_directory.hpp"
 
+#include "app/run_directory.hpp"
 #include "io/checkpoint.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
@@ -75,9 +76,7 @@ void refresh(io::Manifest& manifest, const fs::path& sweep) {
 }
 
 bool can_resume(const fs::path& point) {
-  const fs::path checkpoint = point / io::checkpoint_name;
-  return fs::exists(point / io::run_file_name)
-         && (fs::exists(checkpoint) || fs::exists(io::previous_generation(checkpoint)));
+  return fs::exists(point / io::run_file_name) && has_checkpoint(point);
 }
 
 void clear(const fs::path& point) {

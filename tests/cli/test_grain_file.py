@@ -1,6 +1,6 @@
 """A start from a file of grains, and sizes from a file, through the command."""
 
-from riesel_command import CommandTest
+from riesel_command import CommandTest, plain_number
 
 SETTINGS = """
 scenario: periodic_tube
@@ -35,6 +35,16 @@ class GrainFile(CommandTest):
         follower = self.run_to_end("here/tube.yaml", "next", "--set", "start.kind=continued",
                                    "--set", f"start.from={short}", "--set", "contact.restitution=0.8")
         self.assertEqual(self.summary(follower)["grains"], 143)
+
+    def test_check_goes_by_the_grains_of_the_file(self):
+        """As wide as three of four, and as one of four at the end; e_N is that of a mass of grains.mass."""
+        self.write("here/grains.csv", GRAINS.replace(", 1\n", ", 0.5\n", 100))
+        text = self.riesel("check", "here/tube.yaml").stdout
+        times = [plain_number(text, rf"{pair} +t_col = (\S+) s")
+                 for pair in ("two lightest grains", "grain and grain", "two heaviest grains")]
+        self.assertAlmostEqual((times[2] / times[0]) ** 2, 4.0, delta=0.05)
+        mean_mass = (100 * 0.25 + 43 * 1.0) / 143
+        self.assertAlmostEqual((times[2] / times[1]) ** 2, 1.0 / mean_mass, delta=0.05)
 
     def test_a_mistake_in_the_file_is_told_with_its_place_and_nothing_is_written(self):
         self.write("here/grains.csv", GRAINS + "2.1, 0.5, 0, 0, 1\n")

@@ -135,7 +135,7 @@ class ResumeRefuses(CommandTest):
 
     def test_a_directory_without_a_checkpoint(self):
         result = self.riesel("resume", ".")
-        self.assert_refused(result, "./checkpoint.h5", "No such file")
+        self.assert_refused(result, "holds no run", "the directory of one")
         self.assert_nothing_written({})
 
     def test_another_file(self):
