@@ -32,7 +32,8 @@ SHORTER = [
     (r"mkdir .* build/fuzz/tests/fuzz/fuzz_yaml -dict=(\S+) .* (tests/fuzz/corpus/yaml)", r"test -f \1 -a -d \2"),
     (r"(build/ci/tests/properties set-ups) .*", r"\1 1001 2"),
     (r"tests/mutation/mutate\.py.*", "tests/mutation/mutate.py --help"),
-    (r"(/usr/bin/python3 tests/reliability/soak\.py).*", r"\1 --help"),
+    (r"valgrind .* (build/ci/app/riesel) run .*", r"test -x \1"),
+    (r"(tests/reliability/soak\.py).*", r"/usr/bin/python3 \1 --help"),
 ]
 
 
