@@ -158,48 +158,52 @@ void print_contacts_of_sizes(const NormalLaw& normal, const Grains& grains, doub
   print_contact("two heaviest grains", normal, 0.5 * heaviest, speed);
 }
 
-void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
-  const State& state = flow.state;
-  const Grains& grains = state.grains;
-  const auto n = static_cast<double>(grains.size());
-  const auto [mass, radius] = typical_grain(settings, grains);
-  const Observables start = observe(state);
-  const double random = std::sqrt(start.granular_temperature);
-  // Two grains of a normal distribution rarely meet at more than four standard deviations of each;
-  // the common fall brings no two together.
-  const double fastest = std::max(4.0 * std::numbers::sqrt2 * random, 1e-3);
-
+void print_bodies(const State& state) {
   double area = 0.0;
-  for (const double r : grains.radius) area += std::numbers::pi * r * r;
-  line("grains", "{}, area fraction {:.4f}", grains.size(),
+  for (const double radius : state.grains.radius) area += std::numbers::pi * radius * radius;
+  line("grains", "{}, area fraction {:.4f}", state.grains.size(),
        area / (state.box.width * state.box.length));
   line("wall grains", "{} per wall, spacing {:.6g} m", state.walls.front().count,
        state.walls.front().spacing(state.box));
   warn_of_open_walls(state);
-  const double wall_radius = state.walls.front().radius;
-  const Pair grains_meet{.reduced_mass = 0.5 * mass, .speed = fastest, .smaller_radius = radius};
-  const Pair wall_is_met{.reduced_mass = mass,
-                         .speed = fastest / std::numbers::sqrt2,  // only one of the two moves
-                         .smaller_radius = std::min(radius, wall_radius)};
-  print_contact("grain and grain", flow.model.normal, grains_meet.reduced_mass, grains_meet.speed);
-  print_contact("grain and wall", flow.model.normal, wall_is_met.reduced_mass, wall_is_met.speed);
-  print_contacts_of_sizes(flow.model.normal, grains, fastest);
+}
+
+/// `random`: m/s, root mean square of the random velocities at the start, per component.
+void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
+  const State& state = flow.state;
+  const NormalLaw& normal = flow.model.normal;
+  const auto [mass, radius] = typical_grain(settings, state.grains);
+  // Grains of a normal distribution are rarely faster than four standard deviations; the common
+  // fall brings no two together.
+  const double fastest = std::max(4.0 * random, 1e-3);
+  const double both_fastest = std::numbers::sqrt2 * fastest;
+  const double smaller = std::min(radius, state.walls.front().radius);
+  const Pair grains{.reduced_mass = 0.5 * mass, .speed = both_fastest, .smaller_radius = radius};
+  const Pair wall{.reduced_mass = mass, .speed = fastest, .smaller_radius = smaller};
+  print_contact("grain and grain", normal, grains.reduced_mass, grains.speed);
+  print_contact("grain and wall", normal, wall.reduced_mass, wall.speed);
+  print_contacts_of_sizes(normal, state.grains, both_fastest);
   line("time step", "{:.4g} s", state.time_step);
   warn_of_time_step(settings);
   print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
-  const Pair& deeper = std::max(grains_meet, wall_is_met, [&](const Pair& a, const Pair& b) {
-    return expected_overlap_ratio(flow.model.normal, a)
-           < expected_overlap_ratio(flow.model.normal, b);
-  });
-  warn_of_overlap(expected_overlap_ratio(flow.model.normal, deeper), deeper.speed);
+  const double of_grains = expected_overlap_ratio(normal, grains);
+  const double at_wall = expected_overlap_ratio(normal, wall);
+  warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
+}
 
+void print_brake(const io::Settings& settings, const scenarios::Flow& flow, double random,
+                 double mean_vy) {
+  const auto [mass, radius] = typical_grain(settings, flow.state.grains);
   const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
-  const double reach = radius + wall_radius;
-  print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(start.mean_vy));
+  const double reach = radius + flow.state.walls.front().radius;
+  print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
+}
 
+void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
   constexpr double seconds_to_measure = 0.3;
+  const auto n = static_cast<double>(flow.state.grains.size());
   const double steps = steps_of(settings, flow);
-  const int threads = threads_for(settings, grains.size());
+  const int threads = threads_for(settings, flow.state.grains.size());
   const double speed = measured_speed(settings, flow, threads, seconds_to_measure);
   const auto precision = scenarios::run_length(settings).relative_error;
   if (precision) line("ends", "when the mean is known to {:.3g} %", 100.0 * *precision);
@@ -209,6 +213,15 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
        threads == 1 ? "" : "s", speed / 1e6);
   line("memory", "about {:.0f} MB", memory_in_use() / 1e6);
   print_trajectory(settings, flow.state, steps);
+}
+
+void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
+  const Observables start = observe(flow.state);
+  const double random = std::sqrt(start.granular_temperature);
+  print_bodies(flow.state);
+  print_contacts(settings, flow, random);
+  print_brake(settings, flow, random, start.mean_vy);
+  print_cost(settings, flow);
 }
 
 template <class Curve>
