@@ -23,7 +23,8 @@ std::string explanation_of_state(const io::FlowSummary& s) {
 }
 
 bool asks_for_more(const io::FlowSummary& s) {
-  return s.state == "too_short" || s.state == "drifting" || s.ended_by == "at_most";
+  return s.state == "too_short" || s.state == "drifting"
+         || (s.state == "steady" && s.ended_by == "at_most");
 }
 
 double sufficient_duration(const io::FlowSummary& s) {

@@ -80,8 +80,16 @@ class Until(UntilTest):
         self.assertRegex(result.stdout, r"\n  ended +the mean is known as well as was asked for\n")
         result = self.riesel("run", "until.yaml", "--out", "short", "--set", "run.until.at_most=9 ms")
         self.assertRegex(result.stdout, r"\n  ended +the time was up before ")
+        self.assertRegex(result.stdout, r"\n  go on by +riesel resume short --set run.until.at_most='\S+ s'\n")
         result = self.riesel("run", self.write("tube.yaml", SMALL_TUBE), "--out", "plain")
         self.assertNotIn("  ended", result.stdout)
+        self.assertRegex(result.stdout, r"\n  go on by +riesel resume plain --set run.duration='\S+ s'\n")
+
+    def test_the_screen_has_no_error_bar_of_a_runaway_and_does_not_propose_to_go_on(self):
+        result = self.riesel("run", "until.yaml", "--out", "out", "--set", "start.axial_velocity=20 m/s",
+                             "--set", "run.until.at_most=0.5 s")
+        self.assertRegex(result.stdout, r"\n  mean axial velocity +[0-9.]+ m/s \(after \S+ s\)\n")
+        self.assertNotIn("  go on by", result.stdout)
 
     def test_check_tells_that_it_may_end_earlier(self):
         result = self.riesel("check", "until.yaml")
