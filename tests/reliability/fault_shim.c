@@ -5,7 +5,9 @@
  *                               fsync, link, rename, close, or any for all of these together
  *       WHAT = kill             SIGKILL before the call; in a write after a part of the bytes
  *              killed_after     SIGKILL when the call is done
- *              a number         the call fails with this errno; in a write after a part of the bytes
+ *              a number         the call fails with this errno; in a write after a part of the bytes,
+ *                               but not with EINTR, of calls that have done nothing
+ *              short            of a write: only a part is written, as the call tells
  *              a number and +   this call and all further ones of its kind fail with this errno
  *   RIESEL_FAULT_LOG=FILE       the name of each call is appended: to count them
  *
@@ -53,7 +55,7 @@ static void log_call(const char* call) {
 }
 
 struct Fault {
-  bool now, kills, kills_after;
+  bool now, kills, kills_after, cuts_short;
   int error;
 };
 
@@ -61,7 +63,7 @@ struct Fault {
 static struct Fault fault_at(const char* call) {
   static int count = 0;
   log_call(call);
-  struct Fault fault = {false, false, false, 0};
+  struct Fault fault = {0};
   const char* order = getenv("RIESEL_FAULT");
   if (order == NULL) return fault;
   char kind[16] = "", what[32] = "";
@@ -73,6 +75,7 @@ static struct Fault fault_at(const char* call) {
   fault.now = count == when || (lasts && count > when);
   fault.kills = strcmp(what, "kill") == 0;
   fault.kills_after = strcmp(what, "killed_after") == 0;
+  fault.cuts_short = strcmp(what, "short") == 0;
   fault.error = atoi(what);
   return fault;
 }
@@ -84,7 +87,7 @@ static void die(void) {
 
 /* Before the call: whether it shall fail. */
 static bool fails(const struct Fault* fault) {
-  if (!fault->now || fault->kills_after) return false;
+  if (!fault->now || fault->kills_after || fault->cuts_short) return false;
   if (fault->kills) die();
   errno = fault->error;
   return true;
@@ -94,6 +97,15 @@ static void after(const struct Fault* fault) {
   if (fault->now && fault->kills_after) die();
 }
 
+/* Of the bytes of a write that is killed or fails: whether a part has been written before. */
+static bool leaves_half(const struct Fault* fault) {
+  return fault->now && !fault->kills_after && !fault->cuts_short && fault->error != EINTR;
+}
+
+static size_t allowed(const struct Fault* fault, size_t size) {
+  return fault->now && fault->cuts_short && size > 1 ? size / 2 : size;
+}
+
 static bool is_ours(int descriptor) {
   return descriptor >= 0 && descriptor < most_descriptors && ours[descriptor];
 }
@@ -101,7 +113,7 @@ static bool is_ours(int descriptor) {
 static int open_any(const char* name, int flags, mode_t mode, const char* as) {
   const bool changes = (flags & (O_WRONLY | O_RDWR | O_CREAT)) != 0 || (flags & O_DIRECTORY) != 0;
   const bool counts = name[0] != '/' && changes;
-  struct Fault fault = {false, false, false, 0};
+  struct Fault fault = {0};
   if (counts) fault = fault_at("open");
   if (counts && fails(&fault)) return -1;
   const int descriptor = ((OpenCall)real(as))(name, flags, mode);
@@ -134,13 +146,12 @@ ssize_t write(int descriptor, const void* bytes, size_t size) {
   const WriteCall call = (WriteCall)real("write");
   if (!is_ours(descriptor)) return call(descriptor, bytes, size);
   const struct Fault fault = fault_at("write");
-  const bool half = fault.now && !fault.kills_after && size > 1;
-  if (half) {
+  if (leaves_half(&fault) && size > 1) {
     const ssize_t part = call(descriptor, bytes, size / 2);
     (void)part;
   }
   if (fails(&fault)) return -1;
-  const ssize_t written = call(descriptor, bytes, size);
+  const ssize_t written = call(descriptor, bytes, allowed(&fault, size));
   after(&fault);
   return written;
 }
@@ -152,12 +163,12 @@ ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t offset) {
   if (!is_ours(descriptor)) return call(descriptor, bytes, size, offset);
   const struct Fault fault = fault_at("pwrite");
   const bool is_within_sector = offset % sector + (off_t)size <= sector;
-  if (fault.now && !fault.kills_after && !is_within_sector) {
+  if (leaves_half(&fault) && !is_within_sector) {
     const ssize_t part = call(descriptor, bytes, size / 2, offset);
     (void)part;
   }
   if (fails(&fault)) return -1;
-  const ssize_t written = call(descriptor, bytes, size, offset);
+  const ssize_t written = call(descriptor, bytes, allowed(&fault, size), offset);
   after(&fault);
   return written;
 }

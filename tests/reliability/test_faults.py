@@ -23,6 +23,7 @@ OUTPUT = "output: {interval: 0.3 ms, checkpoint_interval: 1e-6 s}\n"
 TUBE = SMALL_TUBE.replace("5 ms", "6 ms") + OUTPUT
 # A frame with each row, and 17 calls more.
 FRAMES = SMALL_TUBE.replace("5 ms", "3 ms") + OUTPUT.replace("}", ", trajectory_interval: 0.3 ms}")
+EINTR = 4
 LOCK = "open ftruncate pwrite"  # of the directory
 KINDS = ["open", "write", "fsync", "close", "link", "rename"]
 ERRORS = {28: "No space left", 5: "Input/output error", 13: "Permission denied", 30: "Read-only",
@@ -101,6 +102,16 @@ class FaultTest(CommandTest):
             rest = rest.replace(f"{file} {naming} {directory}", "*")
         return rest
 
+    def assert_goes_on_as_if_nothing_had_been(self, kind):
+        """What a signal does to a write: it has done nothing, or a part. Riesel writes the rest."""
+        for what in (EINTR, "short"):
+            for call in self.random.sample(range(1, self.calls.count(kind) + 1), 4):
+                with self.subTest(kind=kind, what=what, call=call):
+                    self.start_again()
+                    self.assert_done(self.faulty("run", "tube.yaml", "--out", "out",
+                                                 fault=f"{kind}:{call}:{what}"))
+                    self.assert_same_result(self.whole, self.out)
+
     def assert_fails_with_word(self, result, error):
         self.assertEqual(result.returncode, 1, result)
         self.assert_one_message(result.stderr, "out", ERRORS[error])
@@ -167,6 +178,9 @@ class Faults(FaultTest):
                         self.assert_fails_with_word(result, error)
                     self.assert_goes_on_as_uninterrupted()
 
+    def test_a_write_that_is_interrupted_by_a_signal_is_made_to_its_end(self):
+        self.assert_goes_on_as_if_nothing_had_been("write")
+
     def test_a_resume_that_fails_loses_nothing(self):
         for kind in KINDS:
             with self.subTest(kind=kind):
@@ -221,6 +235,10 @@ class FaultsOfTrajectories(FaultTest):
                 self.assert_frames_are_whole()
                 self.assert_goes_on_as_uninterrupted()
                 self.assertTrue(np.array_equal(frames_of(self.out), self.frames))
+
+    def test_a_write_that_is_interrupted_by_a_signal_is_made_to_its_end(self):
+        self.assert_goes_on_as_if_nothing_had_been("pwrite")
+        self.assertTrue(np.array_equal(frames_of(self.out), self.frames))
 
     def test_a_call_that_fails_ends_the_run_with_a_message_and_loses_nothing(self):
         for error in (28, 5):
