@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 namespace riesel::app {
@@ -136,19 +135,6 @@ void print_trajectory(const io::Settings& settings, const State& state, double s
        frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
 }
 
-/// Grains that come from a file bring their own.
-struct TypicalGrain {
-  double mass, radius;
-};
-
-TypicalGrain typical_grain(const io::Settings& settings, const Grains& grains) {
-  if (settings.text("start.kind") != "file")
-    return {settings.number("grains.mass"), 0.5 * settings.number("grains.diameter")};
-  const auto n = static_cast<double>(grains.size());
-  return {std::accumulate(grains.mass.begin(), grains.mass.end(), 0.0) / n,
-          std::accumulate(grains.radius.begin(), grains.radius.end(), 0.0) / n};
-}
-
 /// One restitution is that of one mass.
 void print_contacts_of_sizes(const NormalLaw& normal, const Grains& grains, double speed) {
   const auto [lightest, heaviest] = std::ranges::minmax(grains.mass);
@@ -172,7 +158,8 @@ void print_bodies(const State& state) {
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
   const State& state = flow.state;
   const NormalLaw& normal = flow.model.normal;
-  const auto [mass, radius] = typical_grain(settings, state.grains);
+  const double mass = settings.number("grains.mass");
+  const double radius = 0.5 * settings.number("grains.diameter");
   // Grains of a normal distribution are rarely faster than four standard deviations; the common
   // fall brings no two together.
   const double fastest = std::max(4.0 * random, 1e-3);
@@ -193,9 +180,9 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
 
 void print_brake(const io::Settings& settings, const scenarios::Flow& flow, double random,
                  double mean_vy) {
-  const auto [mass, radius] = typical_grain(settings, flow.state.grains);
-  const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
-  const double reach = radius + flow.state.walls.front().radius;
+  const double t_col =
+      collision_time(flow.model.normal, settings.number("grains.mass"), std::max(random, 1e-3));
+  const double reach = 0.5 * settings.number("grains.diameter") + flow.state.walls.front().radius;
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
 }
 
