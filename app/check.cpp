@@ -128,8 +128,8 @@ void warn_of_open_walls(const State& state) {
 void print_trajectory(const io::Settings& settings, const State& state, double steps) {
   constexpr auto interval = "output.trajectory_interval";
   if (!settings.has(interval)) return;
-  const double steps_per_frame =
-      std::max(std::round(settings.number(interval) / state.time_step), 1.0);
+  const auto steps_per_frame =
+      static_cast<double>(scenarios::steps_between(settings.number(interval), state.time_step));
   const double frames = std::floor(steps / steps_per_frame) + 1.0;
   line("trajectory", "{:.0f} frames, {:.1f} MB", frames,
        frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);

@@ -52,9 +52,10 @@ struct Schedule {
   Schedule(const io::Settings& settings, const scenarios::RunLength& length, double time_step)
       : last_step(std::llround(std::ceil(length.at_most / time_step - 1e-9))),
         relative_error(length.relative_error),
-        steps_per_row(steps_of("output.interval", settings, time_step)),
-        steps_per_frame(settings.has(trajectory_key) ? steps_of(trajectory_key, settings, time_step)
-                                                     : 0),
+        steps_per_row(scenarios::steps_between(settings.number("output.interval"), time_step)),
+        steps_per_frame(settings.has(trajectory_key)
+                            ? scenarios::steps_between(settings.number(trajectory_key), time_step)
+                            : 0),
         seconds_between_checkpoints(settings.number("output.checkpoint_interval")) {}
 
   bool is_row(std::int64_t step) const { return step % steps_per_row == 0; }
@@ -76,11 +77,6 @@ struct Schedule {
   std::int64_t steps_per_row;
   std::int64_t steps_per_frame;        // of the trajectory; 0: there is none
   double seconds_between_checkpoints;  // on the clock
-
-private:
-  static std::int64_t steps_of(const char* key, const io::Settings& settings, double time_step) {
-    return std::llround(std::clamp(settings.number(key) / time_step, 1.0, scenarios::most_steps));
-  }
 };
 
 /// What a run that goes on has behind it.

@@ -1,5 +1,8 @@
 #include "scenarios/run_length.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace riesel::scenarios {
 
 namespace {
@@ -52,6 +55,10 @@ RunLength run_length(const io::Settings& settings) {
   if (!settings.has(duration_key))
     settings.reject(duration_key, "is missing", "give a time such as '2 s', or run.until");
   return {.at_most = settings.number(duration_key), .relative_error = {}, .key = duration_key};
+}
+
+std::int64_t steps_between(double seconds, double time_step) {
+  return std::llround(std::clamp(seconds / time_step, 1.0, most_steps));
 }
 
 }  // namespace riesel::scenarios

@@ -3,6 +3,7 @@
 
 #include "io/settings.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -21,5 +22,8 @@ io::SettingsTable run_length_settings();
 
 /// Throws SettingsError unless there is a duration, or else both a precision and a limit.
 RunLength run_length(const io::Settings& settings);
+
+/// Steps between two rows or frames that are `seconds` apart: at least one.
+std::int64_t steps_between(double seconds, double time_step);
 
 }  // namespace riesel::scenarios

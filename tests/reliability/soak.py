@@ -102,6 +102,9 @@ class Soak:
         self.look_at_rows()
 
     def look_at_rows(self):
+        if not (self.out / "checkpoint.h5").exists():  # killed before the first: to be started again
+            shutil.rmtree(self.out, ignore_errors=True)
+            return
         now = counted(self.out / "checkpoint.h5")
         with h5py.File(self.out / "run.h5", "r") as file:
             steps = np.rint(file["series/time"][:] / now["time_step"]).astype(np.int64)
@@ -163,7 +166,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/soak"))
     options = parser.parse_args()
     if options.out.exists():
-        shutil.rmtree(options.out)
+        parser.error(f"{options.out} is there already; choose another directory by --out")
     options.out.parent.mkdir(parents=True, exist_ok=True)
 
     soak = Soak(options.out, options.threads, options.seed)

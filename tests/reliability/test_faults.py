@@ -5,6 +5,7 @@ The variable RIESEL_KILLS tells how many kills inside calls are tried, 24 unless
 at any moment; `all` tries each call, before and after it is done, and 200 moments. The same seed gives the same kills.
 """
 
+import errno
 import os
 import random
 import shutil
@@ -23,7 +24,6 @@ OUTPUT = "output: {interval: 0.3 ms, checkpoint_interval: 1e-6 s}\n"
 TUBE = SMALL_TUBE.replace("5 ms", "6 ms") + OUTPUT
 # A frame with each row, and 17 calls more.
 FRAMES = SMALL_TUBE.replace("5 ms", "3 ms") + OUTPUT.replace("}", ", trajectory_interval: 0.3 ms}")
-EINTR = 4
 LOCK = "open ftruncate pwrite"  # of the directory
 KINDS = ["open", "write", "fsync", "close", "link", "rename"]
 ERRORS = {28: "No space left", 5: "Input/output error", 13: "Permission denied", 30: "Read-only",
@@ -104,7 +104,7 @@ class FaultTest(CommandTest):
 
     def assert_goes_on_as_if_nothing_had_been(self, kind):
         """What a signal does to a write: it has done nothing, or a part. Riesel writes the rest."""
-        for what in (EINTR, "short"):
+        for what in (errno.EINTR, "short"):
             for call in self.random.sample(range(1, self.calls.count(kind) + 1), 4):
                 with self.subTest(kind=kind, what=what, call=call):
                     self.start_again()
