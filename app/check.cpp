@@ -149,8 +149,12 @@ void print_bodies(const State& state) {
   for (const double radius : state.grains.radius) area += std::numbers::pi * radius * radius;
   line("grains", "{}, area fraction {:.4f}", state.grains.size(),
        area / (state.box.width * state.box.length));
-  line("wall grains", "{} per wall, spacing {:.6g} m", state.walls.front().count,
-       state.walls.front().spacing(state.box));
+  const WallLattice& wall = state.walls.front();
+  if (wall.smooth()) {
+    line("walls", "smooth");
+    return;
+  }
+  line("wall grains", "{} per wall, spacing {:.6g} m", wall.count, wall.spacing(state.box));
   warn_of_open_walls(state);
 }
 
@@ -164,7 +168,8 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   // fall brings no two together.
   const double fastest = std::max(4.0 * random, 1e-3);
   const double both_fastest = std::numbers::sqrt2 * fastest;
-  const double smaller = std::min(radius, state.walls.front().radius);
+  const WallLattice& at = state.walls.front();
+  const double smaller = at.smooth() ? radius : std::min(radius, at.radius);
   const Pair grains{.reduced_mass = 0.5 * mass, .speed = both_fastest, .smaller_radius = radius};
   const Pair wall{.reduced_mass = mass, .speed = fastest, .smaller_radius = smaller};
   print_contact("grain and grain", normal, grains.reduced_mass, grains.speed);
@@ -180,9 +185,11 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
 
 void print_brake(const io::Settings& settings, const scenarios::Flow& flow, double random,
                  double mean_vy) {
+  const WallLattice& wall = flow.state.walls.front();
+  if (wall.smooth()) return;
   const double t_col =
       collision_time(flow.model.normal, settings.number("grains.mass"), std::max(random, 1e-3));
-  const double reach = 0.5 * settings.number("grains.diameter") + flow.state.walls.front().radius;
+  const double reach = 0.5 * settings.number("grains.diameter") + wall.radius;
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
 }
 

@@ -26,10 +26,14 @@ void tell_typical_contacts(const State& state, const ContactModel& model, double
                            io::FlowSummary::Validity& validity) {
   const double mass = total_mass(state.grains) / static_cast<double>(state.grains.size());
   const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
-  const double reach = 0.5 * mean_diameter(state.grains) + state.walls.front().radius;
+  const WallLattice& wall = state.walls.front();
+  const double reach = 0.5 * mean_diameter(state.grains) + wall.radius;
   validity.t_col_grains = collision_time(model.normal, 0.5 * mass, speed);
   validity.t_col_walls = collision_time(model.normal, mass, speed);
-  validity.v_crit = chord_of_impact(reach, speed, validity.t_col_walls) / validity.t_col_walls;
+  // A smooth wall has nothing that could be passed.
+  validity.v_crit =
+      wall.smooth() ? std::numeric_limits<double>::infinity()
+                    : chord_of_impact(reach, speed, validity.t_col_walls) / validity.t_col_walls;
 }
 
 /// Of one series after the transient.
@@ -61,7 +65,7 @@ zones(const TimeBlocks& blocks, const Strips& strips, std::int64_t first) {
 }
 
 io::Measured scaled(const io::Measured& m, double factor) {
-  return {.value = factor * m.value, .error = std::abs(factor) * m.error};
+  return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
 }
 
 /// Eq. (9)
@@ -71,13 +75,13 @@ io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& st
   return {.n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
           .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
           .n_dot_dv_y = scaled(series.rate("wall_impulse_y"), -1.0 / mass),
-          .gravity = state.gravity};
+          .gravity = state.gravity.y};
 }
 
 io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state) {
   return {.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
           .right = scaled(series.rate("right_wall_impulse_y"), -1.0),
-          .weight = total_mass(state.grains) * state.gravity};
+          .weight = total_mass(state.grains) * state.gravity.y};
 }
 
 io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const VisitTally& tally) {
@@ -122,17 +126,27 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
 
 }  // namespace
 
+Judged judged_by(const State& state, double interval) {
+  const bool sheared =
+      state.gravity.y == 0.0 && std::ranges::any_of(state.walls, [](const WallLattice& wall) {
+        return wall.motion.velocity != 0.0;
+      });
+  if (sheared) return {.series = "granular_temperature", .free_fall_gain = {}};
+  return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
+}
+
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
                           const Observables& last) {
   const auto& [file, strips, profiles, interval] = records;
+  const Judged judged = judged_by(state, interval);
   const std::vector<double> velocity = file.series("mean_vy");
-  const SteadyState steady = assess_steady_state(velocity, state.gravity * interval);
+  const SteadyState steady = assess_steady_state(file.series(judged.series), judged.free_fall_gain);
 
   io::FlowSummary s;
   s.time = state.time();
   s.state = std::string(name(steady.verdict));
-  s.mean_axial_velocity = {.value = steady.mean,
-                           .error = velocity.size() > 1 ? steady.error : unknown};
+  s.judged_by = judged.series;
+  s.mean_axial_velocity = mean_of(file, "mean_vy", steady.transient_end);
   s.independent_samples = steady.independent_samples;
   const CumulativeSeries series(file, steady.transient_end, interval);
   s.fluctuations = {.sigma_vx = mean_of(file, "sigma_vx", steady.transient_end),
@@ -164,6 +178,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
               .rotational = e.rotational,
               .elastic = e.elastic,
               .gravity_work = e.gravity_work,
+              .wall_work = e.wall_work,
               .normal_loss = e.normal_loss,
               .friction_loss = e.friction_loss,
               .residual = e.residual};

@@ -7,6 +7,8 @@
 #include "io/summary.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <optional>
+
 namespace riesel::app {
 
 /// What a flow leaves to be summarised.
@@ -16,6 +18,14 @@ struct FlowRecords {
   const TimeBlocks& profiles;  ///< a sample of the strips with each row of the series
   double interval;             ///< s, between two rows
 };
+
+/// By which of the series a flow is judged steady: its mean velocity, or where only the walls
+/// drive it past each other, how hot it is.
+struct Judged {
+  const char* series;
+  std::optional<double> free_fall_gain;  ///< per row, for the verdict
+};
+Judged judged_by(const State& state, double interval);
 
 /// All but `run`. `last` are the observables of `state`.
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,

@@ -11,7 +11,10 @@
 namespace riesel::app {
 
 std::string explanation_of_state(const io::FlowSummary& s) {
-  if (s.state == "steady") return "no trend after the transient";
+  if (s.state == "steady")
+    return s.judged_by == "granular_temperature"
+               ? "no trend of the granular temperature after the transient"
+               : "no trend after the transient";
   if (s.state == "accelerating")
     return "the grains still gain speed: the mean is no steady velocity";
   if (s.state == "drifting") return "there still is a trend: the mean is no steady velocity";

@@ -69,8 +69,9 @@ std::vector<HistogramMark> marks_of_overlaps(const io::FlowSummary& summary,
   double smallest = std::ranges::min(state.grains, {}, &Grain::radius).radius;
   double reach = 2.0 * mean_radius(state);
   if (of_walls && !state.walls.empty()) {
-    smallest = std::min(smallest, state.walls.front().radius);
-    reach = mean_radius(state) + state.walls.front().radius;
+    const WallLattice& wall = state.walls.front();
+    if (!wall.smooth()) smallest = std::min(smallest, wall.radius);
+    reach = mean_radius(state) + wall.radius;
   }
   const double part = smallest / reach;
   return {{part * threshold(summary, "max_overlap_ratio", &Finding::suspect), "suspect"},

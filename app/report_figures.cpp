@@ -81,8 +81,9 @@ std::vector<EnergyPart> parts_of(const io::FlowSummary::Energy& e) {
                                    {"lost by normal damping", e.normal_loss, false},
                                    {"lost by friction", e.friction_loss, false},
                                    {"residual", e.residual, false}};
+  if (e.wall_work != 0.0) parts.insert(parts.begin() + 2, {"work of the walls", e.wall_work, true});
   if (e.rotational != 0.0)
-    parts.insert(parts.begin() + 3, {"of rotation, at the end", e.rotational, false});
+    parts.insert(parts.end() - 4, {"of rotation, at the end", e.rotational, false});
   return parts;
 }
 

@@ -89,24 +89,24 @@ private:
     std::string shown = fmt::format("All {} grains", figure.grains_drawn);
     if (figure.grains_drawn < state.grains.size())
       shown = fmt::format(
-          "Only a part of the tube, {:.4g} mm of {:.4g} mm from y = 0 on: {} of {} grains",
+          "Only a part of the flow, {:.4g} mm of {:.4g} mm from y = 0 on: {} of {} grains",
           1e3 * figure.length_shown, 1e3 * state.box.length, figure.grains_drawn,
           state.grains.size());
     const std::string cut =
         figure.columns == 1
             ? ""
-            : fmt::format(
-                " The tube is cut into {} columns: each goes on at the top of the next one.",
-                figure.columns);
+            : fmt::format(" It is cut into {} columns: each goes on at the top of the next one.",
+                          figure.columns);
     page().heading("The state at the end");
     draft_.add_figure(
         "state", figure.svg,
-        fmt::format("{} at t = {:.6g} s, coloured by their axial velocity; gravity points down. "
-                    "The tube is {:.4g} mm wide and {:.4g} mm long. Grey: wall grains. Red lines: "
-                    "contacts, from centre to centre.{} The slowest "
-                    "and the fastest hundredth of all grains may lie beyond the ends of the "
-                    "colour bar and have their colours.",
-                    shown, state.time, 1e3 * state.box.width, 1e3 * state.box.length, cut));
+        fmt::format(
+            "{} at t = {:.6g} s, coloured by their axial velocity, x to the right and y down. "
+            "The box is {:.4g} mm wide and {:.4g} mm long. Grey: wall grains. Red lines: "
+            "contacts, from centre to centre.{} The slowest "
+            "and the fastest hundredth of all grains may lie beyond the ends of the "
+            "colour bar and have their colours.",
+            shown, state.time, 1e3 * state.box.width, 1e3 * state.box.length, cut));
   }
 
   /// The mean velocity has an error; of the others only what summary.json knows is marked.
@@ -159,7 +159,8 @@ private:
   void show_energy() {
     page().heading("Energy");
     const auto parts = parts_of(summary().energy);
-    const double came_in = summary().energy.initial + summary().energy.gravity_work;
+    const double came_in =
+        summary().energy.initial + summary().energy.gravity_work + summary().energy.wall_work;
     io::HtmlRows rows = {{"part", "J", "of what came in"}};
     for (const EnergyPart& part : parts)
       rows.push_back({part.name, number(part.value),

@@ -171,8 +171,9 @@ private:
     const State& state = simulation_.state();
     const bool asked = schedule_.relative_error && schedule_.is_row(state.step);
     if (!asked || !is_time_to_look(static_cast<std::size_t>(file_.rows()))) return false;
-    return is_precise(file_.series("mean_vy"), *schedule_.relative_error,
-                      state.gravity * interval());
+    const Judged judged = judged_by(state, interval());
+    return is_precise(file_.series(judged.series), *schedule_.relative_error,
+                      judged.free_fall_gain);
   }
 
   /// s, between two rows.

@@ -73,6 +73,8 @@ const std::vector<Entry>& entries() {
        [](auto& o, auto&) { return o.energies.elastic; }},
       {{"gravity_work", "J", "Work of gravity since the start."},
        [](auto& o, auto&) { return o.energies.gravity_work; }},
+      {{"wall_work", "J", "Work of moving walls since the start."},
+       [](auto& o, auto&) { return o.energies.wall_work; }},
       {{"normal_loss", "J", "Dissipated by normal damping since the start."},
        [](auto& o, auto&) { return o.energies.normal_loss; }},
       {{"friction_loss", "J", "Dissipated by friction since the start."},

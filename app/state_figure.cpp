@@ -146,13 +146,19 @@ private:
     for (const WallLattice& wall : state_->walls) {
       const double spacing = wall.spacing(state_->box);
       for (std::int64_t k = 0; k < wall.count; ++k) {
-        const double y = static_cast<double>(k) * spacing;
+        const double y =
+            place_y(static_cast<double>(k) * spacing + wall.motion.way(state_->box, state_->time));
         const auto column = layout_.column_of(y);
-        if (!column) break;
+        if (!column) continue;
         svg_.disc(layout_.place(*column, wall.line, y), wall.radius * layout_.scale());
       }
     }
     svg_.end_group();
+  }
+
+  /// m, in the first period.
+  double place_y(double y) const {
+    return y - state_->box.length * std::floor(y / state_->box.length);
   }
 
   void draw_grains() {
@@ -190,7 +196,9 @@ private:
       return {partner.x, partner.y};
     }
     const WallLattice& wall = state_->walls[static_cast<std::size_t>(name.wall)];
-    return {wall.line, static_cast<double>(name.partner) * wall.spacing(state_->box)};
+    if (wall.smooth()) return {wall.line, state_->grains[static_cast<std::size_t>(name.grain)].y};
+    return {wall.line, static_cast<double>(name.partner) * wall.spacing(state_->box)
+                           + wall.motion.way(state_->box, state_->time)};
   }
 
   void draw_colour_bar() {

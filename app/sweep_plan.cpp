@@ -117,8 +117,8 @@ void check_continuation(const io::SweepFile& sweep) {
     if (scenarios::can_continue_along(key)) continue;
     throw io::SettingsError(sweep.continuation->place, "continue_along",
                             "runs cannot continue each other along " + key,
-                            "choose a setting of contact or run, or gravity: the neighbour gives "
-                            "the grains, the tube and the start");
+                            "choose a setting of contact or run, gravity, or what tilts or moves "
+                            "the walls: the neighbour gives the grains, the walls and the start");
   }
 }
 

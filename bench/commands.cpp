@@ -61,7 +61,7 @@ void make_state(const StartStates& states, const std::string& case_name, const s
   print({{"checkpoint", std::filesystem::absolute(path).string()},
          {"grains", checkpoint.state.grains.size()},
          {"time_step", checkpoint.state.time_step},
-         {"gravity", checkpoint.state.gravity},
+         {"gravity", checkpoint.state.gravity.y},
          {"k_n", linear != nullptr ? Json(linear->k_n) : Json()},
          {"gamma_n", linear != nullptr ? Json(linear->gamma_n) : Json()},
          {"mu", model.friction},

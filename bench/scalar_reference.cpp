@@ -10,7 +10,7 @@ ScalarReference::ScalarReference(const State& state, const ContactModel& model)
     : n_(state.grains.size()),
       length_(state.box.length),
       width_(state.box.width),
-      gravity_(state.gravity),
+      gravity_(state.gravity.y),
       dt_(state.time_step),
       wall_radius_(state.walls.front().radius),
       wall_spacing_(state.walls.front().spacing(state.box)),

@@ -16,6 +16,15 @@ constexpr std::uint32_t appointments_at_a_time = 1024;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
+/// After how many steps a body with the velocity `u` (per step) and the acceleration `a` (per
+/// step^2) has gone the way `gap` > 0.
+double steps_to_go(double gap, double u, double a) {
+  const double root2 = u * u + 2.0 * a * gap;
+  if (root2 < 0.0) return forever;  // it turns back before
+  const double closing = u + std::sqrt(root2);
+  return closing > 0.0 ? 2.0 * gap / closing : forever;
+}
+
 }  // namespace
 
 void Appointments::start_over() {
@@ -126,8 +135,8 @@ void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool 
 }
 
 /// Steps that a grain can do on its course, and within its tolerance, before it can touch a wall
-/// grain: not fewer than it needs to cover the gap to the nearest, nor than its straight way across
-/// the tube needs into the wall's reach.
+/// grain: not fewer than it needs to cover the gap to the nearest, nor than its way across the tube
+/// needs into the wall's reach.
 double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
   if (near.partners != 0) return 0.0;
   const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
@@ -135,14 +144,22 @@ double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) 
   const Box& box = state_.box;
   const double stray = courses_.deflected(near.slot) ? tolerance_ : 0.0;
   const double reach = (g.radius[near.slot] + wall.radius) * generous + stray;
-  const double ux = box.metres_x(g.ux[near.slot]);
+  const Fall fall = courses_.fall(), fallen = fall.times(now);
+  const double fall_x = box.metres_x(fall.x), fall_y = box.metres_y(fall.y);
+  // s steps lead by u s + fall s (s + 1) / 2.
+  const double ux = box.metres_x(wrapped_sum(g.ux[near.slot], fallen.x)) + 0.5 * fall_x;
+  const double uy = box.metres_y(wrapped_sum(g.uy[near.slot], fallen.y)) + 0.5 * fall_y;
   const double x = box.metres_x(courses_.x(near.slot, now)) - wall.line;
 
   const double beyond_reach = std::abs(x) - reach;
-  if (beyond_reach > 0.0 && x * ux >= 0.0) return forever;
-  const double across = beyond_reach > 0.0 ? beyond_reach / std::abs(ux) : 0.0;
+  const double to_wall = x > 0.0 ? -1.0 : 1.0;
+  const double across =
+      beyond_reach > 0.0 ? steps_to_go(beyond_reach, to_wall * ux, to_wall * fall_x) : 0.0;
+  if (across == forever) return forever;
 
-  const Fixed y = courses_.y(near.slot, now);
+  const WallMotion& motion = wall.motion;
+  const Fixed shift = motion.is_there() ? motion.shift(box, state_.time_step, now) : 0;
+  const Fixed y = wrapped_difference(courses_.y(near.slot, now), shift);
   double nearest2 = forever;
   for_each_wall_grain_within(wall, box, y, 0.0, [&](std::int64_t, Fixed there) {
     const double dy = box.metres_y(wrapped_difference(there, y));
@@ -150,11 +167,9 @@ double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) 
   });
   const double gap = std::sqrt(nearest2) - reach;
   if (gap <= 0.0) return across / generous;
-  const double fall = box.metres_y(courses_.fall());
-  const double uy =
-      box.metres_y(wrapped_sum(g.uy[near.slot], wrapped_product(courses_.fall(), now)));
-  const double speed = std::hypot(ux, uy) + 0.5 * std::abs(fall);
-  const double direct = 2.0 * gap / (speed + std::sqrt(speed * speed + 2.0 * std::abs(fall) * gap));
+  const double speed = std::hypot(ux, uy - motion.velocity * state_.time_step)
+                       + motion.fastest_oscillation() * state_.time_step;
+  const double direct = steps_to_go(gap, speed, std::hypot(fall_x, fall_y));
   return std::max(across, direct) / generous;
 }
 

@@ -51,7 +51,7 @@ std::size_t Border::number_of_foreign(std::uint32_t slot) const {
   return slice_.end - slice_.begin + static_cast<std::size_t>(rank);
 }
 
-Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, Fixed fallen) const {
+Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const {
   Motion m = courses_.motion(slot, step);
   for_each_other([&](const Announcement& other) {
     const auto found = find_in(other.border, slot);
@@ -60,8 +60,8 @@ Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, Fixed falle
     if (other.step == step) return;
     m.ux = wrapped_sum(m.ux, m.kick_x);
     m.uy = wrapped_sum(m.uy, m.kick_y);
-    m.x = wrapped_sum(m.x, m.ux);
-    m.y = wrapped_sum(m.y, wrapped_sum(m.uy, fallen));
+    m.x = wrapped_sum(m.x, wrapped_sum(m.ux, fallen.x));
+    m.y = wrapped_sum(m.y, wrapped_sum(m.uy, fallen.y));
     m.spin = wrapped_sum(m.spin, m.spin_kick);
   });
   return m;

@@ -70,7 +70,7 @@ public:
 
   /// Of a foreign grain in `step`, that of the announcement or the next; `fallen` is the fall in
   /// this step.
-  Motion foreign_motion(std::uint32_t slot, std::int64_t step, Fixed fallen) const;
+  Motion foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const;
 
   Announcement& mine() { return announcements_[index_]; }
   const Announcement& mine() const { return announcements_[index_]; }

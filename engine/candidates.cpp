@@ -29,6 +29,14 @@ void forget_contacts(Slice& slice) {
   slice.kept = 0;
 }
 
+/// Whole steps of a fall from rest with `fall` (m per step^2) in which it goes no farther than
+/// `room` (m): fall s (s + 1) / 2 <= room.
+std::int64_t steps_of_fall(double fall, double room) {
+  constexpr double forever = 0x1p40;
+  const double steps = std::sqrt(0.25 + 2.0 * room / fall) - 0.5;
+  return static_cast<std::int64_t>(std::min(steps * (1.0 - 1e-9), forever));
+}
+
 /// Index among the pairs of `slice`, in this order of the two.
 std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
                                      std::uint32_t second) {
@@ -76,9 +84,11 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
     throw std::invalid_argument("the period is too short for the nearest image to be unique");
   const double longest_skin = 0.499 * state.box.length - reach;
   skin_ = std::max(short_skin * diameter, std::min(skin_per_diameter * diameter, longest_skin));
+  steps_to_walls_ = steps_of_fall(std::abs(state.box.metres_x(fall_.x)), 0.5 * skin_);
   for (const WallLattice& wall : state.walls)
-    if (2.0 * (max_radius_ + wall.radius) / wall.spacing(state.box)
-        > static_cast<double>(NearWall::most_partners - 2))
+    if (2.0 * (max_radius_ + wall.radius)
+            > static_cast<double>(NearWall::most_partners - 2) * wall.spacing(state.box)
+        && !wall.smooth())
       throw std::invalid_argument("the grains of a wall are too close together");
 
 #pragma omp parallel num_threads(threads)
@@ -97,9 +107,9 @@ void Candidates::note_speeds(const State& state, Slice& mine) const {
     mine.fastest2 = std::max(mine.fastest2, squared_speed(state, kick.slot));
 }
 
-bool Candidates::spend_step(Slice& mine) const {
+bool Candidates::spend_step(Slice& mine, std::int64_t step) const {
   mine.budget -= std::sqrt(largest(slices_, &Slice::fastest2));
-  return mine.budget >= 0.0;
+  return mine.budget >= 0.0 && step <= hold_until_;
 }
 
 bool Candidates::look_again(State& state, CoarsePositions& coarse, Slice& mine, std::int64_t step) {
@@ -109,7 +119,7 @@ bool Candidates::look_again(State& state, CoarsePositions& coarse, Slice& mine, 
   measure_speeds(state, mine);
 #pragma omp barrier
   const double left = 0.5 * skin_ - largest(slices_, &Slice::farthest);
-  if (left > smallest_useful_budget * 0.5 * skin_) {
+  if (left > smallest_useful_budget * 0.5 * skin_ && step <= hold_until_) {
     mine.budget = left;
     mine.profile.done_build();
     return false;
@@ -164,10 +174,12 @@ void Candidates::start_over(const State& state, std::int64_t step) {
     slices_[s].end = grains.size() * (s + 1) / slices_.size();
   }
   sorted_at_ = step;
+  hold_until_ = step + steps_to_walls_;
+  drift_.x = wrapped_difference(0, fall_.times(step).x);
   double sum = 0.0;  // relative to the first grain: velocities in the falling frame may wrap
   for (const Fixed uy : grains.uy)
     sum += static_cast<double>(wrapped_difference(uy, grains.uy.front()));
-  drift_y_ =
+  drift_.y =
       wrapped_sum(grains.uy.front(), nearest_fixed(sum / static_cast<double>(grains.size())));
 }
 
@@ -193,13 +205,14 @@ void Candidates::list_pairs(const State& state, Slice& mine) {
 }
 
 void Candidates::list_near_walls(const State& state, Slice& mine) const {
+  const double room_for_fall = fall_.x != 0 ? 0.5 * skin_ : 0.0;
   mine.near_walls.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
     const double x = state.box.metres_x(state.grains.x[i]);
     if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width) mine.lost = state.grains.id[i];
     for (std::size_t w = 0; w < state.walls.size(); ++w) {
       const double reach = state.grains.radius[i] + state.walls[w].radius;
-      if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_)
+      if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_ + room_for_fall)
         mine.near_walls.push_back({static_cast<std::uint32_t>(i), static_cast<std::int32_t>(w)});
     }
   }
@@ -218,26 +231,34 @@ void Candidates::list_received(const Grains& grains, Slice& mine) {
 /// the middle of a step the last kick is taken up already, at its end the next step will.
 double Candidates::squared_speed(const State& state, std::size_t slot) const {
   const Grains& g = state.grains;
-  const Fixed uy = wrapped_difference(g.uy[slot], drift_y_);
+  const Fixed ux = wrapped_difference(g.ux[slot], drift_.x);
+  const Fixed uy = wrapped_difference(g.uy[slot], drift_.y);
   const auto squared = [&](Fixed x, Fixed y) {
     const double vx = state.box.metres_x(x), vy = state.box.metres_y(y);
     return vx * vx + vy * vy;
   };
-  return std::max(squared(g.ux[slot], uy), squared(wrapped_sum(g.ux[slot], g.kick_x[slot]),
-                                                   wrapped_sum(uy, g.kick_y[slot])));
+  return std::max(squared(ux, uy),
+                  squared(wrapped_sum(ux, g.kick_x[slot]), wrapped_sum(uy, g.kick_y[slot])));
+}
+
+Candidates::Displacement Candidates::common_motion(std::int64_t step) const {
+  const auto along = [&](Fixed drift, Fixed fall) {
+    return wrapped_sum(wrapped_product(step - sorted_at_, drift),
+                       wrapped_product(sum_of_steps(sorted_at_, step), fall));
+  };
+  return {along(drift_.x, fall_.x), along(drift_.y, fall_.y)};
 }
 
 void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& mine,
                                        std::int64_t step) const {
-  const std::int64_t steps = step - sorted_at_;
-  const std::int32_t drift = upper_half(wrapped_sum(
-      wrapped_product(steps, drift_y_), wrapped_product(sum_of_steps(sorted_at_, step), fall_)));
+  const Displacement common = common_motion(step);
+  const std::int32_t common_x = upper_half(common.x), common_y = upper_half(common.y);
   float farthest2 = 0.0F;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
+    const std::int32_t x = coarse_difference(coarse.x[i], when_sorted_.x[i]);
     const std::int32_t y = coarse_difference(coarse.y[i], when_sorted_.y[i]);
-    const float dx =
-        static_cast<float>(coarse_difference(coarse.x[i], when_sorted_.x[i])) * units_.x;
-    const float dy = static_cast<float>(coarse_difference(y, drift)) * units_.y;
+    const float dx = static_cast<float>(coarse_difference(x, common_x)) * units_.x;
+    const float dy = static_cast<float>(coarse_difference(y, common_y)) * units_.y;
     farthest2 = std::max(farthest2, dx * dx + dy * dy);
   }
   const double resolution = 2.0 * (static_cast<double>(units_.x) + static_cast<double>(units_.y));

@@ -6,6 +6,9 @@
 // two of them together: the common fall never triggers a renewal. Instead of looking at all grains
 // in every step, a bound is kept on the largest speed (only contacts raise it) and subtracted from
 // a budget of displacement; when the budget is used up, the true displacements are looked at.
+//
+// To walls the common motion does bring grains, if gravity is not along them: what is listed as
+// near a wall has half a skin more for it, and holds as long as the common fall takes no more.
 #pragma once
 
 #include "engine/cells.hpp"
@@ -35,10 +38,10 @@ public:
   const std::vector<Slice>& slices() const { return slices_; }
   CoarseUnits units() const { return units_; }
 
-  /// Spends one step's motion of the budget. True if the candidates hold for sure; else
+  /// Spends the motion of `step` of the budget. True if the candidates hold for sure; else
   /// look_again() must be called before they are used. All threads of a team, called after a
   /// barrier, get the same answer.
-  bool spend_step(Slice& mine) const;
+  bool spend_step(Slice& mine, std::int64_t step) const;
 
   /// Looks at the true displacements, and sorts anew if they are too large: then true. `state` and
   /// `coarse`, the positions of its grains, must be those of step `step`. To be called by all
@@ -49,12 +52,18 @@ public:
   /// when_sorted() then.
   void sort_anew(State& state, Slice& mine, std::int64_t step);
 
-  /// The candidates hold while no grain has moved by half the skin from where it was when they were
-  /// listed, relative to a common motion: free fall with a displacement per step of drift_y()
-  /// (quanta) in the falling frame.
+  /// The candidates hold until this step, and while no grain has moved by half the skin from where
+  /// it was when they were listed, relative to a common motion: free fall with a displacement per
+  /// step of drift() in the falling frame.
+  std::int64_t hold_until() const { return hold_until_; }
   double skin() const { return skin_; }  ///< m
   const CoarsePositions& when_sorted() const { return when_sorted_; }
-  Fixed drift_y() const { return drift_y_; }
+  struct Displacement {
+    Fixed x, y;  ///< quanta
+  };
+  const Displacement& drift() const { return drift_; }  ///< per step
+  /// From when they were listed to `step`.
+  Displacement common_motion(std::int64_t step) const;
 
   /// The grains of `mine` that received kicks have new velocities: keeps the bound on the speeds.
   void note_speeds(const State& state, Slice& mine) const;
@@ -86,9 +95,10 @@ private:
   std::vector<Slice> slices_;
   std::vector<std::uint32_t> slot_of_;  // by id
 
-  Fixed fall_;                  // gravity per step^2, quanta
-  Fixed drift_y_ = 0;           // common velocity along y in the falling frame, quanta per step
-  std::int64_t sorted_at_ = 0;  // step
+  Fall fall_;                        // in a step
+  std::int64_t steps_to_walls_ = 0;  // that the common fall takes for the room it has at walls
+  Displacement drift_{};             // across the tube: at rest when the candidates were listed
+  std::int64_t sorted_at_ = 0, hold_until_ = 0;  // steps
 };
 
 }  // namespace riesel

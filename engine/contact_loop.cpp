@@ -71,6 +71,19 @@ void resolve_contacts(Slice& slice, const State& state, const ContactModel& mode
     contacts->step(bodies(state.grains), units, model);
     complete_step(slice, *contacts, [](std::size_t) {});
   }
+  count_work_of_walls(slice, units);
+}
+
+void count_work_of_walls(Slice& slice, const StepUnits& units) {
+  if (!units.walls_move) return;
+  const LiveContacts& contacts = slice.wall_contacts;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Meeting& m = contacts.meeting(i);
+    const WallStep& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
+    const double impulse = m.mass_first * (real(contacts.kick_of_first(i).y) * units.velocity_y);
+    slice.tally.impulses.work.add(impulse * (real(wall.u) + 0.5 * real(wall.kick))
+                                  * units.velocity_y);
+  }
 }
 
 }  // namespace riesel

@@ -34,9 +34,10 @@ void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed
   const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
   const Fixed from_line = wrapped_difference(state.box.fixed_x(wall.line), x);
   const double reach = state.grains.radius[near.slot] + wall.radius;
-  for_each_wall_grain_within(wall, state.box, y, reach, [&](std::int64_t k, Fixed there) {
+  const Fixed back = wrapped_difference(y, units.walls[static_cast<std::size_t>(near.wall)].shift);
+  for_each_wall_grain_within(wall, state.box, back, reach, [&](std::int64_t k, Fixed there) {
     if ((near.partners & NearWall::bit(k)) != 0) return;
-    if (overlapping(from_line, wrapped_difference(there, y), reach, units)) touches(k);
+    if (overlapping(from_line, wrapped_difference(there, back), reach, units)) touches(k);
   });
 }
 
@@ -52,6 +53,10 @@ void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
     contacts.remove(i);
   }
 }
+
+/// Counts the work that moving walls do in this step, on the mean velocities before and after its
+/// kicks, as loss_by_friction() does.
+void count_work_of_walls(Slice& slice, const StepUnits& units);
 
 /// Calls kick(place, body_kick) for what the last step of the contacts of `slice` gives to their
 /// bodies; the place is that in the Bodies of that step.

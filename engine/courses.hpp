@@ -41,19 +41,16 @@ public:
     std::fill_n(place_.begin() + static_cast<std::ptrdiff_t>(slots.begin), slots.size(), flying);
   }
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
-  Fixed fall() const { return fall_; }                   ///< gravity per step^2, quanta
+  const Fall& fall() const { return fall_; }             ///< in a step
 
   /// When the course was set, in steps after sorted_at().
   std::int32_t since(std::uint32_t slot) const { return since_[slot]; }
   /// Where the grain is in `step` if it keeps to its course.
   Fixed x(std::uint32_t slot, std::int64_t step) const {
-    return wrapped_sum(grains_.x[slot], wrapped_product(steps(slot, step), grains_.ux[slot]));
+    return along(grains_.x[slot], grains_.ux[slot], fall_.x, steps(slot, step), step);
   }
   Fixed y(std::uint32_t slot, std::int64_t step) const {
-    const std::int64_t n = steps(slot, step);
-    return wrapped_sum(grains_.y[slot],
-                       wrapped_sum(wrapped_product(n, grains_.uy[slot]),
-                                   wrapped_product(sum_of_steps(step - n, step), fall_)));
+    return along(grains_.y[slot], grains_.uy[slot], fall_.y, steps(slot, step), step);
   }
   Motion motion(std::uint32_t slot, std::int64_t step) const {
     return {.x = x(slot, step),
@@ -87,12 +84,17 @@ public:
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
 
 private:
+  /// Along one axis, after the last n steps before `step`.
+  static Fixed along(Fixed from, Fixed u, Fixed fall, std::int64_t n, std::int64_t step) {
+    return wrapped_sum(from, wrapped_sum(wrapped_product(n, u),
+                                         wrapped_product(sum_of_steps(step - n, step), fall)));
+  }
   std::int64_t steps(std::uint32_t slot, std::int64_t step) const {
     return step - sorted_at_ - since_[slot];
   }
 
   Grains& grains_;
-  const Fixed fall_;
+  const Fall fall_;
   std::int64_t sorted_at_ = 0;
   AlignedVector<std::int32_t> since_;  // steps after sorted_at_
   AlignedVector<std::int32_t> place_;

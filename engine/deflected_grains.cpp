@@ -121,11 +121,11 @@ Bodies DeflectedGrains::bodies() const {
           .inertia = inertia_};
 }
 
-void DeflectedGrains::move(Fixed fallen) {
+void DeflectedGrains::move(const Fall& fallen) {
   auto& c = columns_;
-  move_lanes<lanes>(padded_size(), 0, c[at_kick_x].data(), c[at_ux].data(), c[at_x].data(),
+  move_lanes<lanes>(padded_size(), fallen.x, c[at_kick_x].data(), c[at_ux].data(), c[at_x].data(),
                     c[off_ux].data(), c[off_x].data());
-  move_lanes<lanes>(padded_size(), fallen, c[at_kick_y].data(), c[at_uy].data(), c[at_y].data(),
+  move_lanes<lanes>(padded_size(), fallen.y, c[at_kick_y].data(), c[at_uy].data(), c[at_y].data(),
                     c[off_uy].data(), c[off_y].data());
   for (std::size_t i = 0; i < spin_.size(); ++i) spin_[i] = wrapped_sum(spin_[i], spin_kick_[i]);
 }

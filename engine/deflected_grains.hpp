@@ -43,7 +43,7 @@ public:
   std::int32_t& contacts(Place place) { return contacts_[place]; }
 
   /// From one step to the next: velocities take up the kicks. `fallen` is the fall in this step.
-  void move(Fixed fallen);
+  void move(const Fall& fallen);
   void clear_kicks();
   void add_kick(std::int64_t place, const BodyKick& kick) {
     const auto at = static_cast<std::size_t>(place);

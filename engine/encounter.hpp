@@ -4,14 +4,24 @@
 #include "engine/contact_force.hpp"
 #include "engine/state.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace riesel {
 
-/// The numbers of the current step that turn quanta into SI units and back.
+/// How a wall stands and moves in a step, as a body does: quanta of y.
+struct WallStep {
+  Fixed shift = 0;  ///< from where it was at first
+  Fixed u = 0;      ///< displacement in the step
+  Fixed kick = 0;   ///< what the next step has more
+};
+
+/// The numbers of the current step: those that turn quanta into SI units and back, and the walls.
 struct StepUnits {
   explicit StepUnits(const State& state)
-      : dt(state.time_step),
+      : box(state.box),
+        dt(state.time_step),
         fall(fall_per_step(state)),
         metre_x(state.box.quantum_x()),
         metre_y(state.box.quantum_y()),
@@ -21,26 +31,46 @@ struct StepUnits {
         kick_y(dt * dt / metre_y),
         spin(quantum_of_angle / dt),
         spin_kick(dt * dt / quantum_of_angle) {
+    for (std::size_t wall = 0; wall < state.walls.size(); ++wall) {
+      motion[wall] = state.walls[wall].motion;
+      walls_move = walls_move || motion[wall].is_there();
+    }
     move_to(state.step);
   }
 
   void move_to(std::int64_t new_step) {
     step = static_cast<double>(new_step);
     time = step * dt;
-    fallen = wrapped_product(fall, new_step);
+    fallen = fall.times(new_step);
+    if (walls_move) move_walls_to(new_step);
   }
 
+  Box box;
   double dt;                      ///< s
-  Fixed fall;                     ///< gravity per step^2: quanta per step
+  Fall fall;                      ///< in a step
   double metre_x, metre_y;        ///< m per quantum
   double velocity_x, velocity_y;  ///< m/s per quantum per step
   double kick_x, kick_y;          ///< quanta per step^2 over m/s^2
   double spin;                    ///< rad/s per quantum of angle per step
   double spin_kick;               ///< quanta per step^2 over rad/s^2
 
-  double step;   ///< steps done
-  double time;   ///< s
-  Fixed fallen;  ///< gravity so far: quanta per step
+  double step;  ///< steps done
+  double time;  ///< s
+  Fall fallen;  ///< so far
+
+  bool walls_move = false;
+  std::array<WallMotion, WallImpulses::most_walls> motion{};
+  std::array<WallStep, WallImpulses::most_walls> walls{};
+
+private:
+  void move_walls_to(std::int64_t n) {
+    for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+      const auto shift = [&](std::int64_t at) { return motion[wall].shift(box, dt, at); };
+      const Fixed before = wrapped_difference(shift(n), shift(n - 1));
+      const Fixed after = wrapped_difference(shift(n + 1), shift(n));
+      walls[wall] = {shift(n), before, wrapped_difference(after, before)};
+    }
+  }
 };
 
 /// The motion of bodies, by place in these arrays; as in Grains.
@@ -85,15 +115,20 @@ struct RelativeMotion {
           .kick_y = wrapped_difference(b.kick_y[j], b.kick_y[i])};
 }
 
-/// Of a wall grain at rest at (line, y) as seen from body i.
+/// A wall grain at (line, y), and how it moves along y, in quanta.
+struct WallPoint {
+  Fixed line, y, u, kick;
+};
+
+/// Of a wall grain as seen from body i.
 [[gnu::always_inline]] inline RelativeMotion
-relative_motion(const Bodies& b, std::int64_t i, Fixed line, Fixed y, const StepUnits& units) {
-  return {.x = wrapped_difference(line, b.x[i]),
-          .y = wrapped_difference(y, b.y[i]),
-          .ux = wrapped_difference(0, b.ux[i]),
-          .uy = wrapped_difference(0, wrapped_sum(b.uy[i], units.fallen)),
-          .kick_x = wrapped_difference(0, b.kick_x[i]),
-          .kick_y = wrapped_difference(0, wrapped_sum(b.kick_y[i], units.fall))};
+relative_motion(const Bodies& b, std::int64_t i, const WallPoint& wall, const StepUnits& units) {
+  return {.x = wrapped_difference(wall.line, b.x[i]),
+          .y = wrapped_difference(wall.y, b.y[i]),
+          .ux = wrapped_difference(0, wrapped_sum(b.ux[i], units.fallen.x)),
+          .uy = wrapped_difference(wall.u, wrapped_sum(b.uy[i], units.fallen.y)),
+          .kick_x = wrapped_difference(0, wrapped_sum(b.kick_x[i], units.fall.x)),
+          .kick_y = wrapped_difference(wall.kick, wrapped_sum(b.kick_y[i], units.fall.y))};
 }
 
 /// `reach` is the sum of the radii (m), `reduced_mass` in kg. The kick of the step before takes the
@@ -125,7 +160,7 @@ struct Spin {
 
 /// What does not change of two bodies while they are in contact.
 struct BodyPair {
-  double radius_first, radius_second;      ///< m
+  double radius_first, radius_second;      ///< m; 0 for the second: a smooth wall
   double per_mass_first, per_mass_second;  ///< 1/kg; 0: a wall grain
 };
 
@@ -135,6 +170,10 @@ struct BodyPair {
                                               const Spin& second, double inertia,
                                               double rolling_friction) {
   const double reach = b.radius_first + b.radius_second;
+  // Only the first turns on a plane, whatever is put for the second, and rolls with its radius.
+  const bool plane = b.radius_second == 0.0;
+  const double radius_second = plane ? b.radius_first : b.radius_second;
+  const double rolling_radius = plane ? b.radius_first : b.radius_first * b.radius_second / reach;
   const double part_first = b.radius_first / reach, part_second = b.radius_second / reach;
   return {.roll = part_first * first.now + part_second * second.now,
           .half_roll = part_first * first.half + part_second * second.half,
@@ -144,8 +183,8 @@ struct BodyPair {
           .part_first = part_first,
           .part_second = part_second,
           .per_inertia_first = b.per_mass_first / (inertia * (b.radius_first * b.radius_first)),
-          .per_inertia_second = b.per_mass_second / (inertia * (b.radius_second * b.radius_second)),
-          .rolling_arm = rolling_friction * (b.radius_first * b.radius_second / reach)};
+          .per_inertia_second = b.per_mass_second / (inertia * (radius_second * radius_second)),
+          .rolling_arm = rolling_friction * rolling_radius};
 }
 
 /// Whether two bodies, the second at (x, y) from the first, touch: the one test that decides about

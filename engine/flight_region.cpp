@@ -210,6 +210,7 @@ void FlightRegion::step_contacts(std::int64_t step) {
   });
   LiveContacts& walls = slice_.wall_contacts;
   complete_step(slice_, walls, [&](std::size_t i) { let_go(walls.first(i)); });
+  count_work_of_walls(slice_, units_);
   for_each_kick(
       slice_, [&](std::int64_t place, const BodyKick& kick) { deflected_.add_kick(place, kick); });
 

@@ -47,7 +47,7 @@ struct Lanes {
 
 struct Kinematics {
   double metre_x, metre_y;
-  Fixed fall;
+  Fall fall;
   std::int64_t now;
   double tolerance;
 };
@@ -58,15 +58,17 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const Lanes& pairs, Paths c, Kinematics 
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::int64_t i = pairs.first[lane], j = pairs.second[lane];
     const std::int64_t steps_i = pairs.steps_first[lane], steps_j = pairs.steps_second[lane];
-    const Fixed fallen_i = wrapped_product(sum_of_steps(k.now - steps_i, k.now), k.fall);
-    const Fixed fallen_j = wrapped_product(sum_of_steps(k.now - steps_j, k.now), k.fall);
+    const Fixed falls = wrapped_difference(sum_of_steps(k.now - steps_j, k.now),
+                                           sum_of_steps(k.now - steps_i, k.now));
     const Fixed x_i = wrapped_sum(c.x[i], wrapped_product(steps_i, c.ux[i]));
     const Fixed x_j = wrapped_sum(c.x[j], wrapped_product(steps_j, c.ux[j]));
-    const Fixed y_i = wrapped_sum(wrapped_sum(c.y[i], wrapped_product(steps_i, c.uy[i])), fallen_i);
-    const Fixed y_j = wrapped_sum(wrapped_sum(c.y[j], wrapped_product(steps_j, c.uy[j])), fallen_j);
+    const Fixed y_i = wrapped_sum(c.y[i], wrapped_product(steps_i, c.uy[i]));
+    const Fixed y_j = wrapped_sum(c.y[j], wrapped_product(steps_j, c.uy[j]));
+    const Fixed x_ij = wrapped_sum(wrapped_difference(x_j, x_i), wrapped_product(falls, k.fall.x));
+    const Fixed y_ij = wrapped_sum(wrapped_difference(y_j, y_i), wrapped_product(falls, k.fall.y));
 
-    const double x = real(wrapped_difference(x_j, x_i)) * k.metre_x;
-    const double y = real(wrapped_difference(y_j, y_i)) * k.metre_y;
+    const double x = real(x_ij) * k.metre_x;
+    const double y = real(y_ij) * k.metre_y;
     const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * k.metre_x;
     const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * k.metre_y;
     const double reach = (c.radius[i] + c.radius[j]) * generous;

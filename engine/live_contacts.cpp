@@ -40,7 +40,7 @@ constexpr std::int64_t apart = 1, unusable = 2;
 
 struct LiveContacts::Columns {
   const std::int64_t *first, *second;
-  const Fixed *line, *y;
+  const Fixed *line, *y, *wall_u, *wall_kick;
   const double *reach, *reduced_mass, *per_mass_first, *per_mass_second;
   std::array<double*, life_members> life;
   std::array<Fixed*, 4> kick;
@@ -58,8 +58,9 @@ template <LiveContacts::Partner partner, class Columns>
     return encounter(relative_motion(bodies, c.first[i], c.second[i]), c.reach[i],
                      c.reduced_mass[i], units);
   else
-    return encounter(relative_motion(bodies, c.first[i], c.line[i], c.y[i], units), c.reach[i],
-                     c.reduced_mass[i], units);
+    return encounter(relative_motion(bodies, c.first[i],
+                                     {c.line[i], c.y[i], c.wall_u[i], c.wall_kick[i]}, units),
+                     c.reach[i], c.reduced_mass[i], units);
 }
 
 template <LiveContacts::Partner partner, class Turn, class Columns>
@@ -235,8 +236,10 @@ void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodie
 LiveContacts::Columns LiveContacts::columns() {
   Columns c{.first = body_[0].data(),
             .second = body_[1].data(),
-            .line = wall_place_[0].data(),
-            .y = wall_place_[1].data(),
+            .line = wall_point_[0].data(),
+            .y = wall_point_[1].data(),
+            .wall_u = wall_point_[2].data(),
+            .wall_kick = wall_point_[3].data(),
             .reach = reach_.data(),
             .reduced_mass = reduced_mass_.data(),
             .per_mass_first = per_mass_[0].data(),
@@ -262,7 +265,7 @@ Contact LiveContacts::contact(std::size_t i) const {
 template <class Visit>
 void LiveContacts::for_each_array(Visit visit) {
   for (auto& a : body_) visit(a);
-  for (auto& a : wall_place_) visit(a);
+  for (auto& a : wall_point_) visit(a);
   visit(reach_);
   visit(reduced_mass_);
   for (auto& a : per_mass_) visit(a);
@@ -285,6 +288,16 @@ void LiveContacts::become_rich() {
   }
 }
 
+/// The points of smooth walls go along with their grains, those of moving walls with the walls.
+void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const WallPoint point = wall_point(meetings_[i], bodies, body_[0][i], units);
+    wall_point_[1][i] = point.y;
+    wall_point_[2][i] = point.u;
+    wall_point_[3][i] = point.kick;
+  }
+}
+
 /// Room for whole vectors; what is beyond size() is zero.
 void LiveContacts::pad() {
   const std::size_t room = (size() / lanes + 1) * lanes;
@@ -296,6 +309,7 @@ void LiveContacts::pad() {
 void LiveContacts::clear() {
   meetings_.clear();
   beginning_ = 0;
+  any_level_ = false;
   for_each_array([](auto& a) { std::fill(a.begin(), a.end(), 0); });
 }
 
@@ -303,11 +317,12 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   if (is_rich(contact)) become_rich();
   const std::size_t i = size();
   meetings_.push_back(meeting);
+  any_level_ = any_level_ || meeting.level;
   pad();
   body_[0][i] = meeting.first;
   body_[1][i] = meeting.second;
-  wall_place_[0][i] = meeting.line;
-  wall_place_[1][i] = meeting.y;
+  wall_point_[0][i] = meeting.line;
+  wall_point_[1][i] = meeting.y;
   reach_[i] = meeting.reach();
   reduced_mass_[i] = meeting.reduced_mass();
   const BodyPair bodies = meeting.bodies();
@@ -365,6 +380,7 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
 void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const ContactModel& model) {
   ended_.clear();
   if (size() == 0) return;
+  if (any_level_ || (partner_ == Partner::wall && units.walls_move)) follow_walls(bodies, units);
   if (partner_ == Partner::grain)
     step<Partner::grain>(bodies, units, model);
   else

@@ -89,6 +89,7 @@ private:
   template <Partner partner>
   void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
   void become_rich();
+  void follow_walls(const Bodies& bodies, const StepUnits& units);
   void pad();
   template <class Visit>
   void for_each_array(Visit visit);
@@ -97,12 +98,13 @@ private:
   std::size_t beginning_ = 0;  // contacts at the end of the arrays that begin in the next step
   std::vector<Meeting> meetings_;
   std::array<AlignedVector<std::int64_t>, 2> body_;  // first and second
-  std::array<AlignedVector<Fixed>, 2> wall_place_;   // line and y
+  std::array<AlignedVector<Fixed>, 4> wall_point_;   // members of WallPoint
   AlignedVector<double> reach_, reduced_mass_;
   std::array<AlignedVector<double>, 2> per_mass_;  // 1/kg, of first and second
   std::array<AlignedVector<double>, life_members> life_;
   std::array<AlignedVector<Fixed>, 4> kick_;
-  bool rich_ = false;  // there are springs or torques; else the arrays for them are empty
+  bool any_level_ = false;  // with smooth walls
+  bool rich_ = false;       // there are springs or torques; else the arrays for them are empty
   std::array<AlignedVector<double>, 2> radius_;    // m, of first and second
   std::array<AlignedVector<Fixed>, 2> spin_kick_;  // likewise
   AlignedVector<std::int64_t> flags_,

@@ -15,12 +15,14 @@ struct Meeting {
   std::uint32_t candidate;  ///< index among the candidates, for whoever looks for contacts
   std::int64_t first;       ///< place of the first body in Bodies, at the beginning
   std::int64_t second;      ///< of the second body; that of the first for a wall grain
-  Fixed line, y;            ///< where the wall grain is; unused for free grains
+  Fixed line, y;            ///< where the wall grain is before its wall moves; unused for free
+                            ///< grains, y for smooth walls
   double radius_first;      ///< m
   double radius_second;     ///< m
   double mass_first;        ///< kg
   double mass_second;       ///< kg; unused for a wall grain
   bool turned = false;      ///< the first body is not name.grain, but name.partner
+  bool level = false;       ///< the second body is level with the first: a smooth wall
 
   bool with_wall() const { return name.wall != no_wall; }
   double reach() const { return radius_first + radius_second; }  ///< m
@@ -62,11 +64,12 @@ inline Meeting meeting_with_wall(const State& state, std::uint32_t slot, std::in
           .first = slot,
           .second = slot,
           .line = state.box.fixed_x(lattice.line),
-          .y = lattice.place(k),
+          .y = lattice.smooth() ? 0 : lattice.place(k),
           .radius_first = g.radius[slot],
           .radius_second = lattice.radius,
           .mass_first = g.mass[slot],
-          .mass_second = 0.0};
+          .mass_second = 0.0,
+          .level = lattice.smooth()};
 }
 
 /// The bodies of a contact, seen from the free grain that names it; slots[id] is where a grain
@@ -82,10 +85,22 @@ Meeting meeting_of(const ContactName& name, const State& state, const Slots& slo
              : meeting_with_wall(state, slot(name.grain), name.wall, name.partner, none);
 }
 
+/// Where the wall grain is, and how it moves, in the step of `units`; `first` is where the first
+/// body stands in `b`.
+inline WallPoint wall_point(const Meeting& m, const Bodies& b, std::int64_t first,
+                            const StepUnits& units) {
+  const WallStep& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
+  return {.line = m.line,
+          .y = m.level ? b.y[first] : wrapped_sum(m.y, wall.shift),
+          .u = wall.u,
+          .kick = wall.kick};
+}
+
 /// Seen from the first body; `b` holds the bodies where the meeting says.
 inline Encounter encounter(const Meeting& m, const Bodies& b, const StepUnits& units) {
-  const RelativeMotion motion = m.with_wall() ? relative_motion(b, m.first, m.line, m.y, units)
-                                              : relative_motion(b, m.first, m.second);
+  const RelativeMotion motion =
+      m.with_wall() ? relative_motion(b, m.first, wall_point(m, b, m.first, units), units)
+                    : relative_motion(b, m.first, m.second);
   return encounter(motion, m.reach(), m.reduced_mass(), units);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace riesel {
 
@@ -12,13 +13,27 @@ namespace {
 
 /// Sums over all grains.
 struct GrainSums {
-  double vx, vy, vx2, vy2, mass, momentum_y, kinetic;
+  double vx, vy, vx2, vy2, mass, momentum_y, kinetic, moment_x;
   std::int64_t outside;
 };
+
+/// m, between the wall lines; where there is no wall a grain cannot be beyond it.
+struct Gap {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
+Gap between_walls(const State& state) {
+  Gap gap;
+  for (const WallLattice& wall : state.walls)
+    (wall.line < 0.5 * state.box.width ? gap.low : gap.high) = wall.line;
+  return gap;
+}
 
 RIESEL_VECTOR_KERNEL GrainSums sum_over_grains(const State& state) {
   ExactSums<8> sums;
   std::int64_t outside = 0;
+  const Gap room = between_walls(state);
   const GrainView grains(state);
   std::array<std::array<double, 8>, 32> terms;
   for (std::size_t first = 0; first < state.grains.size(); first += terms.size()) {
@@ -26,13 +41,14 @@ RIESEL_VECTOR_KERNEL GrainSums sum_over_grains(const State& state) {
     for (std::size_t i = 0; i < count; ++i) {
       const Grain g = grains[first + i];
       const double vx2 = g.vx * g.vx, vy2 = g.vy * g.vy;
-      terms[i] = {g.vx, g.vy, vx2, vy2, g.mass, g.mass * g.vy, 0.5 * g.mass * (vx2 + vy2), 0.0};
-      if (g.x < 0.0 || g.x > state.box.width) ++outside;
+      terms[i] = {g.vx,        g.vy, vx2, vy2, g.mass, g.mass * g.vy, 0.5 * g.mass * (vx2 + vy2),
+                  g.mass * g.x};
+      if (g.x < room.low || g.x > room.high) ++outside;
     }
     for (std::size_t i = 0; i < count; ++i) sums.add(terms[i]);
   }
   const auto value = [&](std::size_t i) { return sums.sum(i).value(); };
-  return {value(0), value(1), value(2), value(3), value(4), value(5), value(6), outside};
+  return {value(0), value(1), value(2), value(3), value(4), value(5), value(6), value(7), outside};
 }
 
 /// Sums over all grains, 0 if they do not rotate.
@@ -72,16 +88,18 @@ WallImpulses all_impulses(const State& state) {
   return impulses;
 }
 
-/// J. Contacts between grains do not change the momentum, so the way of the centre of mass follows
-/// from its start, from free fall, and from the impulses of the walls, of which one given at step s
-/// acts in n - s steps.
-double work_of_gravity(const State& state, double mass, const ContactTally& walls) {
+/// J. Across the tube it follows from where the grains are. Along the tube they have come round we
+/// do not know how often; but contacts between grains do not change the momentum, so the way of the
+/// centre of mass follows from its start, from free fall, and from the impulses of the walls, of
+/// which one given at step s acts in n - s steps.
+double work_of_gravity(const State& state, const GrainSums& sums, const ContactTally& walls) {
   const auto n = static_cast<double>(state.step);
   const double t = state.time();
   const double mass_times_way =
-      state.origin.momentum_y * t + 0.5 * mass * state.gravity * t * t
+      state.origin.momentum_y * t + 0.5 * sums.mass * state.gravity.y * t * t
       + state.time_step * (n * walls.impulse_y.value() - walls.impulse_y_times_step.value());
-  return state.gravity * mass_times_way;
+  return state.gravity.y * mass_times_way
+         + state.gravity.x * (sums.moment_x - state.origin.moment_x);
 }
 
 double stored_energy(const State& state) {
@@ -101,7 +119,8 @@ double standard_deviation(double sum, double sum_of_squares, double n) {
 Origin origin_of(const State& state) {
   const GrainSums sums = sum_over_grains(state);
   return {.energy = sums.kinetic + sum_over_spins(state).energy + stored_energy(state),
-          .momentum_y = sums.momentum_y};
+          .momentum_y = sums.momentum_y,
+          .moment_x = sums.moment_x};
 }
 
 FastestGrain fastest_grain(const State& state) {
@@ -141,13 +160,14 @@ Observables observe(const State& state) {
   o.energies.kinetic = sums.kinetic;
   o.energies.rotational = spins.energy;
   o.energies.elastic = stored_energy(state);
-  o.energies.gravity_work = work_of_gravity(state, sums.mass, at_walls);
+  o.energies.gravity_work = work_of_gravity(state, sums, at_walls);
+  o.energies.wall_work = state.tally.impulses.work.value();
   o.energies.normal_loss = among_grains.normal_loss.value() + at_walls.normal_loss.value();
   o.energies.friction_loss = among_grains.friction_loss.value() + at_walls.friction_loss.value();
   o.energies.won = among_grains.energy_won.value() + at_walls.energy_won.value();
-  o.energies.residual = state.origin.energy + o.energies.gravity_work - o.energies.kinetic
-                        - o.energies.rotational - o.energies.elastic - o.energies.normal_loss
-                        - o.energies.friction_loss;
+  o.energies.residual = state.origin.energy + o.energies.gravity_work + o.energies.wall_work
+                        - o.energies.kinetic - o.energies.rotational - o.energies.elastic
+                        - o.energies.normal_loss - o.energies.friction_loss;
   o.contacts = static_cast<double>(state.contacts.size()) / n;
   o.grain_contacts_begun = static_cast<double>(among_grains.begun);
   o.wall_contacts_begun = static_cast<double>(at_walls.begun);
@@ -164,7 +184,7 @@ double max_overlap_ratio(const State& state) {
   const double smallest = *std::min_element(radii.begin(), radii.end());
   double smallest_at_wall = smallest;
   for (const WallLattice& wall : state.walls)
-    smallest_at_wall = std::min(smallest_at_wall, wall.radius);
+    if (!wall.smooth()) smallest_at_wall = std::min(smallest_at_wall, wall.radius);
   return std::max(all_contacts(state, false).max_overlap / smallest,
                   all_contacts(state, true).max_overlap / smallest_at_wall);
 }
@@ -172,7 +192,8 @@ double max_overlap_ratio(const State& state) {
 double energy_error_ratio(const State& state, const Energies& energies) {
   const double error = std::abs(energies.residual) + energies.won;
   if (error == 0.0) return 0.0;
-  return error / (state.origin.energy + std::abs(energies.gravity_work));
+  return error
+         / (state.origin.energy + std::abs(energies.gravity_work) + std::abs(energies.wall_work));
 }
 
 }  // namespace riesel

@@ -15,10 +15,11 @@ struct Energies {
   double rotational = 0.0;     ///< J, now
   double elastic = 0.0;        ///< J, stored in contacts now
   double gravity_work = 0.0;   ///< J, done by gravity
+  double wall_work = 0.0;      ///< J, done by walls that move
   double normal_loss = 0.0;    ///< J, dissipated by the normal damping
   double friction_loss = 0.0;  ///< J, dissipated by friction and by resistance to rolling
   double won = 0.0;            ///< J, by contacts whose losses together are negative
-  double residual = 0.0;  ///< J, origin + gravity work - all the rest: the error of the time step
+  double residual = 0.0;       ///< J, origin + work - all the rest: the error of the time step
 };
 
 struct Observables {
@@ -60,7 +61,8 @@ double max_overlap_ratio(const State& state);
 
 /// How much of the energy of `state` is an error of the time step: the size of the residual, and
 /// what contacts have won that should have lost, as a part of the energy turned over: what the run
-/// began with and the work of gravity, which may be negative. `energies` are those of `state`.
+/// began with and the work of gravity and of walls, which may be negative. `energies` are those of
+/// `state`.
 double energy_error_ratio(const State& state, const Energies& energies);
 
 }  // namespace riesel

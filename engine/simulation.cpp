@@ -51,10 +51,12 @@ void check_contacts(const State& state) {
 State ready(State state) {
   require(state.box.width > 0.0 && state.box.length > 0.0, "the box must have a size");
   require(state.time_step > 0.0, "the time step must be positive");
-  require(std::isfinite(state.gravity), "gravity must be finite");
+  require(std::isfinite(state.gravity.x) && std::isfinite(state.gravity.y),
+          "gravity must be finite");
   require(state.walls.size() <= WallImpulses::most_walls, "there are too many walls");
   for (const WallLattice& wall : state.walls)
-    require(wall.count > 0 && wall.radius > 0.0, "a wall must have grains");
+    require(wall.sound() && wall.motion.is_within(state.box, state.time_step),
+            "a wall must have grains or be smooth, and must not move by half the box in a step");
   check_grains(state.grains);
   check_contacts(state);
   if (state.step == 0) state.origin = origin_of(state);
@@ -156,7 +158,7 @@ void Simulation::step(Slice& mine, std::int64_t step) {
   drift(mine, step);
   barrier_->arrive_and_wait();
   profile.done(Profile::Phase::fly);
-  if (!candidates_->spend_step(mine)) candidates_->look_again(state_, coarse_, mine, step);
+  if (!candidates_->spend_step(mine, step)) candidates_->look_again(state_, coarse_, mine, step);
   find_overlapping(mine, state_, coarse_, candidates_->units());
   profile.done(Profile::Phase::search);
   resolve_contacts(mine, state_, model_);
@@ -240,9 +242,9 @@ void Simulation::drift(Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
   take_up_kicks(g, mine);
   const std::size_t count = mine.end - mine.begin;
-  fly(count, 0, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
-  fly(count, wrapped_product(fall_, step), &g.uy[mine.begin], &g.y[mine.begin],
-      &coarse_.y[mine.begin]);
+  const Fall fallen = fall_.times(step);
+  fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
+  fly(count, fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]);
 #pragma omp master
   state_.step = step;
 }

@@ -69,7 +69,7 @@ private:
 
   State state_;
   ContactModel model_;
-  Fixed fall_;  // per step
+  Fall fall_;  // in a step
   const int threads_;
   SteppingChoice choice_;
   std::optional<Way> prepared_;  // what the candidates, the barrier and the flights are there for

@@ -24,30 +24,31 @@ SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Cou
       courses_(courses),
       room_(room_in_skin(state.box, candidates.skin(), tolerance)) {}
 
+inline SkinGuard::Velocity SkinGuard::off_drift(std::size_t slot) const {
+  const auto& drift = candidates_.drift();
+  return {state_.box.metres_x(wrapped_difference(state_.grains.ux[slot], drift.x)),
+          state_.box.metres_y(wrapped_difference(state_.grains.uy[slot], drift.y))};
+}
+
 std::int64_t SkinGuard::hold_until(SlotRange slots) const {
-  const Grains& g = state_.grains;
   double fastest2 = 0.0;
   for (std::size_t slot = slots.begin; slot < slots.end; ++slot) {
-    const double ux = state_.box.metres_x(g.ux[slot]);
-    const double uy = state_.box.metres_y(wrapped_difference(g.uy[slot], candidates_.drift_y()));
+    const auto [ux, uy] = off_drift(slot);
     fastest2 = std::max(fastest2, ux * ux + uy * uy);
   }
-  return courses_.sorted_at() + Forecast::whole_steps(room_ / std::sqrt(fastest2)) - 1;
+  return std::min(candidates_.hold_until(),
+                  courses_.sorted_at() + Forecast::whole_steps(room_ / std::sqrt(fastest2)) - 1);
 }
 
 std::int64_t SkinGuard::hold_until(std::uint32_t slot, std::int64_t now) const {
-  const Grains& g = state_.grains;
   const Box& box = state_.box;
-  const std::int64_t sorted_at = courses_.sorted_at();
-  const Fixed common = wrapped_sum(wrapped_product(now - sorted_at, candidates_.drift_y()),
-                                   wrapped_product(sum_of_steps(sorted_at, now), courses_.fall()));
+  const auto common = candidates_.common_motion(now);
   const CoarsePositions& then = candidates_.when_sorted();
-  const double x =
-      box.metres_x(wrapped_difference(courses_.x(slot, now), from_upper(then.x[slot])));
+  const double x = box.metres_x(wrapped_difference(
+      wrapped_difference(courses_.x(slot, now), from_upper(then.x[slot])), common.x));
   const double y = box.metres_y(wrapped_difference(
-      wrapped_difference(courses_.y(slot, now), from_upper(then.y[slot])), common));
-  const double ux = box.metres_x(g.ux[slot]);
-  const double uy = box.metres_y(wrapped_difference(g.uy[slot], candidates_.drift_y()));
+      wrapped_difference(courses_.y(slot, now), from_upper(then.y[slot])), common.y));
+  const auto [ux, uy] = off_drift(slot);
 
   // The first s with |(x, y) + s (ux, uy)| = room
   const double left = room_ * room_ - x * x - y * y;

@@ -9,6 +9,7 @@
 #include "engine/courses.hpp"
 #include "engine/state.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace riesel {
@@ -26,6 +27,12 @@ public:
   std::int64_t hold_until(std::uint32_t slot, std::int64_t now) const;
 
 private:
+  struct Velocity {
+    double x, y;  // m per step
+  };
+  /// Of a grain on its course, relative to the common motion.
+  Velocity off_drift(std::size_t slot) const;
+
   const State& state_;
   const Candidates& candidates_;
   const Courses& courses_;

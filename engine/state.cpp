@@ -24,6 +24,16 @@ void add_torques_and_spring(Hash& hash, const Contact& c) {
   hash.add(c.rolling_torque);
 }
 
+void add(Hash& hash, const WallMotion& m) {
+  for (const auto part : {m.velocity, m.amplitude, m.frequency}) hash.add(part);
+  hash.add(m.start);
+}
+
+void add_tilt(Hash& hash, const State& state) {
+  hash.add(state.gravity.x);
+  hash.add(state.origin.moment_x);
+}
+
 void add(Hash& hash, const Contact& c) {
   for (const auto part : {c.name.wall, c.name.grain, c.name.partner}) hash.add(part);
   for (const auto part : {c.begin, c.end, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path,
@@ -85,8 +95,10 @@ void Grains::resize(std::size_t n) {
   spin_kick.resize(n);
 }
 
-Fixed fall_per_step(const State& state) {
-  return nearest_fixed(state.gravity * state.time_step * state.time_step / state.box.quantum_y());
+Fall fall_per_step(const State& state) {
+  const double dt = state.time_step;
+  return {nearest_fixed(state.gravity.x * dt * dt / state.box.quantum_x()),
+          nearest_fixed(state.gravity.y * dt * dt / state.box.quantum_y())};
 }
 
 void add_grain(State& state, const Grain& grain) {
@@ -95,9 +107,9 @@ void add_grain(State& state, const Grain& grain) {
   g.resize(i + 1);
   g.x[i] = state.box.fixed_x(grain.x);
   g.y[i] = state.box.fixed_y(grain.y);
-  g.ux[i] = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x());
-  g.uy[i] =
-      nearest_fixed(grain.vy * state.time_step / state.box.quantum_y()) - fall_per_step(state) / 2;
+  const Fall fall = fall_per_step(state);
+  g.ux[i] = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x()) - fall.x / 2;
+  g.uy[i] = nearest_fixed(grain.vy * state.time_step / state.box.quantum_y()) - fall.y / 2;
   g.radius[i] = grain.radius;
   g.mass[i] = grain.mass;
   g.id[i] = static_cast<std::int32_t>(i);
@@ -108,7 +120,7 @@ GrainView::GrainView(const State& state)
     : grains_(&state.grains),
       box_(state.box),
       fall_(fall_per_step(state)),
-      fallen_(wrapped_product(fall_, state.step)),
+      fallen_(fall_.times(state.step)),
       to_vx_(state.box.quantum_x() / state.time_step),
       to_vy_(state.box.quantum_y() / state.time_step),
       to_spin_(quantum_of_angle / state.time_step) {}
@@ -160,7 +172,8 @@ std::uint64_t state_hash(const State& state) {
   Hash hash;
   hash.add(state.box.width);
   hash.add(state.box.length);
-  hash.add(state.gravity);
+  hash.add(state.gravity.y);
+  if (state.gravity.x != 0.0) add_tilt(hash, state);
   hash.add(state.time_step);
   hash.add(state.step);
   hash.add(state.origin.energy);
@@ -169,6 +182,7 @@ std::uint64_t state_hash(const State& state) {
     hash.add(wall.line);
     hash.add(wall.radius);
     hash.add(wall.count);
+    if (wall.motion.is_there()) add(hash, wall.motion);
   }
   if (state.grains.rotate()) hash.add(state.grains.inertia);
   const Grains ordered = ordered_by_id(state.grains);
@@ -177,6 +191,7 @@ std::uint64_t state_hash(const State& state) {
   for (const WallVisit& visit : state.open_visits) add(hash, visit);
   add(hash, state.tally.grains);
   add(hash, state.tally.walls);  // with the impulses of all walls together
+  if (state.tally.impulses.work != ExactSum{}) add(hash, state.tally.impulses.work);
   add(hash, state.tally.brakes);
   add(hash, state.tally.visits);
   return hash.value();

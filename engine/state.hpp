@@ -5,7 +5,7 @@
 // 0; and the kick K(n), the contact acceleration at step n times dt^2, which the next step adds to
 // U. Hence
 //
-//   displacement in the step n-1 -> n   D = U + G n               G = gravity dt^2, along y only
+//   displacement in the step n-1 -> n   D = U + G n               G = gravity dt^2
 //   velocity at step n                  v dt = U + G n + (G + K) / 2
 //
 // In free flight U does not change: a flying grain is three additions, and crossing several steps
@@ -53,12 +53,18 @@ struct Grains {
 struct Origin {
   double energy = 0.0;      ///< J, kinetic, and elastic where contacts last from before
   double momentum_y = 0.0;  ///< kg m/s
+  double moment_x = 0.0;    ///< kg m, sum of mass times x
+};
+
+/// m/s^2. Along +y, the axis of the tube, where it stands upright.
+struct Gravity {
+  double x = 0.0, y = 0.0;
 };
 
 struct State {
   Box box{};
   std::vector<WallLattice> walls;
-  double gravity = 0.0;    ///< m/s^2, along +y
+  Gravity gravity;
   double time_step = 0.0;  ///< s
   std::int64_t step = 0;   ///< steps done
   Grains grains;
@@ -69,6 +75,16 @@ struct State {
 
   double time() const { return static_cast<double>(step) * time_step; }  ///< s
 };
+
+/// What free fall adds to a displacement per step, in quanta.
+struct Fall {
+  Fixed x, y;
+
+  Fall times(std::int64_t n) const { return {wrapped_product(x, n), wrapped_product(y, n)}; }
+};
+
+/// In one step, gravity times dt^2: the G of the formulae above.
+Fall fall_per_step(const State& state);
 
 /// One grain in SI units, to put grains in and to look at them.
 struct Grain {
@@ -89,15 +105,11 @@ public:
   /// The grain in `slot`, y in [0, length).
   Grain operator[](std::size_t slot) const {
     const Grains& g = *grains_;
-    const Fixed free_velocity = wrapped_sum(g.uy[slot], fallen_);
     return {
         .x = box_.metres_x(g.x[slot]),
         .y = box_.place_y(g.y[slot]),
-        .vx =
-            (static_cast<double>(g.ux[slot]) + 0.5 * static_cast<double>(g.kick_x[slot])) * to_vx_,
-        .vy = (static_cast<double>(free_velocity)
-               + 0.5 * static_cast<double>(wrapped_sum(g.kick_y[slot], fall_)))
-              * to_vy_,
+        .vx = velocity(g.ux[slot], fallen_.x, g.kick_x[slot], fall_.x) * to_vx_,
+        .vy = velocity(g.uy[slot], fallen_.y, g.kick_y[slot], fall_.y) * to_vy_,
         .radius = g.radius[slot],
         .mass = g.mass[slot],
         .spin =
@@ -107,9 +119,15 @@ public:
   }
 
 private:
+  /// Quanta per step, at the full step.
+  static double velocity(Fixed u, Fixed fallen, Fixed kick, Fixed fall) {
+    return static_cast<double>(wrapped_sum(u, fallen))
+           + 0.5 * static_cast<double>(wrapped_sum(kick, fall));
+  }
+
   const Grains* grains_;
   Box box_;
-  Fixed fall_, fallen_;   // per step, and so far: quanta per step
+  Fall fall_, fallen_;    // per step, and so far
   double to_vx_, to_vy_;  // m/s per quantum per step
   double to_spin_;        // rad/s per quantum per step
 };
@@ -130,8 +148,5 @@ Grains ordered_by_id(const Grains& grains);
 
 /// 64-bit FNV-1a hash of all that the future depends on, the same for any order of the slots.
 std::uint64_t state_hash(const State& state);
-
-/// Gravity times dt^2 in quanta of y: the G of the formulae above.
-Fixed fall_per_step(const State& state);
 
 }  // namespace riesel

@@ -32,6 +32,7 @@ void ContactTally::merge(const ContactTally& other) {
 
 void WallImpulses::merge(const WallImpulses& other) {
   for (std::size_t wall = 0; wall < most_walls; ++wall) y[wall].add(other.y[wall]);
+  work.add(other.work);
 }
 
 void Tally::end(const Contact& contact, double reach) {

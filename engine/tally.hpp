@@ -44,6 +44,7 @@ struct ContactTally {
 struct WallImpulses {
   static constexpr std::size_t most_walls = 2;
   std::array<ExactSum, most_walls> y;  ///< kg m/s along y, by wall; together walls.impulse_y
+  ExactSum work;                       ///< J, done by walls that move, up to this step
 
   void add(const Contact& contact) {
     y[static_cast<std::size_t>(contact.name.wall)].add(contact.impulse_y);

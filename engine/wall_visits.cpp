@@ -21,6 +21,7 @@ double leaving_speed_squared(const Contact& c, double mass) {
 Span visit_span(const Contact& contact, double mass, double spacing, double gravity) {
   const double speed2 = leaving_speed_squared(contact, mass);
   const double path = 2.0 * spacing;
+  if (path == 0.0) return {contact.begin, contact.end};
   // spacing = speed t + gravity t^2 / 2
   const double time = path / (std::sqrt(speed2) + std::sqrt(speed2 + path * std::abs(gravity)));
   return {contact.begin, contact.end + time};

@@ -4,7 +4,8 @@
 // it if it begins before the grain has gone one spacing of the wall grains since an earlier contact
 // of that visit ended, at the speed with which that contact let it go. A grain that has not left
 // the reach of a wall of spacing s meets the next wall grain within a path of s; one that has left
-// comes back that soon only if another grain throws it back on the spot.
+// comes back that soon only if another grain throws it back on the spot. At a smooth wall each
+// contact is a visit.
 //
 // So each contact has a span, from its beginning to its end plus the time for that path, and
 // the visits are the connected pieces of the spans of one grain and one wall. That is a property of

@@ -1,6 +1,7 @@
 #include "engine/wall_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <tuple>
@@ -50,11 +51,12 @@ void WallWatch::look(State& state) const {
 void WallWatch::take_up(State& state) const {
   std::vector<WallVisit>& visits = state.open_visits;
   const auto old = static_cast<std::ptrdiff_t>(visits.size());
+  const double gravity = std::hypot(state.gravity.x, state.gravity.y);
   for (const Contact& contact : state.tally.ended_at_walls) {
     const double m = mass(contact.name.grain);
     const WallLattice& wall = state.walls[static_cast<std::size_t>(contact.name.wall)];
     state.tally.brakes.add(contact, model_, m);
-    visits.emplace_back(contact, visit_span(contact, m, wall.spacing(state.box), state.gravity));
+    visits.emplace_back(contact, visit_span(contact, m, wall.spacing(state.box), gravity));
   }
   state.tally.ended_at_walls.clear();
   std::sort(visits.begin() + old, visits.end(), earlier);

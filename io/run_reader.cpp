@@ -75,7 +75,9 @@ bool is_sound(const Grain& grain) {
 }
 
 bool is_sound(const WallLattice& wall) {
-  return std::isfinite(wall.line) && is_positive(wall.radius) && wall.count > 0;
+  const WallMotion& m = wall.motion;
+  return std::isfinite(wall.line) && wall.sound() && std::isfinite(m.velocity)
+         && std::isfinite(m.amplitude) && std::isfinite(m.frequency);
 }
 
 bool fits(const ContactName& name, const FinalState& state) {
@@ -84,8 +86,9 @@ bool fits(const ContactName& name, const FinalState& state) {
   };
   if (!is_index(name.grain, state.grains.size())) return false;
   if (name.wall == no_wall) return is_index(name.partner, state.grains.size());
-  return is_index(name.wall, state.walls.size())
-         && is_index(name.partner, state.walls[static_cast<std::size_t>(name.wall)].count);
+  if (!is_index(name.wall, state.walls.size())) return false;
+  const WallLattice& wall = state.walls[static_cast<std::size_t>(name.wall)];
+  return is_index(name.partner, wall.smooth() ? 1 : wall.count);
 }
 
 void check(const FinalState& state) {

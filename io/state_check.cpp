@@ -25,9 +25,12 @@ std::string flaw_of_scalars(const State& state) {
   if (!is_positive(state.box.width)) return "the width of the box is not positive";
   if (!is_positive(state.box.length)) return "the length of the box is not positive";
   if (!is_positive(state.time_step)) return "the time step is not positive";
-  if (!std::isfinite(state.gravity)) return "gravity is not finite";
-  if (!std::isfinite(state.origin.energy) || !std::isfinite(state.origin.momentum_y)) {
-    return "the energy or momentum at the start is not finite";
+  if (!std::isfinite(state.gravity.x) || !std::isfinite(state.gravity.y))
+    return "gravity is not finite";
+  const Origin& origin = state.origin;
+  if (!std::isfinite(origin.energy) || !std::isfinite(origin.momentum_y)
+      || !std::isfinite(origin.moment_x)) {
+    return "the energy, momentum or moment at the start is not finite";
   }
   if (state.step < 0) return "the number of steps is negative";
   return {};
@@ -37,10 +40,10 @@ std::string flaw_of_walls(const State& state) {
   for (std::size_t i = 0; i < state.walls.size(); ++i) {
     const auto& wall = state.walls[i];
     if (!std::isfinite(wall.line)) return fmt::format("the line of wall {} is not finite", i);
-    if (!is_positive(wall.radius)) return fmt::format("the radius of wall {} is not positive", i);
-    if (wall.count < 1 || wall.count > std::numeric_limits<std::int32_t>::max()) {
-      return fmt::format("wall {} has {} grains", i, wall.count);
-    }
+    if (!wall.motion.is_within(state.box, state.time_step))
+      return fmt::format("wall {} moves too far or too fast", i);
+    if (!wall.sound() || wall.count > std::numeric_limits<std::int32_t>::max())
+      return fmt::format("wall {} has {} grains of radius {}", i, wall.count, wall.radius);
   }
   return {};
 }
@@ -71,13 +74,17 @@ std::string flaw_of_grains(const Grains& grains) {
   return {};
 }
 
+/// A smooth wall has one point that all touch.
+std::size_t partners_at(const WallLattice& wall) {
+  return wall.smooth() ? 1 : static_cast<std::size_t>(wall.count);
+}
+
 bool names_bodies_of(const State& state, const ContactName& name) {
   const auto n = state.grains.size();
   if (!is_index(name.grain, n)) return false;
   if (name.wall == no_wall) return is_index(name.partner, n) && name.grain < name.partner;
   if (!is_index(name.wall, state.walls.size())) return false;
-  const auto& wall = state.walls[static_cast<std::size_t>(name.wall)];
-  return is_index(name.partner, static_cast<std::size_t>(wall.count));
+  return is_index(name.partner, partners_at(state.walls[static_cast<std::size_t>(name.wall)]));
 }
 
 bool is_finite(const Contact& contact) {

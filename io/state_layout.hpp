@@ -106,13 +106,21 @@ void for_each_member(Visit visit) {
 /// Calls visit(name, unit, member) for each member of a wall; member(wall) is the member.
 template <std::same_as<WallLattice> Record, class Visit>
 void for_each_member(Visit visit) {
-  static_assert(sizeof(WallLattice) == 2 * sizeof(double) + sizeof(std::int64_t));
+  static_assert(sizeof(WallLattice) == 5 * sizeof(double) + 2 * sizeof(std::int64_t));
   visit(
       "line", "m", [](auto& wall) -> auto& { return wall.line; });
   visit(
       "radius", "m", [](auto& wall) -> auto& { return wall.radius; });
   visit(
       "count", "1", [](auto& wall) -> auto& { return wall.count; });
+  visit(
+      "velocity", "m/s", [](auto& wall) -> auto& { return wall.motion.velocity; });
+  visit(
+      "amplitude", "m", [](auto& wall) -> auto& { return wall.motion.amplitude; });
+  visit(
+      "frequency", "1/s", [](auto& wall) -> auto& { return wall.motion.frequency; });
+  visit(
+      "start", "2^-64 of the period", [](auto& wall) -> auto& { return wall.motion.start; });
 }
 
 template <class Any, class T>
@@ -140,9 +148,10 @@ void for_each_value(AnyTally& tally, Visit visit) {
 
 template <MaybeConst<WallImpulses> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
-  auto& [y] = tally;
+  auto& [y, work] = tally;
   visit("left_y", y[0]);
   visit("right_y", y[1]);
+  visit("work", work);
 }
 
 template <MaybeConst<BrakeTally> AnyTally, class Visit>
@@ -192,14 +201,16 @@ void for_each_scalar(AnyState& state, Visit visit) {
   auto& [box, walls, gravity, time_step, step, grains, contacts, open_visits, tally, origin] =
       state;
   auto& [width, length] = box;
-  auto& [energy, momentum_y] = origin;
+  auto& [energy, momentum_y, moment_x] = origin;
   visit("box_width", width);
   visit("box_length", length);
-  visit("gravity", gravity);
+  visit("gravity_x", gravity.x);
+  visit("gravity_y", gravity.y);
   visit("time_step", time_step);
   visit("step", step);
   visit("origin_energy", energy);
   visit("origin_momentum_y", momentum_y);
+  visit("origin_moment_x", moment_x);
   visit("inertia", grains.inertia);
 }
 

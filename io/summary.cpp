@@ -116,6 +116,7 @@ std::string to_json(const FlowSummary& s) {
   json["time"] = s.time;
   json["ended_by"] = s.ended_by;
   json["state"] = s.state;
+  json["judged_by"] = s.judged_by;
   json["mean_axial_velocity"] = measured(s.mean_axial_velocity);
   json["transient_end"] = s.transient_end;
   json["independent_samples"] = s.independent_samples;
@@ -126,14 +127,12 @@ std::string to_json(const FlowSummary& s) {
   json["balance"] = balance(s.balance);
   json["grain_contact_rate"] = measured(s.grain_contact_rate);
   json["braking_force"] = braking_force(s.braking_force);
-  json["energy"] = {{"initial", s.energy.initial},
-                    {"kinetic", s.energy.kinetic},
-                    {"rotational", s.energy.rotational},
-                    {"elastic", s.energy.elastic},
-                    {"gravity_work", s.energy.gravity_work},
-                    {"normal_loss", s.energy.normal_loss},
-                    {"friction_loss", s.energy.friction_loss},
-                    {"residual", s.energy.residual}};
+  json["energy"] = {
+      {"initial", s.energy.initial},           {"kinetic", s.energy.kinetic},
+      {"rotational", s.energy.rotational},     {"elastic", s.energy.elastic},
+      {"gravity_work", s.energy.gravity_work}, {"wall_work", s.energy.wall_work},
+      {"normal_loss", s.energy.normal_loss},   {"friction_loss", s.energy.friction_loss},
+      {"residual", s.energy.residual}};
   json["wall_visits"] = wall_visits(s.wall_visits);
   json["validity"] = validity(s);
   return text_of(json);

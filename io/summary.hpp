@@ -42,7 +42,8 @@ struct FlowSummary {
   /// Why the run ended: `duration`, `precision` (its mean is known as well as was asked for) or
   /// `at_most` (it is not, and the time was up).
   std::string ended_by = "duration";
-  std::string state;  ///< steady, accelerating, drifting or too_short
+  std::string state;                  ///< steady, accelerating, drifting or too_short
+  std::string judged_by = "mean_vy";  ///< the series that `state` is a verdict on
   Measured mean_axial_velocity;
   double independent_samples = 0.0;
   double granular_temperature = 0.0;  ///< (m/s)^2
@@ -83,7 +84,7 @@ struct FlowSummary {
   /// J; since the start, but kinetic, rotational and elastic energy are those at the end.
   struct Energy {
     double initial = 0.0, kinetic = 0.0, rotational = 0.0, elastic = 0.0, gravity_work = 0.0,
-           normal_loss = 0.0, friction_loss = 0.0, residual = 0.0;
+           wall_work = 0.0, normal_loss = 0.0, friction_loss = 0.0, residual = 0.0;
   } energy;
 
   /// What grains do at a wall between coming and going.

@@ -67,6 +67,7 @@ FlowSummary::Energy read_energy(const Json& json) {
           .rotational = json.contains("rotational") ? number(json, "rotational") : 0.0,
           .elastic = number(json, "elastic"),
           .gravity_work = number(json, "gravity_work"),
+          .wall_work = number(json, "wall_work"),
           .normal_loss = number(json, "normal_loss"),
           .friction_loss = number(json, "friction_loss"),
           .residual = number(json, "residual")};
@@ -190,6 +191,7 @@ FlowSummary read_flow(const Json& json) {
           .transient_end = number(json, "transient_end"),
           .ended_by = json.value("ended_by", "duration"),  // once all runs did
           .state = json.at("state"),
+          .judged_by = json.value("judged_by", "mean_vy"),  // once all flows were
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
           .independent_samples = number(json, "independent_samples"),
           .granular_temperature = number(json, "granular_temperature"),

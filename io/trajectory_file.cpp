@@ -40,9 +40,13 @@ std::uint64_t frames_in_a_block(std::uint64_t grains) {
   return std::clamp<std::uint64_t>(bytes_of_a_chunk / size, 1, most_frames_in_a_block);
 }
 
+/// What is written of walls is written once: no wall that moves.
+bool stands(const WallLattice& wall) { return !wall.motion.is_there(); }
+
 TrajectoryFacts facts_of(const State& state, const std::string& settings) {
   std::uint64_t wall_grains = 0;
-  for (const auto& wall : state.walls) wall_grains += static_cast<std::uint64_t>(wall.count);
+  for (const auto& wall : state.walls)
+    if (stands(wall)) wall_grains += static_cast<std::uint64_t>(wall.count);
   const auto& radii = state.grains.radius;
   return {.grains = state.grains.size(),
           .wall_grains = wall_grains,
@@ -77,7 +81,7 @@ std::string fixed_arrays_of(const State& state) {
     mass.push_back(state.grains.mass[slot]);
   }
   for (const auto& wall : state.walls)
-    for (std::int64_t k = 0; k < wall.count; ++k) {
+    for (std::int64_t k = 0; k < (stands(wall) ? wall.count : 0); ++k) {
       const double y = static_cast<double>(k) * wall.spacing(state.box);
       wall_position.insert(wall_position.end(),
                            {static_cast<float>(wall.line), static_cast<float>(y), 0.0F});

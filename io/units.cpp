@@ -181,6 +181,7 @@ UnitDescription describe_unit(const std::string& si_unit) {
       {"s", {"a time", "2 s"}},
       {"1/s", {"a rate", "1e4 1/s"}},
       {"m/s", {"a velocity", "0.5 m/s"}},
+      {"rad", {"an angle", "20 degrees"}},
       {"m/s^2", {"an acceleration", "10 m/s^2"}},
       {"N/m", {"a stiffness", "2000 N/m"}},
       {"N", {"a force", "1 mN"}},

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <variant>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace riesel::scenarios {
 namespace {
 
 constexpr auto from_key = "start.from";
+constexpr std::array carried_sections = {"grains", "wall", "tube", "chute", "cell"};
 
 io::Checkpoint checkpoint_of(const io::Settings& settings) {
   try {
@@ -28,8 +31,8 @@ io::Checkpoint checkpoint_of(const io::Settings& settings) {
 void reject_other_grains_or_tube(const io::Settings& settings, const io::Settings& earlier) {
   for (const auto& row : settings_tables().at(settings.scenario())) {
     const std::string section = io::section_of(row.key);
-    const bool carried_over = section == "grains" || section == "wall" || section == "tube";
-    if (!carried_over || !earlier.has(row.key)  // of grains from a file
+    const bool carried_over = std::ranges::count(carried_sections, section) > 0;
+    if (!carried_over || can_continue_along(row.key) || !earlier.has(row.key)  // of a file
         || settings.written(row.key) == earlier.written(row.key))
       continue;
     settings.reject(row.key,
@@ -91,12 +94,17 @@ void take_over(const State& earlier, const ContactModel& model, State& state) {
     g.spin_kick[i] = rescaled(earlier.grains.spin_kick[i]);
     g.spin[i] -= g.spin_kick[i] / 2;
   }
+  for (std::size_t wall = 0; wall < state.walls.size(); ++wall)
+    state.walls[wall].motion.start =
+        earlier.walls[wall].motion.shift(earlier.box, earlier.time_step, earlier.step);
   for (const Contact& contact : earlier.contacts)
     state.contacts.push_back(carried_over(contact, earlier.time(), model));
 }
 
 bool can_continue_along(const std::string& key) {
-  return key == "gravity" || key.starts_with("contact.") || key.starts_with("run.");
+  return key == "gravity" || key == "tube.tilt" || key == "chute.inclination"
+         || key == "cell.velocity" || key.starts_with("wall.shake_") || key.starts_with("contact.")
+         || key.starts_with("run.");
 }
 
 }  // namespace riesel::scenarios

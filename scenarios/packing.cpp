@@ -121,7 +121,7 @@ private:
   static State start(const State& empty, const std::vector<Place>& places,
                      const std::vector<double>& radii) {
     State state = empty;
-    state.gravity = 0.0;
+    state.gravity = {};
     state.time_step = collision_time(model().normal, 0.5 * mass, 0.0) / steps_per_collision;
     for (std::size_t i = 0; i < places.size(); ++i)
       add_grain(state, {.x = places[i].x,

@@ -10,15 +10,15 @@ Scenario single_wall_grain();
 Scenario wall_array();
 Scenario bead_column();
 Scenario periodic_tube();
+Scenario inclined_chute();
+Scenario shear_cell();
 
 namespace {
 
 struct Registry {
   std::vector<Scenario> scenarios = {
-      single_wall_grain(),
-      wall_array(),
-      bead_column(),
-      periodic_tube(),
+      single_wall_grain(), wall_array(),     bead_column(),
+      periodic_tube(),     inclined_chute(), shear_cell(),
   };
   std::vector<Law> laws;
   bool in_use = false;  // the tables of settings have been made of it

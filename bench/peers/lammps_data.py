@@ -38,7 +38,7 @@ def read_state(path):
         grains = file["grains"]
         qx, qy = grains.attrs["quantum_x"], grains.attrs["quantum_y"]
         dt = file.attrs["time_step"]
-        fall = np.int64(np.rint(file.attrs["gravity"] * dt * dt / qy))
+        fall = np.int64(np.rint(file.attrs["gravity_y"] * dt * dt / qy))
         with np.errstate(over="ignore"):  # integers wrap, as they do in the engine
             falling = grains["uy"][:] + fall * np.int64(file.attrs["step"])
         length = float(file.attrs["box_length"])

@@ -30,7 +30,7 @@ State small_tube() {
   state.box = {.width = 10e-3, .length = 8e-3};
   state.walls = {{.line = 0.0, .radius = 0.33e-3, .count = 8},
                  {.line = 10e-3, .radius = 0.33e-3, .count = 8}};
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   state.time_step = 1e-6;
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 7; ++column) {

@@ -55,7 +55,7 @@ MISTAKES_IN_FILES = {
         ["contact.law:", "linear, power or hertz", "did you mean 'hertz'?"]),
     "unknown scenario": (
         "periodic_tube", "periodic_pipe", "1:11",
-        ["scenario:", "periodic_tube, single_wall_grain or wall_array", "'periodic_pipe'"]),
+        ["scenario:", "periodic_tube, shear_cell, single_wall_grain or wall_array", "'periodic_pipe'"]),
     "missing scenario": (
         "scenario: periodic_tube\n", "", "1:1", ["scenario:", "missing", "periodic_tube"]),
     "integer with a fraction": (

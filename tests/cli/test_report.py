@@ -228,7 +228,7 @@ class OtherRuns(Report):
                                   "tube.length=3 m")
         page = self.report_on(out)
         shown, drawn, grains = re.search(
-            r"Only a part of the tube, ([\d.]+) mm of 3000 mm from y = 0 on: (\d+) of (\d+) grains",
+            r"Only a part of the flow, ([\d.]+) mm of 3000 mm from y = 0 on: (\d+) of (\d+) grains",
             page.text).groups()
         with h5py.File(out / "run.h5", "r") as file:
             y = file["final/position"][:, 1]

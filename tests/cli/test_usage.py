@@ -81,8 +81,9 @@ class Usage(CommandTest):
         self.assert_done(result)
         lines = result.stdout.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["single_wall_grain", "wall_array", "bead_column", "periodic_tube"])
+                         ["single_wall_grain", "wall_array", "bead_column", "periodic_tube", "inclined_chute",
+                          "shear_cell"])
         for line in lines:
-            self.assertRegex(line, r"\((Figs?\. \d|Luding et al\. \d)")
+            self.assertRegex(line, r"\((Figs?\. \d|[A-Z].*\d{4})")
         self.assertEqual({line.split()[0] for line in lines},
                          {path.stem for path in SHIPPED.glob("*.yaml")})

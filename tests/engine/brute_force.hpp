@@ -46,7 +46,7 @@ public:
   Stepper(const State& state, const ContactModel& model)
       : box_(state.box),
         walls_(state.walls),
-        gravity_(0.0, state.gravity),
+        gravity_(state.gravity.x, state.gravity.y),
         dt_(state.time_step),
         model_(model),
         inertia_(state.grains.inertia),
@@ -83,9 +83,9 @@ public:
         accelerations[j] -= t / b.mass;
       }
       for (std::size_t w = 0; w < walls_.size(); ++w)
-        for (std::int64_t k = 0; k < walls_[w].count; ++k) {
+        for (std::int64_t k = 0; k < std::max<std::int64_t>(walls_[w].count, 1); ++k) {
           const auto who = name(static_cast<int>(w), i, static_cast<std::size_t>(k));
-          Body fixed = wall_grain(walls_[w], k);
+          Body fixed = wall_grain(walls_[w], k, bodies_[i].position.y());
           const auto t = try_touch(bodies_[i], fixed, bodies_[i].mass, who, now);
           accelerations[i] += t / bodies_[i].mass;
           impulse_of_wall_[w] += dt_ * t;
@@ -120,11 +120,16 @@ private:
     return {wall, static_cast<std::int32_t>(grain), static_cast<std::int32_t>(partner)};
   }
 
-  Body wall_grain(const WallLattice& wall, std::int64_t k) const {
+  /// The place of a smooth wall that a grain at `level` (m) touches is level with it.
+  Body wall_grain(const WallLattice& wall, std::int64_t k, double level) const {
     const double y = static_cast<double>(k) * box_.length / static_cast<double>(wall.count);
-    return {.position = {wall.line, y},
-            .half_step_velocity = Vector2d::Zero(),
-            .acceleration = Vector2d::Zero(),
+    const auto way = [&](std::int64_t step) {
+      return wall.motion.way(box_, static_cast<double>(step) * dt_);
+    };
+    const double before = way(step_) - way(step_ - 1), after = way(step_ + 1) - way(step_);
+    return {.position = {wall.line, wall.smooth() ? level : y + way(step_)},
+            .half_step_velocity = {0.0, before / dt_},
+            .acceleration = {0.0, (after - before) / (dt_ * dt_)},
             .radius = wall.radius,
             .mass = 0.0,
             .spin = {}};
@@ -168,7 +173,8 @@ private:
                               .part_second = j,
                               .per_inertia_first = per_inertia(a),
                               .per_inertia_second = per_inertia(b),
-                              .rolling_arm = model_.rolling_friction * i * b.radius},
+                              .rolling_arm = model_.rolling_friction
+                                             * (b.radius > 0.0 ? i * b.radius : a.radius)},
                       stretch);
     };
 

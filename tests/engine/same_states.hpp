@@ -56,10 +56,12 @@ inline bool same(const State& a, const State& b) {
          && all_of(a.tally.grains) == all_of(b.tally.grains)
          && all_of(a.tally.walls) == all_of(b.tally.walls)
          && a.tally.impulses.y == b.tally.impulses.y
+         && a.tally.impulses.work == b.tally.impulses.work
          && all_of(a.tally.brakes) == all_of(b.tally.brakes)
          && all_of(a.tally.visits) == all_of(b.tally.visits) && a.tally.ended_at_walls.empty()
          && b.tally.ended_at_walls.empty() && a.origin.energy == b.origin.energy
-         && a.origin.momentum_y == b.origin.momentum_y && state_hash(a) == state_hash(b)
+         && a.origin.momentum_y == b.origin.momentum_y && a.origin.moment_x == b.origin.moment_x
+         && state_hash(a) == state_hash(b)
          && observe(a).energies.residual == observe(b).energies.residual;
 }
 

@@ -122,7 +122,7 @@ inline void throw_grains(State& state, std::size_t count, const Throw& where, Di
 /// A crowded piece of the corrugated tube, in which every grain soon touches others and the walls.
 inline State small_tube(std::uint64_t seed, std::size_t grains = 40, double inertia = 0.0) {
   State state = empty_box(8e-3, 9.6e-3);
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   state.grains.inertia = inertia;
   add_walls(state, 8);
   Dice dice(seed);

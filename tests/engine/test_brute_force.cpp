@@ -93,6 +93,67 @@ TEST_CASE("grains that rotate go as by brute force") {
   CHECK(agree(small_tube(4, 40, disc), 300, model).pairs_begun > 10);
 }
 
+TEST_CASE("grains under gravity at an angle go as by brute force") {
+  // So much of it that the fall to a wall is a good part of what happens.
+  const auto [x, y] =
+      GENERATE(std::pair{-800.0, 0.0}, std::pair{500.0, 500.0}, std::pair{-5.0, 8.0});
+  State state = small_tube(18);
+  state.gravity = {.x = x, .y = y};
+  const Events events = agree(state, 800);
+  CHECK(events.pairs_begun > 20);
+  CHECK(events.walls_begun > 5);
+}
+
+TEST_CASE("grains that gravity alone brings to a wall go as by brute force") {
+  // From so far away that their candidates are listed anew on the way, and thrown against it.
+  State state = empty_box(20e-3, 9.6e-3);
+  state.gravity = {.x = -3000.0, .y = 0.0};
+  state.walls = {{.line = 0.0, .radius = wall_radius, .count = 8}};
+  Dice dice(19);
+  throw_grains(state, 12, {.left = 4e-3, .right = 12e-3, .low = 0.0, .high = 9.6e-3, .speed = 0.3},
+               dice);
+  add_grain(state, grain(14e-3, 1e-3, 2.0, 0.0));
+  CHECK(agree(state, 4000, frictionless(0.3 * damping)).walls_begun > 12);
+}
+
+TEST_CASE("grains between smooth walls go as by brute force") {
+  const double inertia = GENERATE(0.0, disc);
+  State state = small_tube(20, 40, inertia);
+  for (WallLattice& wall : state.walls) wall = WallLattice::smooth_at(wall.line);
+  state.gravity = {.x = -300.0, .y = 100.0};
+  const Events events = agree(state, 800, inertia > 0.0 ? rolling_model() : paper_model());
+  CHECK(events.pairs_begun > 20);
+  CHECK(events.walls_begun > 5);
+}
+
+TEST_CASE("grains between walls that move go as by brute force") {
+  State state = small_tube(22);
+  SECTION("at constant velocity") {
+    state.walls[0].motion.velocity = -6.0;
+    state.walls[1].motion.velocity = 20.0;
+  }
+  SECTION("to and fro") {
+    for (WallLattice& wall : state.walls)
+      wall.motion = {.velocity = 0.5, .amplitude = 1e-3, .frequency = 2000.0};
+  }
+  SECTION("smooth ones") {
+    for (WallLattice& wall : state.walls)
+      wall = {.line = wall.line, .radius = 0.0, .count = 0, .motion = {.velocity = 9.0}};
+  }
+  const Events events = agree(state, 800);
+  CHECK(events.pairs_begun > 20);
+  CHECK(events.walls_begun > 5);
+}
+
+TEST_CASE("a wall sweeps a grain that rests beside it along") {
+  // Nothing else moves: only the wall brings the two together.
+  State state = empty_box(8e-3, 9.6e-3);
+  add_walls(state, 4);
+  state.walls[0].motion.velocity = 2.0;
+  add_grain(state, grain(0.6e-3, 1.2e-3, 0.0, 0.0));
+  CHECK(agree(state, 1500).walls_begun >= 1);
+}
+
 TEST_CASE("a cluster in a large box goes as by brute force") {
   State state = empty_box(40e-3, 40e-3);
   Dice dice(5);
@@ -154,7 +215,7 @@ TEST_CASE("grains of very different size go as by brute force") {
 TEST_CASE("a crowded tube of grains of two sizes goes as by brute force") {
   const std::uint64_t seed = GENERATE(as<std::uint64_t>{}, 1, 2);
   State state = empty_box(10e-3, 14.4e-3);
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   add_walls(state, 18);
   Dice dice(seed);
   for (const auto& [grains, mean_radius] : {std::pair{5, 1e-3}, std::pair{110, 0.2e-3}})
@@ -198,7 +259,7 @@ TEST_CASE("fast intruders go as by brute force") {
 
 TEST_CASE("grains that all fall at 50 m/s go as by brute force") {
   State state = empty_box(8e-3, 10e-3);
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   Dice dice(14);
   throw_grains(
       state, 35,

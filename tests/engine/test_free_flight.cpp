@@ -15,7 +15,7 @@ constexpr std::int64_t million = 1'000'000;
 /// may have.
 State falling(double length, double dt, double vy) {
   State state = empty_box(10e-3, length);
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   state.time_step = dt;
   add_grain(state, grain(5e-3, 0.0, 0.0, vy));
   return state;
@@ -26,7 +26,7 @@ State falling(double length, double dt, double vy) {
 TEST_CASE("a falling grain is where G n^2 / 2 says, to the quantum, after a million steps") {
   const State start = falling(0.1, 1e-6, 0.0);
   const State end = advanced(start, paper_model(), million);
-  const Fixed g = fall_per_step(start);
+  const Fixed g = fall_per_step(start).y;
   // Half of an odd G is cut off in the first velocity: one half quantum per step.
   const Fixed exact = wrapped_sum(wrapped_product(million, start.grains.uy[0]),
                                   wrapped_product(g, million * (million + 1) / 2));
@@ -39,12 +39,29 @@ TEST_CASE("a falling grain follows g t^2 / 2 to the quantum of gravity") {
   const double length = GENERATE(0.01, 0.1, 1.0);
   const State start = falling(length, 1e-6, 2.0);
   const State end = advanced(start, paper_model(), million);
-  const double t = 1.0, g = start.gravity;
-  const double rounding_of_g = 0.5 / static_cast<double>(fall_per_step(start));
+  const double t = 1.0, g = start.gravity.y;
+  const double rounding_of_g = 0.5 / static_cast<double>(fall_per_step(start).y);
   CHECK(rounding_of_g < 3e-9);
   const double fallen = std::remainder(grain_at(end, 0).y - (2.0 * t + 0.5 * g * t * t), length);
   CHECK(std::abs(fallen) < 0.5 * g * t * t * rounding_of_g + 1e-12);
   CHECK(std::abs(grain_at(end, 0).vy - (2.0 + g * t)) < g * t * rounding_of_g + 1e-12);
+}
+
+TEST_CASE("under gravity at an angle a thrown grain flies its parabola") {
+  State state = falling(0.1, 1e-6, 2.0);
+  state.gravity = {.x = -6.0, .y = 8.0};
+  state.grains = {};
+  add_grain(state, grain(5e-3, 0.0, 0.3, 2.0));
+  const State end = advanced(state, paper_model(), 100'000);
+  const double t = 0.1;
+  // Gravity is rounded to half a quantum per step^2, which along x are coarser.
+  const double rounding_of_g = 0.5 / static_cast<double>(std::abs(fall_per_step(state).x));
+  CHECK(rounding_of_g < 3e-9);
+  const Grain there = grain_at(end, 0);
+  CHECK(there.x == Approx(5e-3 + 0.3 * t - 3.0 * t * t).epsilon(1e-8));
+  CHECK(there.vx == Approx(0.3 - 6.0 * t).epsilon(1e-8));
+  CHECK(std::abs(std::remainder(there.y - (2.0 * t + 4.0 * t * t), 0.1)) < 1e-9);
+  CHECK(there.vy == Approx(2.0 + 8.0 * t).epsilon(1e-8));
 }
 
 TEST_CASE("a fast grain crosses the seam many times") {
@@ -69,7 +86,7 @@ TEST_CASE("a grain crosses the seam upwards too") {
 TEST_CASE("the common fall goes on when velocities exceed a period per step") {
   // U in the falling frame wraps; differences of velocities do not mind.
   State state = empty_box(10e-3, 5e-3);
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   state.time_step = 1e-6;
   for (const double y : {1e-3, 3e-3}) add_grain(state, grain(5e-3, y, 0.0, 100.0));
   const State end = advanced(state, paper_model(), 50'000);
@@ -80,7 +97,7 @@ TEST_CASE("the common fall goes on when velocities exceed a period per step") {
 
 TEST_CASE("what is put in comes out") {
   State state = empty_box(10e-3, 30e-3);
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   const Grain in{.x = 3.3e-3, .y = -1e-3, .vx = -1.7, .vy = 23.0, .radius = 0.4e-3, .mass = 2e-6};
   add_grain(state, in);
   const Grain out = grain_at(state, 0);

@@ -12,7 +12,7 @@ namespace {
 /// Two grains of unequal mass in a box of 10 mm.
 State pair_of_grains(double gravity = 0.0) {
   State state = empty_box(10e-3, 20e-3);
-  state.gravity = gravity;
+  state.gravity.y = gravity;
   add_grain(state, {.x = 2e-3, .y = 3e-3, .vx = 1.0, .vy = 5.0, .radius = radius, .mass = 1e-6});
   add_grain(state, {.x = 8e-3, .y = 9e-3, .vx = -3.0, .vy = 1.0, .radius = radius, .mass = 2e-6});
   return state;
@@ -53,12 +53,34 @@ TEST_CASE("a falling pair gains what gravity does") {
   CHECK(std::abs(e.residual) < 1e-8 * e.kinetic);  // g is rounded to a quantum
 }
 
+TEST_CASE("a pair falling at an angle gains what gravity does") {
+  State state = pair_of_grains(10.0);
+  state.gravity.x = -0.5;
+  state.grains.ux = {0, 0};
+  const State end = advanced(state, paper_model(), 50'000);  // 0.05 s
+  const Energies e = observe(end).energies;
+  const double t = 0.05, along = 10.0 * (7e-6 * t + 0.5 * 3e-6 * 10.0 * t * t);
+  CHECK(e.gravity_work == Approx(along + 0.5 * 3e-6 * 0.25 * t * t).epsilon(1e-7));
+  CHECK(std::abs(e.residual) < 1e-7 * e.kinetic);
+}
+
 TEST_CASE("grains beyond a wall line are counted as outside") {
   State state = pair_of_grains();
+  add_walls(state, 10);
   CHECK(observe(state).outside == 0.0);
   add_grain(state, grain(-0.1e-3, 1e-3, 0.0, 0.0));
   add_grain(state, grain(10.1e-3, 1e-3, 0.0, 0.0));
   CHECK(observe(state).outside == 2.0);
+}
+
+TEST_CASE("where there is no wall no grain is outside") {
+  State state = pair_of_grains();
+  add_walls(state, 10);
+  state.walls.pop_back();
+  add_grain(state, grain(10.1e-3, 1e-3, 0.0, 0.0));
+  CHECK(observe(state).outside == 0.0);
+  add_grain(state, grain(-0.1e-3, 1e-3, 0.0, 0.0));
+  CHECK(observe(state).outside == 1.0);
 }
 
 TEST_CASE("lasting contacts count before they end") {

@@ -47,7 +47,8 @@ TEST_CASE("the hash notices every part of the motion") {
   CHECK(noticed([](State& s) { std::swap(s.grains.id[3], s.grains.id[4]); }));
   CHECK(noticed([](State& s) { ++s.step; }));
   CHECK(noticed([](State& s) { s.time_step *= 2.0; }));
-  CHECK(noticed([](State& s) { s.gravity = 9.81; }));
+  CHECK(noticed([](State& s) { s.gravity.y = 9.81; }));
+  CHECK(noticed([](State& s) { s.gravity.x = 1e-9; }));
   CHECK(noticed([](State& s) { s.box.width *= 2.0; }));
   CHECK(noticed([](State& s) { s.box.length *= 2.0; }));
 }
@@ -97,6 +98,20 @@ TEST_CASE("the hash notices what the balances and the tally will need") {
   CHECK(noticed([](State& s) { s.tally.walls.impulse_y_times_step.add(1e-20); }));
   CHECK(noticed([](State& s) { s.origin.energy *= 2.0; }));
   CHECK(noticed([](State& s) { s.origin.momentum_y *= 2.0; }));
+}
+
+TEST_CASE("the hash notices where the grains began where gravity is at an angle") {
+  State tilted = state();
+  tilted.gravity.x = -1.0;
+  State other = tilted;
+  other.origin.moment_x += 1e-15;
+  CHECK(state_hash(other) != state_hash(tilted));
+}
+
+TEST_CASE("the hash notices walls that move, and their work") {
+  CHECK(noticed([](State& s) { s.walls[0].motion.velocity = 1e-9; }));
+  CHECK(noticed([](State& s) { s.walls[1].motion = {.amplitude = 1e-9, .frequency = 1.0}; }));
+  CHECK(noticed([](State& s) { s.tally.impulses.work.add(1e-20); }));
 }
 
 TEST_CASE("the hash notices contacts as brakes, and visits") {

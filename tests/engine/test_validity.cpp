@@ -12,7 +12,7 @@ namespace {
 
 /// Evidence of grains as hard as one could wish.
 constexpr Evidence hard = {.max_overlap_ratio = 0.01,
-                           .brake_failure_fraction = 0.001,
+                           .brake_failure_fraction = 0.02,
                            .passages_per_visit = 0.01,
                            .wall_speed_ratio = 0.1,
                            .pulling_fraction = 0.05,
@@ -66,6 +66,16 @@ TEST_CASE("each threshold separates two verdicts") {
   CHECK(verdict_with(c.member, 1.01 * c.suspect) == Validity::suspect);
   CHECK(verdict_with(c.member, 0.99 * c.unphysical) == Validity::suspect);
   CHECK(verdict_with(c.member, 1.01 * c.unphysical) == Validity::unphysical);
+}
+
+TEST_CASE("short contacts that brake next to nothing are no passages") {
+  Evidence dense = hard;
+  dense.brake_failure_fraction = 0.009;
+  dense.passages_per_visit = 5.0;
+  CHECK(judge(dense).verdict == Validity::valid);
+  CHECK(judge(dense).findings[2].value == 5.0);
+  dense.brake_failure_fraction = 0.011;
+  CHECK(judge(dense).verdict == Validity::unphysical);
 }
 
 TEST_CASE("contacts that pull are never more than suspect") {

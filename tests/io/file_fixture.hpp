@@ -146,6 +146,7 @@ inline riesel::Tally whole_tally() {
   riesel::Tally whole;
   whole.grains = tally(-2.5);
   whole.walls = tally(1e10 / 3.0);
+  whole.impulses.work.add(7e-3 / 3.0);
   whole.impulses.y[0].add(-4e-3 / 3.0);
   whole.impulses.y[1].add(-5e-3 / 3.0);
   auto& b = whole.brakes;
@@ -174,9 +175,14 @@ inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
   constexpr auto denormal = std::numeric_limits<double>::denorm_min();
   riesel::State state;
   state.box = {.width = 0.1 / 3.0, .length = 0.1};
-  state.walls = {{.line = -0.0, .radius = 3.3e-4, .count = 83},
-                 {.line = 0.02, .radius = 1e-4, .count = 1}};
-  state.gravity = -0.0;
+  state.walls = {
+      {.line = -0.0, .radius = 3.3e-4, .count = 83},
+      {.line = 0.02,
+       .radius = 0.0,
+       .count = 0,
+       .motion = {
+           .velocity = -1.0 / 3.0, .amplitude = 1e-5, .frequency = 100.0 / 7.0, .start = least}}};
+  state.gravity.y = -0.0;
   state.time_step = 1e-6 / 3.0;
   state.step = most;
   auto& grains = state.grains;
@@ -205,7 +211,7 @@ inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
   state.open_visits = {visit(0, 0, -1.0 / 3.0), visit(0, 0, 0.1), visit(1, 3, denormal)};
   state.open_visits[2].span.end = std::numeric_limits<double>::infinity();
   state.tally = whole_tally();
-  state.origin = {.energy = 1.0 / 7.0, .momentum_y = -0.0};
+  state.origin = {.energy = 1.0 / 7.0, .momentum_y = -0.0, .moment_x = 1.0 / 11.0};
   return state;
 }
 
@@ -284,12 +290,15 @@ private:
 
 inline std::string bits_of(const riesel::State& state) {
   Bits bits;
-  bits.add_all(std::vector{state.box.width, state.box.length, state.gravity, state.time_step,
-                           state.origin.energy, state.origin.momentum_y});
+  bits.add_all(std::vector{state.box.width, state.box.length, state.gravity.x, state.gravity.y,
+                           state.time_step, state.origin.energy, state.origin.momentum_y,
+                           state.origin.moment_x});
   bits.add(state.step);
   for (const auto& wall : state.walls) {
-    bits.add_all(std::vector{wall.line, wall.radius});
+    bits.add_all(std::vector{wall.line, wall.radius, wall.motion.velocity, wall.motion.amplitude,
+                             wall.motion.frequency});
     bits.add(wall.count);
+    bits.add(wall.motion.start);
   }
   const auto& g = state.grains;
   for (const auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y, &g.spin, &g.spin_kick})
@@ -303,6 +312,7 @@ inline std::string bits_of(const riesel::State& state) {
   bits.add(state.tally.grains);
   bits.add(state.tally.walls);
   for (const auto& sum : state.tally.impulses.y) bits.add(sum);
+  bits.add(state.tally.impulses.work);
   bits.add(state.tally.brakes);
   bits.add(state.tally.visits);
   return bits.value();

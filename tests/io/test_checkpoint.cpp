@@ -274,15 +274,21 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
   CHECK(refusal([](auto& c) { c.state.box.length = infinity; })
         == "the length of the box is not positive");
   CHECK(refusal([](auto& c) { c.state.time_step = -1.0; }) == "the time step is not positive");
-  CHECK(refusal([](auto& c) { c.state.gravity = nan; }) == "gravity is not finite");
+  CHECK(refusal([](auto& c) { c.state.gravity.y = nan; }) == "gravity is not finite");
+  CHECK(refusal([](auto& c) { c.state.gravity.x = nan; }) == "gravity is not finite");
   CHECK(refusal([](auto& c) { c.state.origin.energy = nan; })
-        == "the energy or momentum at the start is not finite");
+        == "the energy, momentum or moment at the start is not finite");
   CHECK(refusal([](auto& c) { c.state.step = -1; }) == "the number of steps is negative");
   CHECK(refusal([](auto& c) { c.state.walls[0].line = nan; })
         == "the line of wall 0 is not finite");
-  CHECK(refusal([](auto& c) { c.state.walls[1].radius = 0.0; })
-        == "the radius of wall 1 is not positive");
-  CHECK(refusal([](auto& c) { c.state.walls[1].count = 0; }) == "wall 1 has 0 grains");
+  CHECK(refusal([](auto& c) { c.state.walls[0].radius = 0.0; })
+        == "wall 0 has 83 grains of radius 0");
+  CHECK(refusal([](auto& c) { c.state.walls[0].count = 0; })
+        == "wall 0 has 0 grains of radius 0.00033");
+  CHECK(refusal([](auto& c) { c.state.walls[1].motion.velocity = 1e300; })
+        == "wall 1 moves too far or too fast");
+  CHECK(refusal([](auto& c) { c.state.walls[1].motion.frequency = nan; })
+        == "wall 1 moves too far or too fast");
   CHECK(refusal([](auto& c) { c.state.grains.radius[1] = nan; })
         == "the radius of grain 1 is not positive");
   CHECK(refusal([](auto& c) { c.state.grains.mass[2] = -1.0; })

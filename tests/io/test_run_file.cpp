@@ -202,7 +202,7 @@ TEST_CASE("A run file holds the final state in SI units, in the order of the ids
   State state;
   state.box = {.width = 0.02, .length = 0.1};
   state.walls = {{.line = 0.0, .radius = 3e-4, .count = 50}};
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   state.time_step = 1e-6;
   add_grain(state, {.x = 0.01, .y = 0.03, .vx = 0.5, .vy = -2.0, .radius = 5e-4, .mass = 1e-6});
   add_grain(state, {.x = 0.015, .y = 0.09, .vx = 0.0, .vy = 1.0, .radius = 4e-4, .mass = 2e-6});

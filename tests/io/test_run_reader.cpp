@@ -206,6 +206,6 @@ TEST_CASE("A final state that cannot be is refused") {
         != std::string::npos);
   CHECK(refused("c.h5", [](State& s) { s.grains.radius[1] = -1.0; }).find("a grain")
         != std::string::npos);
-  CHECK(refused("d.h5", [](State& s) { s.walls[1].count = 0; }).find("wall") != std::string::npos);
+  CHECK(refused("d.h5", [](State& s) { s.walls[0].count = 0; }).find("wall") != std::string::npos);
   CHECK(refused("e.h5", [](State& s) { s.box.length = 0.0; }).find("box") != std::string::npos);
 }

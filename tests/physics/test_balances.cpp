@@ -31,7 +31,7 @@ State gas_without_walls(double polydispersity, const Dice& seed) {
 State walled_gas(double dt, double gravity, std::uint64_t seed) {
   State state = empty_box(8e-3, 9.6e-3);
   state.time_step = dt;
-  state.gravity = gravity;
+  state.gravity.y = gravity;
   add_walls(state, 8);
   Dice dice(seed);
   throw_grains(
@@ -48,7 +48,7 @@ State encounters(double dt, std::uint64_t seed, double inertia = 0.0) {
   constexpr double apart = 8e-3;  // m, more than they fly
   State state = empty_box(40e-3, rows * apart);
   state.time_step = dt;
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   add_walls(state, std::int64_t{8} * rows);
   state.grains.inertia = inertia;
   Dice dice(seed);
@@ -119,7 +119,7 @@ TEST_CASE("the momentum along a tube is that of its start, of gravity and of the
   const State start = walled_gas(time_step, 10.0, 53);
   const State end = advanced(start, paper_model(), 3000);
   REQUIRE(end.tally.walls.begun > 20);
-  const double weight = 40.0 * mass * end.gravity;
+  const double weight = 40.0 * mass * end.gravity.y;
   const double expected = end.origin.momentum_y + weight * end.time() + observe(end).wall_impulse_y;
   // U is the velocity in the falling frame, half a step of gravity behind; it starts half a step of
   // gravity low.
@@ -164,6 +164,36 @@ TEST_CASE("the energy of a dissipative tube is accounted for, the better the sma
   CHECK(middle < 2e-3);
   CHECK(middle < 0.5 * coarse);  // second order: a quarter, and the runs are different ones
   CHECK(fine < 0.2 * middle);
+}
+
+TEST_CASE("the energy of a tube at an angle is accounted for, the better the smaller the step") {
+  const auto residual = [&](double dt) {
+    State start = walled_gas(dt, 300.0, 59);
+    start.gravity.x = -400.0;
+    const Energies e = observe(advanced(start, paper_model(), std::llround(5e-3 / dt))).energies;
+    CHECK(e.gravity_work > 0.0);
+    return std::abs(e.residual) / (e.normal_loss + e.friction_loss);
+  };
+  const double coarse = residual(2e-6), fine = residual(0.25e-6);
+  CHECK(coarse < 0.01);
+  CHECK(fine < 0.1 * coarse);
+}
+
+TEST_CASE("the energy between moving walls is accounted for, the better the smaller the step") {
+  WallMotion motion;
+  SECTION("at constant velocity") { motion = {.velocity = 5.0}; }
+  SECTION("to and fro") { motion = {.amplitude = 0.5e-3, .frequency = 1500.0}; }
+  const auto residual = [&](double dt) {
+    State start = walled_gas(dt, 0.0, 60);
+    start.walls[0].motion = motion;
+    start.walls[1].motion = {.velocity = -motion.velocity};
+    const Energies e = observe(advanced(start, paper_model(), std::llround(5e-3 / dt))).energies;
+    CHECK(e.wall_work > 0.1 * e.kinetic);
+    return std::abs(e.residual) / (e.normal_loss + e.friction_loss);
+  };
+  const double coarse = residual(2e-6), fine = residual(0.25e-6);
+  CHECK(coarse < 0.01);
+  CHECK(fine < 0.2 * coarse);
 }
 
 TEST_CASE("the residual of the energy vanishes at second order in the time step") {

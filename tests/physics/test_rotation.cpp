@@ -126,7 +126,7 @@ TEST_CASE("resistance to rolling takes mu_r R times the normal impulse, and neve
 
 TEST_CASE("a grain that touches nothing keeps its spin to the last bit") {
   State state = open_space(1e-6);
-  state.gravity = 10.0;
+  state.gravity.y = 10.0;
   state.grains.inertia = disc;
   add_grain(state, {20e-3, 20e-3, 0.1, 0.2, radius, mass, 12345.678});
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);

@@ -62,6 +62,20 @@ void add_rotation(std::uint64_t seed, double t_col, ContactModel& model, State& 
   model.slip = SpringSlip{k_t, dice.below(2) == 0 ? 0.0 : dice.between(0.0, 1.0) / t_col};
 }
 
+void add_slopes(std::uint64_t seed, State& state) {
+  Dice dice(seed ^ 0x711dU);
+  if (dice.below(3) == 0) state.gravity.x = dice.between(-20.0, 20.0);
+  if (dice.below(5) == 0)
+    for (WallLattice& wall : state.walls) wall = WallLattice::smooth_at(wall.line);
+  if (dice.below(4) != 0) return;
+  for (WallLattice& wall : state.walls) {
+    wall.motion.velocity = dice.between(-5.0, 5.0);
+    if (dice.below(2) == 0) continue;
+    wall.motion.amplitude = dice.between(0.0, 1e-3);
+    wall.motion.frequency = dice.between(0.0, 1e3);
+  }
+}
+
 ContactModel random_model(Dice& dice) {
   // One draw after the other: arguments of one call are evaluated in an order of the compiler's.
   const NormalLaw normal = random_normal_law(dice);
@@ -78,7 +92,7 @@ SetUp random_set_up(std::uint64_t seed) {
                .steps = 100 + dice.below(600),
                .equal_masses = dice.below(2) == 0};
   State& state = set_up.start;
-  state.gravity = dice.below(3) == 0 ? 0.0 : dice.between(-20.0, 20.0);
+  state.gravity.y = dice.below(3) == 0 ? 0.0 : dice.between(-20.0, 20.0);
   if (dice.below(4) != 0) add_walls(state, 1 + dice.below(30));
   const double speed = power_of_ten(dice, -1.5, 1.2);
   const double t_col = collision_time(set_up.model.normal, 0.5 * mass, speed);
@@ -87,6 +101,7 @@ SetUp random_set_up(std::uint64_t seed) {
   state.time_step = std::min(t_col / power_of_ten(dice, 0.9, 2.0),
                              0.5 * width / (speed * static_cast<double>(set_up.steps)));
   add_rotation(seed, t_col, set_up.model, state);
+  add_slopes(seed, state);
   const Throw where{.left = 0.0,
                     .right = width,
                     .low = 0.0,
@@ -105,15 +120,16 @@ std::string description(const SetUp& s) {
   static const std::vector<const char*> slip{"capped", "literal", "viscous", "spring"};
   std::vector<char> line(300);
   const double fastest = s.start.grains.size() == 0 ? 0.0 : std::abs(grain_at(s.start, 0).vx);
-  std::snprintf(line.data(), line.size(),
-                "%zu grains of inertia %.1f, %.3g x %.3g m, walls %zu, g %.3g, %s law, %s slip, mu "
-                "%.3g, %s, dt "
-                "%.3g s, %lld steps, a speed %.3g m/s",
-                s.start.grains.size(), s.start.grains.inertia, s.start.box.width,
-                s.start.box.length, s.start.walls.size(), s.start.gravity,
-                normal[s.model.normal.index()], slip[s.model.slip.index()], s.model.friction,
-                s.model.attraction == Attraction::clip ? "clip" : "keep", s.start.time_step,
-                static_cast<long long>(s.steps), fastest);
+  std::snprintf(
+      line.data(), line.size(),
+      "%zu grains of inertia %.1f, %.3g x %.3g m, walls %zu, g (%.3g, %.3g), %s law, %s slip, mu "
+      "%.3g, %s, dt "
+      "%.3g s, %lld steps, a speed %.3g m/s",
+      s.start.grains.size(), s.start.grains.inertia, s.start.box.width, s.start.box.length,
+      s.start.walls.size(), s.start.gravity.x, s.start.gravity.y, normal[s.model.normal.index()],
+      slip[s.model.slip.index()], s.model.friction,
+      s.model.attraction == Attraction::clip ? "clip" : "keep", s.start.time_step,
+      static_cast<long long>(s.steps), fastest);
   return line.data();
 }
 

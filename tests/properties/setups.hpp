@@ -27,6 +27,10 @@ riesel::ContactModel random_model(systems::Dice& dice);
 void add_rotation(std::uint64_t seed, double t_col, riesel::ContactModel& model,
                   riesel::State& state);
 
+/// Gravity at an angle for every third seed, smooth walls for every fifth, walls that move for
+/// every fourth.
+void add_slopes(std::uint64_t seed, riesel::State& state);
+
 /// One line for whoever has to find out what is special about it.
 std::string description(const SetUp& set_up);
 

@@ -1,0 +1,250 @@
+#include "scenarios/flow_start.hpp"
+
+#include "engine/observables.hpp"
+#include "engine/random.hpp"
+#include "scenarios/contact_settings.hpp"
+#include "scenarios/continued_start.hpp"
+#include "scenarios/grain_file.hpp"
+#include "scenarios/packing.hpp"
+#include "scenarios/run_length.hpp"
+#include "scenarios/walls.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace riesel::scenarios {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr auto fraction_key = "grains.area_fraction";
+
+/// m/s, of walls that shear what is between them, at x (m).
+double velocity_between(const std::vector<WallLattice>& walls, double x) {
+  const WallLattice &first = walls.front(), &last = walls.back();
+  if (first.motion.velocity == last.motion.velocity) return first.motion.velocity;
+  const double part = (x - first.line) / (last.line - first.line);
+  return first.motion.velocity + part * (last.motion.velocity - first.motion.velocity);
+}
+
+/// Velocities as set, exactly: that of the centre of mass, and the mean square of the random part;
+/// and besides those of the walls.
+void set_velocities(const io::Settings& settings, const State& empty, std::vector<Grain>& grains) {
+  const RandomStream stream(static_cast<std::uint64_t>(settings.integer("seed")), Use::velocity);
+  double mass = 0.0, px = 0.0, py = 0.0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const auto [vx, vy] = stream.normal(i);
+    grains[i].vx = vx;
+    grains[i].vy = vy;
+    mass += grains[i].mass;
+    px += grains[i].mass * vx;
+    py += grains[i].mass * vy;
+  }
+  double squares = 0.0;
+  for (Grain& grain : grains) {
+    grain.vx -= px / mass;
+    grain.vy -= py / mass;
+    squares += grain.vx * grain.vx + grain.vy * grain.vy;
+  }
+  const double rms = std::sqrt(squares / (2.0 * static_cast<double>(grains.size())));
+  const double scale = rms > 0.0 ? settings.number("start.random_velocity") / rms : 0.0;
+  for (Grain& grain : grains) {
+    grain.vx *= scale;
+    grain.vy = scale * grain.vy + settings.number("start.axial_velocity")
+               + velocity_between(empty.walls, grain.x);
+  }
+}
+
+/// From the lightest pair. Damping counts most for the heaviest grain at the wall: rejects it if it
+/// does not rebound.
+void set_time_step(const io::Settings& settings, const ContactModel& model,
+                   std::span<const double> masses, State& state) {
+  const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
+  const double shortest = collision_time(settings, model, 0.5 * *lightest);
+  collision_time(settings, model, *heaviest);
+  state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
+  const RunLength length = run_length(settings);
+  if (length.at_most / state.time_step > most_steps)
+    settings.reject(length.key, "more time steps than can be counted",
+                    fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
+}
+
+void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
+                        const State& state) {
+  const double largest = largest_speed(state.box, state.time_step, grains.size());
+  const bool held =
+      std::ranges::all_of(grains, [&](const Grain& g) { return std::hypot(g.vx, g.vy) < largest; });
+  if (held) return;
+  const bool of_file = settings.text("start.kind") == "file";
+  const auto speed_by = [&](const char* key) {
+    return of_file ? 0.0 : std::abs(settings.number(key));
+  };
+  const bool by_chance = speed_by("start.random_velocity") > speed_by("start.axial_velocity");
+  settings.reject(of_file     ? "start.from"
+                  : by_chance ? "start.random_velocity"
+                              : "start.axial_velocity",
+                  "too fast for this tube and time step",
+                  fmt::format("choose velocities below {:.3g} m/s", largest));
+}
+
+/// An eighth of a turn in a step; a few times more, and it would seem slow again.
+void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
+                       const State& state) {
+  const double largest = 0.25 * pi / state.time_step;
+  const bool held =
+      std::ranges::all_of(grains, [&](const Grain& g) { return std::abs(g.spin) < largest; });
+  if (!held)
+    settings.reject("start.from", "has spins too fast for this time step",
+                    fmt::format("choose spins below {:.3g} 1/s", largest));
+}
+
+Flow start_with(const std::vector<Grain>& grains, const io::Settings& settings,
+                const ContactModel& model, State state) {
+  std::vector<double> masses;
+  for (const Grain& grain : grains) masses.push_back(grain.mass);
+  set_time_step(settings, model, masses, state);
+  reject_fast_walls(settings, state);
+  reject_fast_grains(settings, grains, state);
+  reject_fast_spins(settings, grains, state);
+  for (const Grain& grain : grains) add_grain(state, grain);
+  return {.state = std::move(state), .model = model};
+}
+
+Flow start_from_file(const io::Settings& settings, const ContactModel& model, Room room) {
+  const std::vector<Grain> grains = grains_of_file(settings, room.empty);
+  const double largest = 2.0 * std::ranges::max(grains, {}, &Grain::radius).radius;
+  room.reject_too_small(settings, largest, room.empty);
+  return start_with(grains, settings, model, std::move(room.empty));
+}
+
+Flow continue_run(const io::Settings& settings, const ContactModel& model, Room room) {
+  const State earlier = earlier_state(settings);
+  room.reject_too_small(settings, 2.0 * std::ranges::max(earlier.grains.radius), room.empty);
+  set_time_step(settings, model, earlier.grains.mass, room.empty);
+  reject_fast_walls(settings, room.empty);
+  take_over(earlier, model, room.empty);
+  return {.state = std::move(room.empty), .model = model};
+}
+
+}  // namespace
+
+io::SettingsTable start_settings() {
+  return {
+      {.key = "start.kind",
+       .kind = io::Kind::choice,
+       .fallback = "fresh",
+       .choices = {"fresh", "continued", "file"},
+       .doc = "Grains at random places (`fresh`), those of another run where it ended "
+              "(`continued`), or those in a `file`."},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
+              "grains, the walls and the tube must be the same.",
+       .only_when = io::When{"start.kind", {"continued"}}},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "File of the grains, CSV with the columns `x (mm)`, `y (mm)`, `vx (m/s)`, `vy "
+              "(m/s)`, `diameter (mm)` and, if not in proportion to the area, `mass (mg)`, or "
+              "with other units (docs/files.md).",
+       .only_when = io::When{"start.kind", {"file"}},
+       .names_content = true},
+  };
+}
+
+io::SettingsTable start_velocity_settings(const std::string& axial) {
+  return {
+      {.key = "start.axial_velocity",
+       .unit = "m/s",
+       .fallback = axial,
+       .range = io::any(),
+       .doc = "Velocity of the grains' centre of mass along the walls at the start.",
+       .only_when = io::When{"start.kind", {"fresh"}}},
+      {.key = "start.random_velocity",
+       .unit = "m/s",
+       .fallback = "0.5 m/s",
+       .range = io::non_negative(),
+       .doc = "Root mean square of the random velocities at the start, per component; they are "
+              "normally distributed and their momenta add up to zero.",
+       .only_when = io::When{"start.kind", {"fresh"}}},
+  };
+}
+
+io::SettingsTable area_fraction_settings() {
+  return {
+      {.key = fraction_key,
+       .unit = "1",
+       .fallback = "0.55",
+       .range = io::between(0.001, 0.9),
+       .doc = "Area of the free grains divided by that between the wall lines; met to one grain.",
+       .only_when = io::When{"start.kind", {"fresh", "continued"}}},
+  };
+}
+
+std::vector<Grain> fill_between_walls(const io::Settings& settings, const SizeDistribution& sizes,
+                                      const State& empty) {
+  const double wanted = settings.number(fraction_key) * empty.box.width;
+  const double free_width = empty.box.width - 2.0 * empty.walls.front().radius;
+  const double densest = pi / std::sqrt(12.0);  // discs on a triangular lattice
+  if (wanted > densest * free_width)
+    settings.reject(fraction_key, "more than can be packed between the wall grains",
+                    fmt::format("choose at most {:.3f}, and less for grains of unequal size",
+                                std::floor(1e3 * densest * free_width / empty.box.width) / 1e3));
+  const std::vector<double> radii = radii_of_area(sizes, wanted * empty.box.length);
+  std::vector<Grain> grains = packed_grains(settings, radii, empty);
+  if (grains.empty())
+    settings.reject(fraction_key, "no start without overlaps was found",
+                    "choose a smaller fraction, or grains of more equal size");
+  return grains;
+}
+
+Flow start_flow(const io::Settings& settings, Room room) {
+  const ContactModel model = contact_model(settings);
+  const std::string& kind = settings.text("start.kind");
+  if (kind == "file") return start_from_file(settings, model, std::move(room));
+  if (kind == "continued") return continue_run(settings, model, std::move(room));
+  const SizeDistribution sizes(settings);
+  room.reject_too_small(settings, sizes.largest(), room.empty);
+  std::vector<Grain> grains = room.place_grains(settings, sizes, room.empty);
+  set_velocities(settings, room.empty, grains);
+  return start_with(grains, settings, model, std::move(room.empty));
+}
+
+std::vector<double> radii_of_area(const SizeDistribution& sizes, double wanted) {
+  std::vector<double> radii;
+  for (double area = 0.0;;) {
+    const double radius = 0.5 * sizes.diameter(radii.size());
+    const double next = area + pi * radius * radius;
+    const bool closer_without = next - wanted > wanted - area;
+    if (closer_without && !radii.empty()) return radii;
+    radii.push_back(radius);
+    area = next;
+  }
+}
+
+std::vector<Grain> packed_grains(const io::Settings& settings, const std::vector<double>& radii,
+                                 const State& empty) {
+  const auto places = pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
+  if (!places) return {};
+  const double mean_radius = 0.5 * settings.number("grains.diameter");
+  std::vector<Grain> grains(radii.size());
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double relative = radii[i] / mean_radius;
+    grains[i] = {.x = (*places)[i].x,
+                 .y = (*places)[i].y,
+                 .vx = 0.0,
+                 .vy = 0.0,
+                 .radius = radii[i],
+                 .mass = settings.number("grains.mass") * relative * relative};
+  }
+  return grains;
+}
+
+}  // namespace riesel::scenarios

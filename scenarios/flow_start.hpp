@@ -1,0 +1,44 @@
+// What the scenarios of many grains between corrugated walls have in common: how grains begin, and
+// the way from grains at their places to a flow.
+#pragma once
+
+#include "scenarios/scenario.hpp"
+#include "scenarios/size_distribution.hpp"
+
+#include <string>
+#include <vector>
+
+namespace riesel::scenarios {
+
+/// `start.kind` and `start.from`. First of all: what stands below depends on it.
+io::SettingsTable start_settings();
+/// `start.axial_velocity`, by default `axial`, and `start.random_velocity`, of a fresh start.
+io::SettingsTable start_velocity_settings(const std::string& axial);
+/// `grains.area_fraction` of what is between two walls.
+io::SettingsTable area_fraction_settings();
+/// Grains up to this fraction, packed.
+std::vector<Grain> fill_between_walls(const io::Settings& settings, const SizeDistribution& sizes,
+                                      const State& empty);
+
+/// What is to be known of the room that the grains get.
+struct Room {
+  State empty;  ///< without grains
+  /// Rejects room that is too small for grains of this diameter (m).
+  void (*reject_too_small)(const io::Settings&, double largest, const State& empty);
+  /// Grains at their places, of a fresh start; velocities are set then.
+  std::vector<Grain> (*place_grains)(const io::Settings&, const SizeDistribution&,
+                                     const State& empty);
+};
+
+/// Fills the room as `start.kind` says. Throws SettingsError for what cannot be.
+Flow start_flow(const io::Settings& settings, Room room);
+
+/// m, of as many grains as bring their area closest to `wanted` (m^2).
+std::vector<double> radii_of_area(const SizeDistribution& sizes, double wanted);
+
+/// Grains of these radii (m) at places of `pack()`, with masses in proportion to their area.
+/// Nothing if they do not fit.
+std::vector<Grain> packed_grains(const io::Settings& settings, const std::vector<double>& radii,
+                                 const State& empty);
+
+}  // namespace riesel::scenarios

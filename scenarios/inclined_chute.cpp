@@ -1,0 +1,122 @@
+// Grains flow down a chute with a rough bottom and a free surface, periodic along the flow:
+// Silbert, Ertas, Grest, Halsey, Levine and Plimpton, Phys. Rev. E 64, 051302 (2001).
+//
+// x is the height above the bottom, y points down the slope. Between the angle at which the layer
+// comes to rest and one at which nothing holds it any more, the flow is steady: friction in the
+// whole layer balances gravity, and the velocity follows Bagnold's profile.
+#include "scenarios/contact_settings.hpp"
+#include "scenarios/flow_start.hpp"
+#include "scenarios/walls.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace riesel::scenarios {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Area fraction of the grains at the start, from where they fall to the bottom.
+constexpr double loose = 0.5;
+
+io::SettingsTable chute_settings() {
+  return {
+      {.key = "chute.inclination",
+       .unit = "rad",
+       .fallback = "20 degrees",
+       .range = io::between(0.0, 0.5 * pi),
+       .doc = "Angle between the chute and the horizontal."},
+      {.key = "chute.length",
+       .unit = "m",
+       .fallback = "20 mm",
+       .range = io::positive(),
+       .doc = "Period of the chute."},
+      {.key = "chute.layers",
+       .unit = "1",
+       .fallback = "20",
+       .range = io::between(0.1, 1e5),
+       .doc = "How many layers of grains there are, side by side over the length; as area of the "
+              "grains, met to one grain.",
+       .only_when = io::When{"start.kind", {"fresh", "continued"}}},
+      {.key = "chute.height",
+       .unit = "m",
+       .fallback = "40 mm",
+       .range = io::positive(),
+       .doc = "How far above the bottom line profiles are taken and the grains may start; it is no "
+              "wall, but a grain at twice the height is lost."},
+      {.key = "gravity",
+       .unit = "m/s^2",
+       .fallback = "10 m/s^2",
+       .range = io::non_negative(),
+       .doc = "Acceleration of free fall."},
+  };
+}
+
+io::SettingsTable own_settings() {
+  io::SettingsTable table = start_settings();
+  for (const auto& rows : {size_settings(), wall_settings(), chute_settings(),
+                           start_velocity_settings("0"), common_flow_settings()})
+    table.insert(table.end(), rows.begin(), rows.end());
+  return table;
+}
+
+State empty_chute(const io::Settings& settings) {
+  State state;
+  state.box = {.width = settings.number("chute.height"), .length = settings.number("chute.length")};
+  state.walls = {wall_at(0.0, settings, state.box, "chute.length")};
+  const double gravity = settings.number("gravity"), angle = settings.number("chute.inclination");
+  state.gravity = {.x = -gravity * std::cos(angle), .y = gravity * std::sin(angle)};
+  state.grains.inertia = inertia(settings);
+  return state;
+}
+
+void reject_low_chute(const io::Settings& settings, double needed, const State& empty) {
+  if (empty.box.width < needed)
+    settings.reject("chute.height", "too low for the grains at their start",
+                    fmt::format("choose fewer layers, or chute.height above {:.6g} m", needed));
+}
+
+void reject_small_chute(const io::Settings& settings, double largest, const State& empty) {
+  reject_short_period(settings, largest, empty, "chute.length");
+  reject_low_chute(settings, largest + empty.walls.front().radius, empty);
+}
+
+/// Under a lid, that is taken away then.
+std::vector<Grain> place_grains(const io::Settings& settings, const SizeDistribution& sizes,
+                                const State& empty) {
+  const double layer = 0.25 * pi * settings.number("grains.diameter") * empty.box.length;
+  const double area = settings.number("chute.layers") * layer;
+  State covered = empty;
+  covered.box.width =
+      area / (loose * empty.box.length) + sizes.largest() + 2.0 * empty.walls.front().radius;
+  reject_low_chute(settings, covered.box.width, empty);
+  covered.walls.push_back(wall_at(covered.box.width, settings, covered.box, "chute.length"));
+  std::vector<Grain> grains = packed_grains(settings, radii_of_area(sizes, area), covered);
+  if (grains.empty())
+    settings.reject("chute.layers", "no start without overlaps was found",
+                    "choose grains of more equal size");
+  return grains;
+}
+
+Problem prepare(const io::Settings& settings) {
+  return start_flow(settings, {.empty = empty_chute(settings),
+                               .reject_too_small = reject_small_chute,
+                               .place_grains = place_grains});
+}
+
+}  // namespace
+
+Scenario inclined_chute() {
+  return {.name = "inclined_chute",
+          .summary = "Grains flow down a chute with a rough bottom and a free surface: profiles of "
+                     "velocity and area fraction (Silbert et al. 2001).",
+          .own_settings = own_settings(),
+          .prepare = prepare};
+}
+
+}  // namespace riesel::scenarios

@@ -1,0 +1,31 @@
+// The walls of the scenarios of many grains: corrugated or smooth, at rest or shaken.
+#pragma once
+
+#include "engine/state.hpp"
+#include "io/settings.hpp"
+
+#include <string>
+
+namespace riesel::scenarios {
+
+/// `wall.surface`, of corrugated walls `wall.grain_diameter` and `wall.spacing`, and how they
+/// shake.
+io::SettingsTable wall_settings();
+
+/// The wall of these settings, at x = `line` (m). Rejects a spacing wider than the period, which
+/// `key_of_length` sets.
+WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
+                    const std::string& key_of_length);
+
+/// Rejects a period that is too short for grains of diameter `largest` (m) or for the wall grains.
+void reject_short_period(const io::Settings& settings, double largest, const State& empty,
+                         const std::string& key_of_length);
+
+/// Rejects a gap between two walls that is too narrow for grains of diameter `largest` (m).
+void reject_narrow_gap(const io::Settings& settings, double largest, const State& empty,
+                       const std::string& key_of_width);
+
+/// Rejects walls that move by more than an eighth of the period in a step: as grains.
+void reject_fast_walls(const io::Settings& settings, const State& state);
+
+}  // namespace riesel::scenarios

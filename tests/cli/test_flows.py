@@ -1,0 +1,72 @@
+"""Flows beside the tube, through the command: smooth walls, slopes, walls that move."""
+
+import json
+
+import h5py
+
+from riesel_command import CommandTest
+
+CONTACT = "contact: {stiffness: 500 N/m, restitution: 0.8, friction: 0.5}\n"
+CHUTE = f"""
+scenario: inclined_chute
+{CONTACT}
+chute: {{length: 10 mm, layers: 5, height: 20 mm, inclination: 25 degrees}}
+run: {{duration: 0.3 s}}
+"""
+CELL = f"""
+scenario: shear_cell
+{CONTACT}
+cell: {{width: 10 mm, length: 10 mm}}
+run: {{duration: 0.1 s}}
+output: {{trajectory_interval: 20 ms}}
+"""
+SMOOTH = f"""
+scenario: periodic_tube
+{CONTACT}
+wall: {{surface: smooth}}
+tube: {{width: 10 mm, length: 10 mm, tilt: 30 degrees}}
+run: {{duration: 0.1 s}}
+output: {{trajectory_interval: 20 ms}}
+"""
+
+
+class Flows(CommandTest):
+
+    def run_of(self, name, text, *options):
+        self.write(f"{name}.yaml", text)
+        return self.run_to_end(f"{name}.yaml", name, *options)
+
+    def test_a_dense_chute_is_no_brake_failure(self):
+        out = self.run_of("chute", CHUTE)
+        summary = self.summary(out)
+        self.assertEqual(summary["validity"]["verdict"], "valid")
+        self.assertEqual(summary["judged_by"], "mean_vy")
+        self.assertAlmostEqual(summary["balance"]["gravity"], 4.226, places=3)
+        self.assertLess(abs(summary["energy"]["residual"]), 0.01 * summary["energy"]["gravity_work"])
+
+    def test_a_shear_cell_is_judged_by_how_hot_it_is(self):
+        out = self.run_of("cell", CELL)
+        summary = self.summary(out)
+        self.assertEqual(summary["judged_by"], "granular_temperature")
+        self.assertGreater(summary["energy"]["wall_work"], 0.0)
+        with h5py.File(out / "trajectory.h5") as file:  # which has no walls that move
+            self.assertEqual(len(file["particles/walls/position"]), 0)
+
+    def test_smooth_walls_cannot_be_passed(self):
+        out = self.run_of("smooth", SMOOTH)
+        summary = self.summary(out)
+        self.assertIsNone(summary["validity"]["v_crit"])
+        findings = {finding["name"]: finding for finding in summary["validity"]["findings"]}
+        self.assertEqual(findings["wall_speed_over_v_crit"]["value"], 0.0)
+
+    def test_they_resume_to_the_same_bits_and_make_reports(self):
+        for name, text, short in (("chute", CHUTE, "0.1 s"), ("cell", CELL, "30 ms"),
+                                  ("smooth", SMOOTH, "30 ms")):
+            with self.subTest(name=name):
+                whole = self.run_of(name, text, "--set", "run.stepping=plain")
+                part = self.run_to_end(f"{name}.yaml", f"{name}_part", "--set", f"run.duration={short}",
+                                       "--set", "run.stepping=windows")
+                duration = json.loads((whole / "summary.json").read_text())["time"]
+                self.assert_done(self.riesel("resume", part, "--set", f"run.duration={duration}"))
+                self.assertEqual(self.state_hash(part), self.state_hash(whole))
+                self.assert_done(self.riesel("report", whole))
