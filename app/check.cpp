@@ -168,8 +168,7 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   // fall brings no two together.
   const double fastest = std::max(4.0 * random, 1e-3);
   const double both_fastest = std::numbers::sqrt2 * fastest;
-  const WallLattice& at = state.walls.front();
-  const double smaller = at.smooth() ? radius : std::min(radius, at.radius);
+  const double smaller = state.walls.front().smaller_radius(radius);
   const Pair grains{.reduced_mass = 0.5 * mass, .speed = both_fastest, .smaller_radius = radius};
   const Pair wall{.reduced_mass = mass, .speed = fastest, .smaller_radius = smaller};
   print_contact("grain and grain", normal, grains.reduced_mass, grains.speed);

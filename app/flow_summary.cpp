@@ -139,8 +139,8 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
                           const Observables& last) {
   const auto& [file, strips, profiles, interval] = records;
   const Judged judged = judged_by(state, interval);
-  const std::vector<double> velocity = file.series("mean_vy");
-  const SteadyState steady = assess_steady_state(file.series(judged.series), judged.free_fall_gain);
+  const std::vector<double> samples = file.series(judged.series);
+  const SteadyState steady = assess_steady_state(samples, judged.free_fall_gain);
 
   io::FlowSummary s;
   s.time = state.time();
@@ -153,7 +153,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
                     .sigma_vy = mean_of(file, "sigma_vy", steady.transient_end),
                     .granular_temperature =
                         mean_of(file, "granular_temperature", steady.transient_end)};
-  if (steady.transient_end < velocity.size()) {
+  if (steady.transient_end < samples.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = s.fluctuations.granular_temperature.value;
     tell_typical_contacts(state, model, s.fluctuations.sigma_vx.value, s.validity);

@@ -70,7 +70,7 @@ std::vector<HistogramMark> marks_of_overlaps(const io::FlowSummary& summary,
   double reach = 2.0 * mean_radius(state);
   if (of_walls && !state.walls.empty()) {
     const WallLattice& wall = state.walls.front();
-    if (!wall.smooth()) smallest = std::min(smallest, wall.radius);
+    smallest = wall.smaller_radius(smallest);
     reach = mean_radius(state) + wall.radius;
   }
   const double part = smallest / reach;

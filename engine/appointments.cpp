@@ -1,5 +1,6 @@
 #include "engine/appointments.hpp"
 
+#include "engine/parabola.hpp"
 #include "engine/wall_lattice.hpp"
 
 #include <algorithm>
@@ -15,15 +16,6 @@ namespace {
 constexpr std::uint32_t appointments_at_a_time = 1024;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
-
-/// After how many steps a body with the velocity `u` (per step) and the acceleration `a` (per
-/// step^2) has gone the way `gap` > 0.
-double steps_to_go(double gap, double u, double a) {
-  const double root2 = u * u + 2.0 * a * gap;
-  if (root2 < 0.0) return forever;  // it turns back before
-  const double closing = u + std::sqrt(root2);
-  return closing > 0.0 ? 2.0 * gap / closing : forever;
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "engine/candidates.hpp"
 
 #include "engine/contact_loop.hpp"
+#include "engine/parabola.hpp"
 
 #include <omp.h>
 
@@ -29,12 +30,12 @@ void forget_contacts(Slice& slice) {
   slice.kept = 0;
 }
 
-/// Whole steps of a fall from rest with `fall` (m per step^2) in which it goes no farther than
-/// `room` (m): fall s (s + 1) / 2 <= room.
+/// Whole steps in which a fall from rest with `fall` (m per step^2) goes no farther than `room`
+/// (m).
 std::int64_t steps_of_fall(double fall, double room) {
-  constexpr double forever = 0x1p40;
-  const double steps = std::sqrt(0.25 + 2.0 * room / fall) - 0.5;
-  return static_cast<std::int64_t>(std::min(steps * (1.0 - 1e-9), forever));
+  constexpr double most = 0x1p40;
+  const double steps = steps_to_go(room, 0.5 * fall, fall);
+  return static_cast<std::int64_t>(std::min(steps * (1.0 - 1e-9), most));
 }
 
 /// Index among the pairs of `slice`, in this order of the two.

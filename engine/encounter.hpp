@@ -66,9 +66,10 @@ private:
   void move_walls_to(std::int64_t n) {
     for (std::size_t wall = 0; wall < walls.size(); ++wall) {
       const auto shift = [&](std::int64_t at) { return motion[wall].shift(box, dt, at); };
-      const Fixed before = wrapped_difference(shift(n), shift(n - 1));
-      const Fixed after = wrapped_difference(shift(n + 1), shift(n));
-      walls[wall] = {shift(n), before, wrapped_difference(after, before)};
+      const Fixed now = shift(n);
+      const Fixed before = wrapped_difference(now, shift(n - 1));
+      const Fixed after = wrapped_difference(shift(n + 1), now);
+      walls[wall] = {now, before, wrapped_difference(after, before)};
     }
   }
 };

@@ -184,7 +184,7 @@ double max_overlap_ratio(const State& state) {
   const double smallest = *std::min_element(radii.begin(), radii.end());
   double smallest_at_wall = smallest;
   for (const WallLattice& wall : state.walls)
-    if (!wall.smooth()) smallest_at_wall = std::min(smallest_at_wall, wall.radius);
+    smallest_at_wall = wall.smaller_radius(smallest_at_wall);
   return std::max(all_contacts(state, false).max_overlap / smallest,
                   all_contacts(state, true).max_overlap / smallest_at_wall);
 }

@@ -64,6 +64,10 @@ struct WallLattice {
   bool sound() const {
     return smooth() ? radius == 0.0 : count > 0 && radius > 0.0 && std::isfinite(radius);
   }
+  /// How many bodies it has that can be touched: a plane is one.
+  std::int64_t partners() const { return smooth() ? 1 : count; }
+  /// m, of the smaller body where a grain of this radius touches: a plane has no size.
+  double smaller_radius(double grain) const { return smooth() ? grain : std::min(grain, radius); }
   double spacing(const Box& box) const {  ///< m; 0 where it is smooth
     return smooth() ? 0.0 : box.length / static_cast<double>(count);
   }

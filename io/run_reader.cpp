@@ -87,8 +87,7 @@ bool fits(const ContactName& name, const FinalState& state) {
   if (!is_index(name.grain, state.grains.size())) return false;
   if (name.wall == no_wall) return is_index(name.partner, state.grains.size());
   if (!is_index(name.wall, state.walls.size())) return false;
-  const WallLattice& wall = state.walls[static_cast<std::size_t>(name.wall)];
-  return is_index(name.partner, wall.smooth() ? 1 : wall.count);
+  return is_index(name.partner, state.walls[static_cast<std::size_t>(name.wall)].partners());
 }
 
 void check(const FinalState& state) {

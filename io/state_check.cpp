@@ -74,17 +74,13 @@ std::string flaw_of_grains(const Grains& grains) {
   return {};
 }
 
-/// A smooth wall has one point that all touch.
-std::size_t partners_at(const WallLattice& wall) {
-  return wall.smooth() ? 1 : static_cast<std::size_t>(wall.count);
-}
-
 bool names_bodies_of(const State& state, const ContactName& name) {
   const auto n = state.grains.size();
   if (!is_index(name.grain, n)) return false;
   if (name.wall == no_wall) return is_index(name.partner, n) && name.grain < name.partner;
   if (!is_index(name.wall, state.walls.size())) return false;
-  return is_index(name.partner, partners_at(state.walls[static_cast<std::size_t>(name.wall)]));
+  const WallLattice& wall = state.walls[static_cast<std::size_t>(name.wall)];
+  return is_index(name.partner, static_cast<std::size_t>(wall.partners()));
 }
 
 bool is_finite(const Contact& contact) {

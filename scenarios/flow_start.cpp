@@ -25,6 +25,32 @@ using std::numbers::pi;
 
 constexpr auto fraction_key = "grains.area_fraction";
 
+/// `start.kind` and `start.from`.
+io::SettingsTable start_settings() {
+  return {
+      {.key = "start.kind",
+       .kind = io::Kind::choice,
+       .fallback = "fresh",
+       .choices = {"fresh", "continued", "file"},
+       .doc = "Grains at random places (`fresh`), those of another run where it ended "
+              "(`continued`), or those in a `file`."},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
+              "grains, the walls and the tube must be the same.",
+       .only_when = io::When{"start.kind", {"continued"}}},
+      {.key = "start.from",
+       .kind = io::Kind::path,
+       .required = true,
+       .doc = "File of the grains, CSV with the columns `x (mm)`, `y (mm)`, `vx (m/s)`, `vy "
+              "(m/s)`, `diameter (mm)` and, if not in proportion to the area, `mass (mg)`, or "
+              "with other units (docs/files.md).",
+       .only_when = io::When{"start.kind", {"file"}},
+       .names_content = true},
+  };
+}
+
 /// m/s, of walls that shear what is between them, at x (m).
 double velocity_between(const std::vector<WallLattice>& walls, double x) {
   const WallLattice &first = walls.front(), &last = walls.back();
@@ -134,29 +160,12 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
 
 }  // namespace
 
-io::SettingsTable start_settings() {
-  return {
-      {.key = "start.kind",
-       .kind = io::Kind::choice,
-       .fallback = "fresh",
-       .choices = {"fresh", "continued", "file"},
-       .doc = "Grains at random places (`fresh`), those of another run where it ended "
-              "(`continued`), or those in a `file`."},
-      {.key = "start.from",
-       .kind = io::Kind::path,
-       .required = true,
-       .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
-              "grains, the walls and the tube must be the same.",
-       .only_when = io::When{"start.kind", {"continued"}}},
-      {.key = "start.from",
-       .kind = io::Kind::path,
-       .required = true,
-       .doc = "File of the grains, CSV with the columns `x (mm)`, `y (mm)`, `vx (m/s)`, `vy "
-              "(m/s)`, `diameter (mm)` and, if not in proportion to the area, `mass (mg)`, or "
-              "with other units (docs/files.md).",
-       .only_when = io::When{"start.kind", {"file"}},
-       .names_content = true},
-  };
+io::SettingsTable flow_table(std::initializer_list<io::SettingsTable> rows) {
+  io::SettingsTable table = start_settings();
+  for (const io::SettingsTable& some : rows) table.insert(table.end(), some.begin(), some.end());
+  const io::SettingsTable common = common_flow_settings();
+  table.insert(table.end(), common.begin(), common.end());
+  return table;
 }
 
 io::SettingsTable start_velocity_settings(const std::string& axial) {
@@ -206,6 +215,7 @@ std::vector<Grain> fill_between_walls(const io::Settings& settings, const SizeDi
 }
 
 Flow start_flow(const io::Settings& settings, Room room) {
+  room.empty.grains.inertia = inertia(settings);
   const ContactModel model = contact_model(settings);
   const std::string& kind = settings.text("start.kind");
   if (kind == "file") return start_from_file(settings, model, std::move(room));

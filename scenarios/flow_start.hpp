@@ -5,13 +5,15 @@
 #include "scenarios/scenario.hpp"
 #include "scenarios/size_distribution.hpp"
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
 namespace riesel::scenarios {
 
-/// `start.kind` and `start.from`. First of all: what stands below depends on it.
-io::SettingsTable start_settings();
+/// The settings of a flow: how its grains begin, on which the others depend; these rows; and the
+/// common ones.
+io::SettingsTable flow_table(std::initializer_list<io::SettingsTable> rows);
 /// `start.axial_velocity`, by default `axial`, and `start.random_velocity`, of a fresh start.
 io::SettingsTable start_velocity_settings(const std::string& axial);
 /// `grains.area_fraction` of what is between two walls.
@@ -22,7 +24,7 @@ std::vector<Grain> fill_between_walls(const io::Settings& settings, const SizeDi
 
 /// What is to be known of the room that the grains get.
 struct Room {
-  State empty;  ///< without grains
+  State empty;  ///< without grains; whether they will rotate is filled in
   /// Rejects room that is too small for grains of this diameter (m).
   void (*reject_too_small)(const io::Settings&, double largest, const State& empty);
   /// Grains at their places, of a fresh start; velocities are set then.

@@ -4,7 +4,6 @@
 // x is the height above the bottom, y points down the slope. Between the angle at which the layer
 // comes to rest and one at which nothing holds it any more, the flow is steady: friction in the
 // whole layer balances gravity, and the velocity follows Bagnold's profile.
-#include "scenarios/contact_settings.hpp"
 #include "scenarios/flow_start.hpp"
 #include "scenarios/walls.hpp"
 
@@ -12,7 +11,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace riesel::scenarios {
@@ -57,21 +55,12 @@ io::SettingsTable chute_settings() {
   };
 }
 
-io::SettingsTable own_settings() {
-  io::SettingsTable table = start_settings();
-  for (const auto& rows : {size_settings(), wall_settings(), chute_settings(),
-                           start_velocity_settings("0"), common_flow_settings()})
-    table.insert(table.end(), rows.begin(), rows.end());
-  return table;
-}
-
 State empty_chute(const io::Settings& settings) {
   State state;
   state.box = {.width = settings.number("chute.height"), .length = settings.number("chute.length")};
   state.walls = {wall_at(0.0, settings, state.box, "chute.length")};
   const double gravity = settings.number("gravity"), angle = settings.number("chute.inclination");
   state.gravity = {.x = -gravity * std::cos(angle), .y = gravity * std::sin(angle)};
-  state.grains.inertia = inertia(settings);
   return state;
 }
 
@@ -115,7 +104,8 @@ Scenario inclined_chute() {
   return {.name = "inclined_chute",
           .summary = "Grains flow down a chute with a rough bottom and a free surface: profiles of "
                      "velocity and area fraction (Silbert et al. 2001).",
-          .own_settings = own_settings(),
+          .own_settings = flow_table(
+              {size_settings(), wall_settings(), chute_settings(), start_velocity_settings("0")}),
           .prepare = prepare};
 }
 

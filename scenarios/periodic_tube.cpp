@@ -4,14 +4,11 @@
 // Started slowly, the grains reach a steady state in which collisions with the walls balance
 // gravity. Started fast, they may reach another one, which the paper shows to be an artefact of
 // soft grains. A tube that leans is a pipe at an angle, up to one that lies.
-#include "scenarios/contact_settings.hpp"
 #include "scenarios/flow_start.hpp"
 #include "scenarios/walls.hpp"
 
 #include <cmath>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 namespace riesel::scenarios {
 
@@ -46,15 +43,6 @@ io::SettingsTable tube_settings() {
   };
 }
 
-io::SettingsTable own_settings() {
-  io::SettingsTable table = start_settings();
-  for (const auto& rows :
-       {size_settings(), area_fraction_settings(), wall_settings(), tube_settings(),
-        start_velocity_settings("1 m/s"), common_flow_settings()})
-    table.insert(table.end(), rows.begin(), rows.end());
-  return table;
-}
-
 State empty_tube(const io::Settings& settings) {
   State state;
   state.box = {.width = settings.number("tube.width"), .length = settings.number("tube.length")};
@@ -62,7 +50,6 @@ State empty_tube(const io::Settings& settings) {
     state.walls.push_back(wall_at(line, settings, state.box, "tube.length"));
   const double gravity = settings.number("gravity"), tilt = settings.number("tube.tilt");
   state.gravity = {.x = -gravity * std::sin(tilt), .y = gravity * std::cos(tilt)};
-  state.grains.inertia = inertia(settings);
   return state;
 }
 
@@ -84,7 +71,8 @@ Scenario periodic_tube() {
           .summary =
               "Grains fall through a periodic vertical tube with corrugated walls: steady mean "
               "velocity (Fig. 6).",
-          .own_settings = own_settings(),
+          .own_settings = flow_table({size_settings(), area_fraction_settings(), wall_settings(),
+                                      tube_settings(), start_velocity_settings("1 m/s")}),
           .prepare = prepare};
 }
 

@@ -3,7 +3,6 @@
 //
 // The walls put energy in, collisions take it out. Where restitution is close to 1 and the walls
 // are far, the middle is sheared evenly and is as hot as both balance there.
-#include "scenarios/contact_settings.hpp"
 #include "scenarios/flow_start.hpp"
 #include "scenarios/walls.hpp"
 
@@ -33,14 +32,6 @@ io::SettingsTable cell_settings() {
   };
 }
 
-io::SettingsTable own_settings() {
-  io::SettingsTable table = start_settings();
-  for (const auto& rows : {size_settings(), area_fraction_settings(), wall_settings(),
-                           cell_settings(), start_velocity_settings("0"), common_flow_settings()})
-    table.insert(table.end(), rows.begin(), rows.end());
-  return table;
-}
-
 State empty_cell(const io::Settings& settings) {
   State state;
   state.box = {.width = settings.number("cell.width"), .length = settings.number("cell.length")};
@@ -50,7 +41,6 @@ State empty_cell(const io::Settings& settings) {
     wall.motion.velocity = 0.5 * side * settings.number("cell.velocity");
     state.walls.push_back(wall);
   }
-  state.grains.inertia = inertia(settings);
   return state;
 }
 
@@ -71,7 +61,8 @@ Scenario shear_cell() {
   return {.name = "shear_cell",
           .summary = "Grains between two walls that move past each other: temperature and stresses "
                      "under shear (Jenkins and Richman 1985).",
-          .own_settings = own_settings(),
+          .own_settings = flow_table({size_settings(), area_fraction_settings(), wall_settings(),
+                                      cell_settings(), start_velocity_settings("0")}),
           .prepare = prepare};
 }
 

@@ -1,0 +1,20 @@
+// How long a way takes at constant acceleration.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace riesel {
+
+/// Steps in which a body of velocity `u` (m per step) and acceleration `a` (m per step^2) goes as
+/// far as `gap` > 0 (m): infinite if it turns back before. Of whole steps, which lead by
+/// v s + a s (s + 1) / 2, `u` is v + a / 2.
+inline double steps_to_go(double gap, double u, double a) {
+  constexpr double forever = std::numeric_limits<double>::infinity();
+  const double root2 = u * u + 2.0 * a * gap;
+  if (root2 < 0.0) return forever;
+  const double closing = u + std::sqrt(root2);
+  return closing > 0.0 ? 2.0 * gap / closing : forever;
+}
+
+}  // namespace riesel
