@@ -132,7 +132,7 @@ void print_trajectory(const io::Settings& settings, const State& state, double s
       static_cast<double>(scenarios::steps_between(settings.number(interval), state.time_step));
   const double frames = std::floor(steps / steps_per_frame) + 1.0;
   line("trajectory", "{:.0f} frames, {:.1f} MB", frames,
-       frames * static_cast<double>(io::bytes_per_frame(state.grains.size())) / 1e6);
+       frames * static_cast<double>(io::bytes_per_frame(state)) / 1e6);
 }
 
 /// One restitution is that of one mass.

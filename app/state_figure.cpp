@@ -145,20 +145,15 @@ private:
     svg_.begin_group("walls", {.fill = "#9a9a9a"});
     for (const WallLattice& wall : state_->walls) {
       const double spacing = wall.spacing(state_->box);
+      const WallWay way = wall.motion.way(state_->box, state_->time);
       for (std::int64_t k = 0; k < wall.count; ++k) {
-        const double y =
-            place_y(static_cast<double>(k) * spacing + wall.motion.way(state_->box, state_->time));
+        const double y = state_->box.wrapped(static_cast<double>(k) * spacing + way.y);
         const auto column = layout_.column_of(y);
         if (!column) continue;
-        svg_.disc(layout_.place(*column, wall.line, y), wall.radius * layout_.scale());
+        svg_.disc(layout_.place(*column, wall.line + way.x, y), wall.radius * layout_.scale());
       }
     }
     svg_.end_group();
-  }
-
-  /// m, in the first period.
-  double place_y(double y) const {
-    return y - state_->box.length * std::floor(y / state_->box.length);
   }
 
   void draw_grains() {
@@ -196,9 +191,10 @@ private:
       return {partner.x, partner.y};
     }
     const WallLattice& wall = state_->walls[static_cast<std::size_t>(name.wall)];
-    if (wall.smooth()) return {wall.line, state_->grains[static_cast<std::size_t>(name.grain)].y};
-    return {wall.line, static_cast<double>(name.partner) * wall.spacing(state_->box)
-                           + wall.motion.way(state_->box, state_->time)};
+    const WallWay way = wall.motion.way(state_->box, state_->time);
+    const double x = wall.line + way.x;
+    if (wall.smooth()) return {x, state_->grains[static_cast<std::size_t>(name.grain)].y};
+    return {x, static_cast<double>(name.partner) * wall.spacing(state_->box) + way.y};
   }
 
   void draw_colour_bar() {

@@ -21,7 +21,9 @@ def animate(trajectory: Path, film: Path, frames_per_second: float) -> None:
         grains, walls = file["particles/grains"], file["particles/walls"]
         positions, velocities = grains["position/value"], grains["velocity/value"]
         times = grains["position/time"][:]
-        tube = TubePicture(grains["box/edges"][1], walls["position"][:, :2], walls["radius"][:],
+        walls_move = "value" in walls["position"]
+        wall_positions = walls["position/value"] if walls_move else walls["position"][:][None]
+        tube = TubePicture(*grains["box/edges"][:2], wall_positions[0][:, :2], walls["radius"][:],
                            grains["radius"][:])
         # Rare fast grains shall not take the colours from the others.
         sample = velocities[:: max(1, len(times) // 50)][:, :, 1]
@@ -30,6 +32,8 @@ def animate(trajectory: Path, film: Path, frames_per_second: float) -> None:
                               metadata={"title": str(trajectory.parent)})
         with writer.saving(tube.figure, str(film), dpi=130):
             for i, time in enumerate(times):
+                if walls_move:
+                    tube.move_walls(wall_positions[i][:, :2])
                 tube.show(positions[i][:, :2], velocities[i][:, 1], velocity_range, f"t = {time * 1e3:.1f} ms")
                 writer.grab_frame()
 

@@ -21,15 +21,13 @@ MM = 1e3  # per metre
 class TubePicture:
     """Lengths in m: positions as (x, y), y along the fall."""
 
-    def __init__(self, length, wall_positions, wall_radii, radii):
-        width = wall_positions[:, 0].max() - wall_positions[:, 0].min()
+    def __init__(self, width, length, wall_positions, wall_radii, radii):
         height = 1.3 + 9.4 * width / length  # of the figure; its width is 11
         even_pixels = 0.2  # films want them
         self.figure, self._axes = plt.subplots(figsize=(11, round(height / even_pixels) * even_pixels), dpi=130)
-        self._discs(wall_positions, wall_radii, facecolor="0.55")
+        self._walls = self._discs(wall_positions, wall_radii, facecolor="0.55")
         self._grains = self._discs(np.zeros((len(radii), 2)), radii, cmap="viridis", linewidth=0)
-        lines = wall_positions[:, 0] * MM
-        self._axes.set(xlim=(0, length * MM), ylim=(lines.min() - 1, lines.max() + 1), aspect="equal",
+        self._axes.set(xlim=(0, length * MM), ylim=(-1, width * MM + 1), aspect="equal",
                        xlabel="y along the fall (mm)", ylabel="x (mm)")
         self.figure.colorbar(self._grains, label="axial velocity (m/s)", pad=0.02, fraction=0.012)
         self.figure.tight_layout()
@@ -40,6 +38,9 @@ class TubePicture:
                                     offsets=positions[:, ::-1] * MM, transOffset=self._axes.transData, **style)
         return self._axes.add_collection(circles)
 
+    def move_walls(self, positions):
+        self._walls.set_offsets(positions[:, ::-1] * MM)
+
     def show(self, positions, axial_velocities, velocity_range=None, title=""):
         """`velocity_range`: what the colours span; by default that of the grains."""
         self._grains.set_offsets(positions[:, ::-1] * MM)
@@ -48,13 +49,29 @@ class TubePicture:
         self._axes.set_title(title)
 
 
+def wall_grains(final):
+    """[[x, y, radius]] in m of all wall grains where the walls are at the end."""
+    time = final.attrs["step"] * final.attrs["time_step"]
+    length = final.attrs["box_length"]
+    grains = [np.empty((0, 3))]
+    walls = final["walls"]
+    for i, count in enumerate(walls["count"][:]):
+        line, radius, velocity, amplitude_x, amplitude_y, frequency, phase, start = (
+            walls[name][i] for name in ("line", "radius", "velocity", "amplitude_x", "amplitude_y", "frequency",
+                                        "phase", "start"))
+        swing = np.sin(phase + 2 * np.pi * frequency * time)
+        way = start * 2.0**-64 * length + velocity * time + amplitude_y * swing
+        y = (np.arange(count) * length / max(count, 1) + way) % length
+        grains.append(np.column_stack([np.full(count, line + amplitude_x * swing), y, np.full(count, radius)]))
+    return np.concatenate(grains)
+
+
 def draw(run_file: Path, picture: Path) -> None:
     with h5py.File(run_file) as file:
         final = file["final"]
-        length = float(final.attrs["box_length"])
-        walls = np.array([(line, k * length / count, radius) for line, radius, count in zip(
-            *(final["walls"][name][:] for name in ("line", "radius", "count"))) for k in range(count + 1)])
-        tube = TubePicture(length, walls[:, :2], walls[:, 2], final["radius"][:])
+        walls = wall_grains(final)
+        tube = TubePicture(final.attrs["box_width"], final.attrs["box_length"], walls[:, :2], walls[:, 2],
+                           final["radius"][:])
         tube.show(final["position"][:], final["velocity"][:, 1])
     tube.figure.savefig(picture)
 

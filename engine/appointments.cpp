@@ -128,7 +128,7 @@ void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool 
 
 /// Steps that a grain can do on its course, and within its tolerance, before it can touch a wall
 /// grain: not fewer than it needs to cover the gap to the nearest, nor than its way across the tube
-/// needs into the wall's reach.
+/// needs to where the wall can be.
 double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
   if (near.partners != 0) return 0.0;
   const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
@@ -136,22 +136,24 @@ double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) 
   const Box& box = state_.box;
   const double stray = courses_.deflected(near.slot) ? tolerance_ : 0.0;
   const double reach = (g.radius[near.slot] + wall.radius) * generous + stray;
+  const WallMotion& motion = wall.motion;
+  const WallShift shift =
+      motion.is_there() ? motion.shift(box, state_.time_step, now) : WallShift{0, 0};
   const Fall fall = courses_.fall(), fallen = fall.times(now);
   const double fall_x = box.metres_x(fall.x), fall_y = box.metres_y(fall.y);
   // s steps lead by u s + fall s (s + 1) / 2.
   const double ux = box.metres_x(wrapped_sum(g.ux[near.slot], fallen.x)) + 0.5 * fall_x;
   const double uy = box.metres_y(wrapped_sum(g.uy[near.slot], fallen.y)) + 0.5 * fall_y;
-  const double x = box.metres_x(courses_.x(near.slot, now)) - wall.line;
+  const double from_line = box.metres_x(courses_.x(near.slot, now)) - wall.line;
 
-  const double beyond_reach = std::abs(x) - reach;
-  const double to_wall = x > 0.0 ? -1.0 : 1.0;
+  const double beyond_reach = std::abs(from_line) - reach - std::abs(motion.amplitude_x);
+  const double to_wall = from_line > 0.0 ? -1.0 : 1.0;
   const double across =
       beyond_reach > 0.0 ? steps_to_go(beyond_reach, to_wall * ux, to_wall * fall_x) : 0.0;
   if (across == forever) return forever;
 
-  const WallMotion& motion = wall.motion;
-  const Fixed shift = motion.is_there() ? motion.shift(box, state_.time_step, now) : 0;
-  const Fixed y = wrapped_difference(courses_.y(near.slot, now), shift);
+  const double x = from_line - box.metres_x(shift.x);
+  const Fixed y = wrapped_difference(courses_.y(near.slot, now), shift.y);
   double nearest2 = forever;
   for_each_wall_grain_within(wall, box, y, 0.0, [&](std::int64_t, Fixed there) {
     const double dy = box.metres_y(wrapped_difference(there, y));

@@ -212,7 +212,7 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
     const double x = state.box.metres_x(state.grains.x[i]);
     if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width) mine.lost = state.grains.id[i];
     for (std::size_t w = 0; w < state.walls.size(); ++w) {
-      const double reach = state.grains.radius[i] + state.walls[w].radius;
+      const double reach = state.grains.radius[i] + state.walls[w].reach();
       if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_ + room_for_fall)
         mine.near_walls.push_back({static_cast<std::uint32_t>(i), static_cast<std::int32_t>(w)});
     }

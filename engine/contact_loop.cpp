@@ -79,10 +79,15 @@ void count_work_of_walls(Slice& slice, const StepUnits& units) {
   const LiveContacts& contacts = slice.wall_contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Meeting& m = contacts.meeting(i);
-    const WallStep& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
-    const double impulse = m.mass_first * (real(contacts.kick_of_first(i).y) * units.velocity_y);
-    slice.tally.impulses.work.add(impulse * (real(wall.u) + 0.5 * real(wall.kick))
-                                  * units.velocity_y);
+    const BodyMotion& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
+    const BodyKick kick = contacts.kick_of_first(i);
+    const auto power = [](Fixed of_grain, Fixed u, Fixed of_wall, double to_velocity) {
+      const double mean_velocity = (real(u) + 0.5 * real(of_wall)) * to_velocity;
+      return real(of_grain) * to_velocity * mean_velocity;
+    };
+    const double x = power(kick.x, wall.ux, wall.kick_x, units.velocity_x);
+    const double y = power(kick.y, wall.uy, wall.kick_y, units.velocity_y);
+    slice.tally.impulses.work.add(m.mass_first * (x + y));
   }
 }
 

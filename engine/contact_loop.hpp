@@ -32,9 +32,11 @@ template <class Touches>
 void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed x, Fixed y,
                                  const StepUnits& units, Touches touches) {
   const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
-  const Fixed from_line = wrapped_difference(state.box.fixed_x(wall.line), x);
+  const BodyMotion& moved = units.walls[static_cast<std::size_t>(near.wall)];
+  const Fixed line = wrapped_sum(state.box.fixed_x(wall.line), moved.x);
+  const Fixed from_line = wrapped_difference(line, x);
   const double reach = state.grains.radius[near.slot] + wall.radius;
-  const Fixed back = wrapped_difference(y, units.walls[static_cast<std::size_t>(near.wall)].shift);
+  const Fixed back = wrapped_difference(y, moved.y);
   for_each_wall_grain_within(wall, state.box, back, reach, [&](std::int64_t k, Fixed there) {
     if ((near.partners & NearWall::bit(k)) != 0) return;
     if (overlapping(from_line, wrapped_difference(there, back), reach, units)) touches(k);

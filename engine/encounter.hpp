@@ -10,11 +10,10 @@
 
 namespace riesel {
 
-/// How a wall stands and moves in a step, as a body does: quanta of y.
-struct WallStep {
-  Fixed shift = 0;  ///< from where it was at first
-  Fixed u = 0;      ///< displacement in the step
-  Fixed kick = 0;   ///< what the next step has more
+/// Position and motion of a body in a step, in quanta: `u` is the displacement in the step, `kick`
+/// what the next one has more.
+struct BodyMotion {
+  Fixed x, y, ux, uy, kick_x, kick_y;
 };
 
 /// The numbers of the current step: those that turn quanta into SI units and back, and the walls.
@@ -60,16 +59,21 @@ struct StepUnits {
 
   bool walls_move = false;
   std::array<WallMotion, WallImpulses::most_walls> motion{};
-  std::array<WallStep, WallImpulses::most_walls> walls{};
+  std::array<BodyMotion, WallImpulses::most_walls> walls{};  ///< from where they were at first
 
 private:
   void move_walls_to(std::int64_t n) {
     for (std::size_t wall = 0; wall < walls.size(); ++wall) {
       const auto shift = [&](std::int64_t at) { return motion[wall].shift(box, dt, at); };
-      const Fixed now = shift(n);
-      const Fixed before = wrapped_difference(now, shift(n - 1));
-      const Fixed after = wrapped_difference(shift(n + 1), now);
-      walls[wall] = {now, before, wrapped_difference(after, before)};
+      const WallShift before = shift(n - 1), now = shift(n), after = shift(n + 1);
+      const Fixed ux = wrapped_difference(now.x, before.x);
+      const Fixed uy = wrapped_difference(now.y, before.y);
+      walls[wall] = {.x = now.x,
+                     .y = now.y,
+                     .ux = ux,
+                     .uy = uy,
+                     .kick_x = wrapped_difference(wrapped_difference(after.x, now.x), ux),
+                     .kick_y = wrapped_difference(wrapped_difference(after.y, now.y), uy)};
     }
   }
 };
@@ -100,14 +104,9 @@ inline Bodies bodies(const Grains& g) {
           .inertia = g.inertia};
 }
 
-/// Position and motion of one body relative to another, in quanta.
-struct RelativeMotion {
-  Fixed x, y, ux, uy, kick_x, kick_y;
-};
-
 /// Of body j as seen from body i.
-[[gnu::always_inline]] inline RelativeMotion relative_motion(const Bodies& b, std::int64_t i,
-                                                             std::int64_t j) {
+[[gnu::always_inline]] inline BodyMotion relative_motion(const Bodies& b, std::int64_t i,
+                                                         std::int64_t j) {
   return {.x = wrapped_difference(b.x[j], b.x[i]),
           .y = wrapped_difference(b.y[j], b.y[i]),
           .ux = wrapped_difference(b.ux[j], b.ux[i]),
@@ -116,25 +115,20 @@ struct RelativeMotion {
           .kick_y = wrapped_difference(b.kick_y[j], b.kick_y[i])};
 }
 
-/// A wall grain at (line, y), and how it moves along y, in quanta.
-struct WallPoint {
-  Fixed line, y, u, kick;
-};
-
 /// Of a wall grain as seen from body i.
-[[gnu::always_inline]] inline RelativeMotion
-relative_motion(const Bodies& b, std::int64_t i, const WallPoint& wall, const StepUnits& units) {
-  return {.x = wrapped_difference(wall.line, b.x[i]),
+[[gnu::always_inline]] inline BodyMotion
+relative_motion(const Bodies& b, std::int64_t i, const BodyMotion& wall, const StepUnits& units) {
+  return {.x = wrapped_difference(wall.x, b.x[i]),
           .y = wrapped_difference(wall.y, b.y[i]),
-          .ux = wrapped_difference(0, wrapped_sum(b.ux[i], units.fallen.x)),
-          .uy = wrapped_difference(wall.u, wrapped_sum(b.uy[i], units.fallen.y)),
-          .kick_x = wrapped_difference(0, wrapped_sum(b.kick_x[i], units.fall.x)),
-          .kick_y = wrapped_difference(wall.kick, wrapped_sum(b.kick_y[i], units.fall.y))};
+          .ux = wrapped_difference(wall.ux, wrapped_sum(b.ux[i], units.fallen.x)),
+          .uy = wrapped_difference(wall.uy, wrapped_sum(b.uy[i], units.fallen.y)),
+          .kick_x = wrapped_difference(wall.kick_x, wrapped_sum(b.kick_x[i], units.fall.x)),
+          .kick_y = wrapped_difference(wall.kick_y, wrapped_sum(b.kick_y[i], units.fall.y))};
 }
 
 /// `reach` is the sum of the radii (m), `reduced_mass` in kg. The kick of the step before takes the
 /// velocity from the half step to the full one.
-[[gnu::always_inline]] inline Encounter encounter(const RelativeMotion& m, double reach,
+[[gnu::always_inline]] inline Encounter encounter(const BodyMotion& m, double reach,
                                                   double reduced_mass, const StepUnits& units) {
   const double half_vx = real(m.ux) * units.velocity_x;
   const double half_vy = real(m.uy) * units.velocity_y;

@@ -40,7 +40,7 @@ constexpr std::int64_t apart = 1, unusable = 2;
 
 struct LiveContacts::Columns {
   const std::int64_t *first, *second;
-  const Fixed *line, *y, *wall_u, *wall_kick;
+  std::array<const Fixed*, 6> wall;  // members of its BodyMotion
   const double *reach, *reduced_mass, *per_mass_first, *per_mass_second;
   std::array<double*, life_members> life;
   std::array<Fixed*, 4> kick;
@@ -59,7 +59,9 @@ template <LiveContacts::Partner partner, class Columns>
                      c.reduced_mass[i], units);
   else
     return encounter(relative_motion(bodies, c.first[i],
-                                     {c.line[i], c.y[i], c.wall_u[i], c.wall_kick[i]}, units),
+                                     {c.wall[0][i], c.wall[1][i], c.wall[2][i], c.wall[3][i],
+                                      c.wall[4][i], c.wall[5][i]},
+                                     units),
                      c.reach[i], c.reduced_mass[i], units);
 }
 
@@ -236,10 +238,7 @@ void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodie
 LiveContacts::Columns LiveContacts::columns() {
   Columns c{.first = body_[0].data(),
             .second = body_[1].data(),
-            .line = wall_point_[0].data(),
-            .y = wall_point_[1].data(),
-            .wall_u = wall_point_[2].data(),
-            .wall_kick = wall_point_[3].data(),
+            .wall = {},
             .reach = reach_.data(),
             .reduced_mass = reduced_mass_.data(),
             .per_mass_first = per_mass_[0].data(),
@@ -250,8 +249,10 @@ LiveContacts::Columns LiveContacts::columns() {
             .spin_kick = {spin_kick_[0].data(), spin_kick_[1].data()},
             .flags = flags_.data(),
             .block_flags = block_flags_.data()};
-  std::transform(life_.begin(), life_.end(), c.life.begin(), [](auto& a) { return a.data(); });
-  std::transform(kick_.begin(), kick_.end(), c.kick.begin(), [](auto& a) { return a.data(); });
+  const auto data = [](auto& a) { return a.data(); };
+  std::transform(wall_point_.begin(), wall_point_.end(), c.wall.begin(), data);
+  std::transform(life_.begin(), life_.end(), c.life.begin(), data);
+  std::transform(kick_.begin(), kick_.end(), c.kick.begin(), data);
   return c;
 }
 
@@ -291,10 +292,10 @@ void LiveContacts::become_rich() {
 /// The points of smooth walls go along with their grains, those of moving walls with the walls.
 void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
   for (std::size_t i = 0; i < size(); ++i) {
-    const WallPoint point = wall_point(meetings_[i], bodies, body_[0][i], units);
-    wall_point_[1][i] = point.y;
-    wall_point_[2][i] = point.u;
-    wall_point_[3][i] = point.kick;
+    const BodyMotion point = wall_point(meetings_[i], bodies, body_[0][i], units);
+    const auto members = std::bit_cast<std::array<Fixed, 6>>(point);
+    for (std::size_t member = 0; member < members.size(); ++member)
+      wall_point_[member][i] = members[member];
   }
 }
 

@@ -98,7 +98,7 @@ private:
   std::size_t beginning_ = 0;  // contacts at the end of the arrays that begin in the next step
   std::vector<Meeting> meetings_;
   std::array<AlignedVector<std::int64_t>, 2> body_;  // first and second
-  std::array<AlignedVector<Fixed>, 4> wall_point_;   // members of WallPoint
+  std::array<AlignedVector<Fixed>, 6> wall_point_;   // members of its BodyMotion
   AlignedVector<double> reach_, reduced_mass_;
   std::array<AlignedVector<double>, 2> per_mass_;  // 1/kg, of first and second
   std::array<AlignedVector<double>, life_members> life_;

@@ -87,18 +87,17 @@ Meeting meeting_of(const ContactName& name, const State& state, const Slots& slo
 
 /// Where the wall grain is, and how it moves, in the step of `units`; `first` is where the first
 /// body stands in `b`.
-inline WallPoint wall_point(const Meeting& m, const Bodies& b, std::int64_t first,
-                            const StepUnits& units) {
-  const WallStep& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
-  return {.line = m.line,
-          .y = m.level ? b.y[first] : wrapped_sum(m.y, wall.shift),
-          .u = wall.u,
-          .kick = wall.kick};
+inline BodyMotion wall_point(const Meeting& m, const Bodies& b, std::int64_t first,
+                             const StepUnits& units) {
+  BodyMotion point = units.walls[static_cast<std::size_t>(m.name.wall)];
+  point.x = wrapped_sum(m.line, point.x);
+  point.y = m.level ? b.y[first] : wrapped_sum(m.y, point.y);
+  return point;
 }
 
 /// Seen from the first body; `b` holds the bodies where the meeting says.
 inline Encounter encounter(const Meeting& m, const Bodies& b, const StepUnits& units) {
-  const RelativeMotion motion =
+  const BodyMotion motion =
       m.with_wall() ? relative_motion(b, m.first, wall_point(m, b, m.first, units), units)
                     : relative_motion(b, m.first, m.second);
   return encounter(motion, m.reach(), m.reduced_mass(), units);

@@ -17,7 +17,8 @@ struct GrainSums {
   std::int64_t outside;
 };
 
-/// m, between the wall lines; where there is no wall a grain cannot be beyond it.
+/// m, between the wall lines where they are now; where there is no wall a grain cannot be beyond
+/// it.
 struct Gap {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -26,7 +27,8 @@ struct Gap {
 Gap between_walls(const State& state) {
   Gap gap;
   for (const WallLattice& wall : state.walls)
-    (wall.line < 0.5 * state.box.width ? gap.low : gap.high) = wall.line;
+    (wall.line < 0.5 * state.box.width ? gap.low : gap.high) =
+        wall.line + wall.motion.way(state.box, state.time()).x;
   return gap;
 }
 

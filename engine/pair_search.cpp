@@ -103,13 +103,14 @@ RIESEL_VECTOR_KERNEL void find_close_pairs(const Cells& cells, SlotRange slots,
         i, [&](SlotRange range) { find_close_in(range, i, positions, units, farthest2, close); });
 }
 
+/// Those that touch the strip in which the wall is at any time.
 void find_at_walls(Slice& slice, const State& state) {
   slice.wall_hits.clear();
   for (std::size_t place = 0; place < slice.near_walls.size(); ++place) {
     const NearWall& near = slice.near_walls[place];
     const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
     const double distance = std::abs(state.box.metres_x(state.grains.x[near.slot]) - wall.line);
-    if (distance < state.grains.radius[near.slot] + wall.radius)
+    if (distance < state.grains.radius[near.slot] + wall.reach())
       slice.wall_hits.push_back(static_cast<std::uint32_t>(place));
   }
 }

@@ -25,7 +25,8 @@ void add_torques_and_spring(Hash& hash, const Contact& c) {
 }
 
 void add(Hash& hash, const WallMotion& m) {
-  for (const auto part : {m.velocity, m.amplitude, m.frequency}) hash.add(part);
+  for (const auto part : {m.velocity, m.amplitude_x, m.amplitude_y, m.frequency, m.phase})
+    hash.add(part);
   hash.add(m.start);
 }
 

@@ -14,44 +14,59 @@
 
 namespace riesel {
 
-/// How a wall moves along y: start + velocity t + amplitude sin(2 pi frequency t).
-struct WallMotion {
-  double velocity = 0.0;   ///< m/s
-  double amplitude = 0.0;  ///< m, less than half a period of the box
-  double frequency = 0.0;  ///< 1/s
-  Fixed start = 0;         ///< quanta, from where an earlier run had moved it
+/// From where a wall was at first.
+struct WallWay {
+  double x, y;  ///< m
+};
+struct WallShift {
+  Fixed x, y;  ///< quanta
+};
 
-  bool oscillates() const { return amplitude != 0.0 && frequency != 0.0; }
+/// How a wall moves: along y by start + velocity t, and to and fro by amplitude sin(phase + 2 pi
+/// frequency t).
+struct WallMotion {
+  double velocity = 0.0;     ///< m/s
+  double amplitude_x = 0.0;  ///< m, less than half the width of the box
+  double amplitude_y = 0.0;  ///< m, less than half a period of the box
+  double frequency = 0.0;    ///< 1/s
+  double phase = 0.0;        ///< rad, to which an earlier run had come
+  Fixed start = 0;           ///< quanta, from where an earlier run had moved it
+
+  bool oscillates() const {
+    return (amplitude_x != 0.0 || amplitude_y != 0.0) && (frequency != 0.0 || phase != 0.0);
+  }
   /// Whether the wall is ever elsewhere than at first.
   bool is_there() const { return velocity != 0.0 || oscillates() || start != 0; }
+  /// rad, at `time` (s).
+  double phase_at(double time) const { return phase + 2.0 * std::numbers::pi * frequency * time; }
   /// m/s, of the oscillation alone.
   double fastest_oscillation() const {
-    return std::abs(2.0 * std::numbers::pi * frequency * amplitude);
+    return std::abs(2.0 * std::numbers::pi * frequency) * std::hypot(amplitude_x, amplitude_y);
   }
-  /// m, the same at `time` (s), for whoever looks.
-  double way(const Box& box, double time) const {
-    return box.metres_y(start) + velocity * time
-           + amplitude * std::sin(2.0 * std::numbers::pi * frequency * time);
+  /// The same at `time` (s), for whoever looks.
+  WallWay way(const Box& box, double time) const {
+    const double swing = std::sin(phase_at(time));
+    return {amplitude_x * swing, box.metres_y(start) + velocity * time + amplitude_y * swing};
   }
-  /// Whether no step and no oscillation goes as far as half the period.
+  /// Whether no step and no oscillation goes as far as half the box.
   bool is_within(const Box& box, double time_step) const {
-    const double farthest =
-        std::abs(amplitude) + (std::abs(velocity) + fastest_oscillation()) * time_step;
-    return std::isfinite(frequency) && farthest < 0.499 * box.length;
+    const double step = (std::abs(velocity) + fastest_oscillation()) * time_step;
+    return std::isfinite(phase_at(time_step)) && std::abs(amplitude_x) + step < 0.499 * box.width
+           && std::abs(amplitude_y) + step < 0.499 * box.length;
   }
-  /// Quanta of y at `step`. What is done at constant velocity is an equal number of
-  /// quanta in each step.
-  Fixed shift(const Box& box, double time_step, std::int64_t step) const {
+  /// At `step`. What is done at constant velocity is an equal number of quanta in each step.
+  WallShift shift(const Box& box, double time_step, std::int64_t step) const {
     const Fixed per_step = nearest_fixed(velocity * time_step / box.quantum_y());
     const Fixed steady = wrapped_sum(start, wrapped_product(step, per_step));
-    if (!oscillates()) return steady;
-    const double phase = 2.0 * std::numbers::pi * frequency * time_step * static_cast<double>(step);
-    return wrapped_sum(steady, nearest_fixed(amplitude * std::sin(phase) / box.quantum_y()));
+    if (!oscillates()) return {0, steady};
+    const double swing = std::sin(phase_at(time_step * static_cast<double>(step)));
+    return {nearest_fixed(amplitude_x * swing / box.quantum_x()),
+            wrapped_sum(steady, nearest_fixed(amplitude_y * swing / box.quantum_y()))};
   }
 };
 
-/// Parallel to y: grain k stands at y = k length / count, k = 0 ... count-1, and as far from there
-/// as the wall has moved.
+/// Parallel to y: grain k stands at (line, k length / count), k = 0 ... count-1, and as far from
+/// there as the wall has moved.
 struct WallLattice {
   double line;         ///< m, x of the centres
   double radius;       ///< m; 0: smooth
@@ -64,6 +79,8 @@ struct WallLattice {
   bool sound() const {
     return smooth() ? radius == 0.0 : count > 0 && radius > 0.0 && std::isfinite(radius);
   }
+  /// m, from its line to the farthest point that it ever covers.
+  double reach() const { return radius + std::abs(motion.amplitude_x); }
   /// How many bodies it has that can be touched: a plane is one.
   std::int64_t partners() const { return smooth() ? 1 : count; }
   /// m, of the smaller body where a grain of this radius touches: a plane has no size.

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 7;
+constexpr std::int64_t format_version = 8;
 constexpr auto kind = "checkpoint";
 
 // --- one part of the checkpoint after the other, written and read ---

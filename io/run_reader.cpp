@@ -77,7 +77,8 @@ bool is_sound(const Grain& grain) {
 bool is_sound(const WallLattice& wall) {
   const WallMotion& m = wall.motion;
   return std::isfinite(wall.line) && wall.sound() && std::isfinite(m.velocity)
-         && std::isfinite(m.amplitude) && std::isfinite(m.frequency);
+         && std::isfinite(m.amplitude_x) && std::isfinite(m.amplitude_y)
+         && std::isfinite(m.frequency) && std::isfinite(m.phase);
 }
 
 bool fits(const ContactName& name, const FinalState& state) {

@@ -106,7 +106,7 @@ void for_each_member(Visit visit) {
 /// Calls visit(name, unit, member) for each member of a wall; member(wall) is the member.
 template <std::same_as<WallLattice> Record, class Visit>
 void for_each_member(Visit visit) {
-  static_assert(sizeof(WallLattice) == 5 * sizeof(double) + 2 * sizeof(std::int64_t));
+  static_assert(sizeof(WallLattice) == 7 * sizeof(double) + 2 * sizeof(std::int64_t));
   visit(
       "line", "m", [](auto& wall) -> auto& { return wall.line; });
   visit(
@@ -116,9 +116,13 @@ void for_each_member(Visit visit) {
   visit(
       "velocity", "m/s", [](auto& wall) -> auto& { return wall.motion.velocity; });
   visit(
-      "amplitude", "m", [](auto& wall) -> auto& { return wall.motion.amplitude; });
+      "amplitude_x", "m", [](auto& wall) -> auto& { return wall.motion.amplitude_x; });
+  visit(
+      "amplitude_y", "m", [](auto& wall) -> auto& { return wall.motion.amplitude_y; });
   visit(
       "frequency", "1/s", [](auto& wall) -> auto& { return wall.motion.frequency; });
+  visit(
+      "phase", "rad", [](auto& wall) -> auto& { return wall.motion.phase; });
   visit(
       "start", "2^-64 of the period", [](auto& wall) -> auto& { return wall.motion.start; });
 }

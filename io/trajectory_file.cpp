@@ -35,21 +35,28 @@ constexpr std::uint64_t most_frames_in_a_block = 64;
 /// What HDF5 can count in a chunk.
 constexpr std::uint64_t most_grains = UINT32_MAX / (components * sizeof(float));
 
-std::uint64_t frames_in_a_block(std::uint64_t grains) {
-  const auto size = std::max<std::uint64_t>(grains, 1) * components * sizeof(float);
+/// Of the largest array that frames have.
+std::uint64_t most_places(const TrajectoryFacts& facts) {
+  return std::max(facts.grains, facts.walls_move ? facts.wall_grains : 0);
+}
+
+std::uint64_t frames_in_a_block(const TrajectoryFacts& facts) {
+  const auto size = std::max<std::uint64_t>(most_places(facts), 1) * components * sizeof(float);
   return std::clamp<std::uint64_t>(bytes_of_a_chunk / size, 1, most_frames_in_a_block);
 }
 
-/// What is written of walls is written once: no wall that moves.
-bool stands(const WallLattice& wall) { return !wall.motion.is_there(); }
-
 TrajectoryFacts facts_of(const State& state, const std::string& settings) {
   std::uint64_t wall_grains = 0;
-  for (const auto& wall : state.walls)
-    if (stands(wall)) wall_grains += static_cast<std::uint64_t>(wall.count);
+  bool walls_move = false;
+  for (const auto& wall : state.walls) {
+    wall_grains += static_cast<std::uint64_t>(wall.count);
+    walls_move = walls_move || wall.motion.is_there();
+  }
   const auto& radii = state.grains.radius;
   return {.grains = state.grains.size(),
           .wall_grains = wall_grains,
+          .walls_move = walls_move,
+          .grains_rotate = state.grains.rotate(),
           .width = state.box.width,
           .length = state.box.length,
           .largest_diameter = radii.empty() ? 0.0 : 2.0 * *std::ranges::max_element(radii),
@@ -66,27 +73,41 @@ FixedArrays place_fixed_arrays(const TrajectoryFacts& facts) {
   const auto radius = take(facts.grains, sizeof(double));
   const auto mass = take(facts.grains, sizeof(double));
   const auto id = take(facts.grains, sizeof(std::int32_t));
-  const auto wall_position = take(facts.wall_grains * components, sizeof(float));
+  const auto wall_position =
+      take(facts.walls_move ? 0 : facts.wall_grains * components, sizeof(float));
   const auto wall_radius = take(facts.wall_grains, sizeof(double));
   const auto wall_id = take(facts.wall_grains, sizeof(std::int32_t));
   return {radius, mass, id, wall_position, wall_radius, wall_id, end};
 }
 
+/// Below the end of the period, to which a float may not be rounded.
+float place_y(const Box& box, double y) {
+  return std::min(static_cast<float>(y), std::nextafter(static_cast<float>(box.length), 0.0F));
+}
+
+/// x, y, 0 of all wall grains where they are now.
+std::vector<float> places_of_walls(const State& state) {
+  std::vector<float> places;
+  for (const auto& wall : state.walls) {
+    const WallWay way = wall.motion.way(state.box, state.time());
+    const auto x = static_cast<float>(wall.line + way.x);
+    for (std::int64_t k = 0; k < wall.count; ++k) {
+      const double y = static_cast<double>(k) * wall.spacing(state.box) + way.y;
+      places.insert(places.end(), {x, place_y(state.box, state.box.wrapped(y)), 0.0F});
+    }
+  }
+  return places;
+}
+
 /// In the order in which place_fixed_arrays() places them.
-std::string fixed_arrays_of(const State& state) {
+std::string fixed_arrays_of(const State& state, const TrajectoryFacts& facts) {
   std::vector<double> radius, mass, wall_radius;
-  std::vector<float> wall_position;
   for (const auto slot : slots_by_id(state.grains)) {
     radius.push_back(state.grains.radius[slot]);
     mass.push_back(state.grains.mass[slot]);
   }
   for (const auto& wall : state.walls)
-    for (std::int64_t k = 0; k < (stands(wall) ? wall.count : 0); ++k) {
-      const double y = static_cast<double>(k) * wall.spacing(state.box);
-      wall_position.insert(wall_position.end(),
-                           {static_cast<float>(wall.line), static_cast<float>(y), 0.0F});
-      wall_radius.push_back(wall.radius);
-    }
+    wall_radius.insert(wall_radius.end(), static_cast<std::size_t>(wall.count), wall.radius);
   std::vector<std::int32_t> id(radius.size()), wall_id(wall_radius.size());
   std::iota(id.begin(), id.end(), 0);
   std::iota(wall_id.begin(), wall_id.end(), 0);
@@ -96,7 +117,7 @@ std::string fixed_arrays_of(const State& state) {
   put(radius);
   put(mass);
   put(id);
-  put(wall_position);
+  if (!facts.walls_move) put(places_of_walls(state));
   put(wall_radius);
   put(wall_id);
   return bytes.bytes();
@@ -105,19 +126,22 @@ std::string fixed_arrays_of(const State& state) {
 /// Grains in the order of their ids, in SI units.
 struct Frame {
   std::vector<float> position, velocity;  // x, y, 0
+  std::vector<float> spin;                // 0 where they do not rotate
 
   explicit Frame(const State& state)
-      : position(components * state.grains.size()), velocity(position.size()) {
-    // What lies below the period may not be rounded to it.
-    const float end_of_period = std::nextafter(static_cast<float>(state.box.length), 0.0F);
+      : position(components * state.grains.size()),
+        velocity(position.size()),
+        spin(state.grains.size()) {
     const GrainView grains(state);
     for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
       const Grain grain = grains[slot];
-      const auto i = components * static_cast<std::size_t>(state.grains.id[slot]);
+      const auto id = static_cast<std::size_t>(state.grains.id[slot]);
+      const auto i = components * id;
       position[i] = static_cast<float>(grain.x);
-      position[i + 1] = std::min(static_cast<float>(grain.y), end_of_period);
+      position[i + 1] = place_y(state.box, grain.y);
       velocity[i] = static_cast<float>(grain.vx);
       velocity[i + 1] = static_cast<float>(grain.vy);
+      spin[id] = static_cast<float>(grain.spin);
     }
   }
 };
@@ -134,7 +158,7 @@ public:
     head_.frames_per_block = layout_.frames_per_block;
     head_.end = fixed_.wall_end;
     auto [root, outline] = next_outline();
-    const std::string arrays = fixed_arrays_of(state);
+    const std::string arrays = fixed_arrays_of(state, facts_);
     std::string content = written(head_, root) + arrays + outline;
     content.resize(head_.end, '\0');
     write_durably(path_, content);
@@ -172,6 +196,8 @@ public:
     const std::array<double, 1> time = {state.time()};
     write(layout_.position, bytes_of(frame.position));
     write(layout_.velocity, bytes_of(frame.velocity));
+    if (facts_.grains_rotate) write(layout_.spin, bytes_of(frame.spin));
+    if (facts_.walls_move) write(layout_.wall_position, bytes_of(places_of_walls(state)));
     write(layout_.cell, bytes_of(cell));
     write(layout_.step, bytes_of(step));
     write(layout_.time, bytes_of(time));
@@ -195,7 +221,7 @@ private:
         facts_(std::move(facts)),
         time_step_(time_step),
         fixed_(place_fixed_arrays(facts_)),
-        layout_(facts_.grains, frames_in_a_block(facts_.grains)) {
+        layout_(facts_, frames_in_a_block(facts_)) {
     head_.grains = facts_.grains;
     head_.wall_grains = facts_.wall_grains;
   }
@@ -262,6 +288,8 @@ private:
                           .grains = facts_.grains,
                           .wall_grains = facts_.wall_grains,
                           .frames = head_.frames,
+                          .walls_move = facts_.walls_move,
+                          .grains_rotate = facts_.grains_rotate,
                           .interval = static_cast<double>(head_.steps_per_frame) * time_step_}));
   }
 
@@ -286,7 +314,7 @@ TrajectoryFile TrajectoryFile::create(const fs::path& path, const State& state,
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(path, ignored)))
     throw FileError(path, "exists already", "choose another directory, or remove it");
-  if (state.grains.size() > most_grains)
+  if (most_places(facts_of(state, {})) > most_grains)
     throw FileError(path, fmt::format("cannot hold frames of more than {} grains", most_grains),
                     "run without a trajectory");
   return TrajectoryFile(std::make_unique<Contents>(path, state, steps_per_frame, settings));
@@ -318,6 +346,8 @@ std::int64_t TrajectoryFile::frames() const {
 }
 void TrajectoryFile::commit() { contents_->commit(); }
 
-std::uint64_t bytes_per_frame(std::uint64_t grains) { return FrameBlocks(grains, 1).size; }
+std::uint64_t bytes_per_frame(const State& state) {
+  return FrameBlocks(facts_of(state, {}), 1).size;
+}
 
 }  // namespace riesel::io

@@ -66,7 +66,7 @@ private:
   std::unique_ptr<Contents> contents_;
 };
 
-/// Bytes that a frame of so many grains takes.
-std::uint64_t bytes_per_frame(std::uint64_t grains);
+/// Bytes that a frame of `state` takes.
+std::uint64_t bytes_per_frame(const State& state);
 
 }  // namespace riesel::io

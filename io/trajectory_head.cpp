@@ -11,7 +11,7 @@ namespace riesel::io {
 namespace {
 
 constexpr std::size_t title_place = 128;  // behind the superblock
-constexpr std::string_view title = "riesel trajectory 1\n";
+constexpr std::string_view title = "riesel trajectory 2\n";
 constexpr std::size_t numbers_place = title_place + 32;
 constexpr std::size_t checksum_place = trajectory_head_size - 8;
 

@@ -15,13 +15,23 @@ std::string whole(std::string_view file, std::string_view path, const std::strin
       extent, precision, file, path);
 }
 
-/// One frame of an array of vectors.
-std::string of_frame(const TrajectoryIndex& index, std::string_view path, std::uint64_t frame) {
+/// One frame of an array of so many vectors.
+std::string of_frame(const TrajectoryIndex& index, std::string_view path, std::uint64_t count,
+                     std::uint64_t frame) {
   return fmt::format(
       R"(<DataItem ItemType="HyperSlab" Dimensions="{0} 3" Type="HyperSlab">)"
       R"(<DataItem Dimensions="3 3" Format="XML">{1} 0 0 1 1 1 1 {0} 3</DataItem>{2}</DataItem>)",
+      count, frame, whole(index.file, path, fmt::format("{} {} 3", index.frames, count), 4));
+}
+
+/// One frame of an array of numbers, of the grains.
+std::string numbers_of_frame(const TrajectoryIndex& index, std::string_view path,
+                             std::uint64_t frame) {
+  return fmt::format(
+      R"(<DataItem ItemType="HyperSlab" Dimensions="{0}" Type="HyperSlab">)"
+      R"(<DataItem Dimensions="3 2" Format="XML">{1} 0 1 1 1 {0}</DataItem>{2}</DataItem>)",
       index.grains, frame,
-      whole(index.file, path, fmt::format("{} {} 3", index.frames, index.grains), 4));
+      whole(index.file, path, fmt::format("{} {}", index.frames, index.grains), 4));
 }
 
 std::string points(std::uint64_t count, const std::string& places) {
@@ -50,10 +60,19 @@ std::string grid(std::string_view name, const std::string& content) {
 }  // namespace
 
 std::string trajectory_index(const TrajectoryIndex& index) {
-  const std::string walls =
-      grid("walls", points(index.wall_grains, whole(index.file, "/particles/walls/position",
-                                                    fmt::format("{} 3", index.wall_grains), 4))
-                        + radius(index, "walls", index.wall_grains));
+  const auto walls = [&](std::uint64_t frame) {
+    const std::string places = index.walls_move ? of_frame(index, "/particles/walls/position/value",
+                                                           index.wall_grains, frame)
+                                                : whole(index.file, "/particles/walls/position",
+                                                        fmt::format("{} 3", index.wall_grains), 4);
+    return grid("walls",
+                points(index.wall_grains, places) + radius(index, "walls", index.wall_grains));
+  };
+  const auto spins = [&](std::uint64_t frame) {
+    if (!index.grains_rotate) return std::string();
+    return attribute("spin", "Scalar",
+                     numbers_of_frame(index, "/particles/grains/spin/value", frame));
+  };
   const std::string radii = radius(index, "grains", index.grains);
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain>\n"
@@ -62,12 +81,13 @@ std::string trajectory_index(const TrajectoryIndex& index) {
     text += fmt::format("<Grid Name=\"frame\" GridType=\"Collection\" CollectionType=\"Spatial\">"
                         "<Time Value=\"{}\"/>\n",
                         static_cast<double>(frame) * index.interval);
-    text += grid("grains",
-                 points(index.grains, of_frame(index, "/particles/grains/position/value", frame))
-                     + attribute("velocity", "Vector",
-                                 of_frame(index, "/particles/grains/velocity/value", frame))
-                     + radii);
-    text += walls + "</Grid>\n";
+    text += grid("grains", points(index.grains, of_frame(index, "/particles/grains/position/value",
+                                                         index.grains, frame))
+                               + attribute("velocity", "Vector",
+                                           of_frame(index, "/particles/grains/velocity/value",
+                                                    index.grains, frame))
+                               + spins(frame) + radii);
+    text += walls(frame) + "</Grid>\n";
   }
   return text + "</Grid>\n</Domain></Xdmf>\n";
 }

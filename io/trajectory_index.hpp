@@ -10,6 +10,7 @@ namespace riesel::io {
 struct TrajectoryIndex {
   std::string file;  ///< the name of the trajectory, in the same directory
   std::uint64_t grains, wall_grains, frames;
+  bool walls_move, grains_rotate;
   double interval;  ///< s, between two frames
 };
 

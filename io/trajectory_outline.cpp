@@ -87,15 +87,13 @@ private:
   }
 
   void make_frames() {
-    const auto grains = facts_->grains;
-    const auto vectors = [&](std::uint64_t offset, const Hdf5Attributes& attributes) {
-      return of_frames(offset, {.element = Hdf5Element::real32,
-                                .extent = {frames_, grains, all},
-                                .attributes = attributes,
-                                .scales = {frame_, atom_, spatial_}});
-    };
-    amber_["coordinates"] = vectors(layout_->position, unit("m", "meter"));
-    amber_["velocities"] = vectors(layout_->velocity, unit("m s-1", "meter/second"));
+    amber_["coordinates"] = vectors(layout_->position, atom_, unit("m", "meter"));
+    amber_["velocities"] = vectors(layout_->velocity, atom_, unit("m s-1", "meter/second"));
+    if (facts_->grains_rotate)
+      amber_["spin"] = of_frames(layout_->spin, {.element = Hdf5Element::real32,
+                                                 .extent = {frames_, facts_->grains},
+                                                 .attributes = unit("rad s-1", "radian/second"),
+                                                 .scales = {frame_, atom_}});
     amber_["cell_lengths"] = of_frames(layout_->cell, {.element = Hdf5Element::real32,
                                                        .extent = {frames_, all},
                                                        .attributes = unit("m", "meter"),
@@ -116,11 +114,23 @@ private:
     amber_["mass"] = fixed(Hdf5Element::real64, fixed_->mass, unit("kg", "kilogram"), atom_);
   }
 
+  std::uint64_t count_of(const Hdf5Scale& scale) const {
+    return scale.index == atom_.index ? facts_->grains : facts_->wall_grains;
+  }
+
+  /// Of all grains or of all wall grains.
+  std::uint64_t vectors(std::uint64_t offset, const Hdf5Scale& scale,
+                        const Hdf5Attributes& attributes) {
+    return of_frames(offset, {.element = Hdf5Element::real32,
+                              .extent = {frames_, count_of(scale), all},
+                              .attributes = attributes,
+                              .scales = {frame_, scale, spatial_}});
+  }
+
   std::uint64_t fixed(Hdf5Element element, std::uint64_t piece, const Hdf5Attributes& attributes,
                       const Hdf5Scale& scale) {
-    const auto length = scale.index == atom_.index ? facts_->grains : facts_->wall_grains;
     return out_->add_data({.element = element,
-                           .extent = {length},
+                           .extent = {count_of(scale)},
                            .piece = piece,
                            .attributes = attributes,
                            .scales = {scale}});
@@ -157,27 +167,30 @@ private:
 
   std::uint64_t particles() {
     const auto space = box();
-    const auto position = out_->add_group(
-        {{"step", step_}, {"time", amber_["time"]}, {"value", amber_["coordinates"]}});
-    const auto velocity = out_->add_group(
-        {{"step", step_}, {"time", amber_["time"]}, {"value", amber_["velocities"]}});
-    const auto id = fixed(Hdf5Element::int32, fixed_->id, {}, atom_);
-    const auto grains = out_->add_group({{"box", space},
-                                         {"position", position},
-                                         {"velocity", velocity},
-                                         {"radius", amber_["radius"]},
-                                         {"mass", amber_["mass"]},
-                                         {"id", id}});
+    Members grains = {{"box", space},
+                      {"position", in_time(amber_["coordinates"])},
+                      {"velocity", in_time(amber_["velocities"])},
+                      {"radius", amber_["radius"]},
+                      {"mass", amber_["mass"]},
+                      {"id", fixed(Hdf5Element::int32, fixed_->id, {}, atom_)}};
+    if (facts_->grains_rotate) grains["spin"] = in_time(amber_["spin"]);
     const auto walls =
         out_->add_group({{"box", space},
                          {"position", wall_position()},
                          {"radius", fixed(Hdf5Element::real64, fixed_->wall_radius,
                                           unit("m", "meter"), wall_grain_)},
                          {"id", fixed(Hdf5Element::int32, fixed_->wall_id, {}, wall_grain_)}});
-    return out_->add_group({{"grains", grains}, {"walls", walls}});
+    return out_->add_group({{"grains", out_->add_group(grains)}, {"walls", walls}});
+  }
+
+  /// H5MD's element that changes.
+  std::uint64_t in_time(std::uint64_t value) {
+    return out_->add_group({{"step", step_}, {"time", amber_["time"]}, {"value", value}});
   }
 
   std::uint64_t wall_position() {
+    if (facts_->walls_move)
+      return in_time(vectors(layout_->wall_position, wall_grain_, unit("m", "meter")));
     return out_->add_data({.element = Hdf5Element::real32,
                            .extent = {facts_->wall_grains, all},
                            .piece = fixed_->wall_position,
@@ -198,7 +211,8 @@ private:
 
 }  // namespace
 
-FrameBlocks::FrameBlocks(std::uint64_t grains, std::uint64_t frames) : frames_per_block(frames) {
+FrameBlocks::FrameBlocks(const TrajectoryFacts& facts, std::uint64_t frames)
+    : frames_per_block(frames) {
   const std::uint64_t real32 = size_of(Hdf5Element::real32), eight = 8;
   std::uint64_t end = 0;
   const auto take = [&](std::uint64_t bytes_per_frame) {
@@ -206,8 +220,10 @@ FrameBlocks::FrameBlocks(std::uint64_t grains, std::uint64_t frames) : frames_pe
     end += (frames * bytes_per_frame + eight - 1) / eight * eight;
     return begin;
   };
-  position = take(grains * all * real32);
-  velocity = take(grains * all * real32);
+  position = take(facts.grains * all * real32);
+  velocity = take(facts.grains * all * real32);
+  spin = take(facts.grains_rotate ? facts.grains * real32 : 0);
+  wall_position = take(facts.walls_move ? facts.wall_grains * all * real32 : 0);
   cell = take(all * real32);
   step = take(eight);
   time = take(eight);

@@ -16,6 +16,8 @@ namespace riesel::io {
 struct TrajectoryFacts {
   std::uint64_t grains;
   std::uint64_t wall_grains;
+  bool walls_move = false;  ///< their grains are in all frames
+  bool grains_rotate = false;
   double width, length;     ///< m, of the box; periodic along y
   double largest_diameter;  ///< m
   std::string settings;     ///< the effective settings, YAML
@@ -30,10 +32,10 @@ struct FixedArrays {
 /// A block holds the same number of frames of each array, one array after the other.
 struct FrameBlocks {
   std::uint64_t frames_per_block;
-  std::uint64_t position, velocity, cell, step, time;  ///< offsets in a block
-  std::uint64_t size;                                  ///< bytes
+  std::uint64_t position, velocity, spin, wall_position, cell, step, time;  ///< offsets in a block
+  std::uint64_t size;                                                       ///< bytes
 
-  FrameBlocks(std::uint64_t grains, std::uint64_t frames);
+  FrameBlocks(const TrajectoryFacts& facts, std::uint64_t frames);
 };
 
 /// Frames are rows of so many components, of which the last is 0.

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <variant>
 #include <vector>
 
@@ -63,6 +65,15 @@ Contact carried_over(const Contact& contact, double now, const ContactModel& mod
           .rolling_torque = contact.rolling_torque};
 }
 
+/// The wall is where it was, and at the same phase of its oscillation.
+void go_on_from(const WallMotion& before, const State& earlier, WallMotion& motion) {
+  motion.phase = std::fmod(before.phase_at(earlier.time()), 2.0 * std::numbers::pi);
+  const auto y_of = [&](const WallMotion& m, std::int64_t step) {
+    return m.shift(earlier.box, earlier.time_step, step).y;
+  };
+  motion.start = wrapped_difference(y_of(before, earlier.step), y_of(motion, 0));
+}
+
 }  // namespace
 
 State earlier_state(const io::Settings& settings) {
@@ -74,6 +85,15 @@ State earlier_state(const io::Settings& settings) {
                     "give a run of the scenario " + settings.scenario());
   reject_other_grains_or_tube(settings, earlier);
   return std::move(checkpoint.state);
+}
+
+void reject_other_swing_across(const io::Settings& settings, const State& earlier,
+                               const State& state) {
+  for (std::size_t wall = 0; wall < state.walls.size(); ++wall)
+    if (earlier.walls[wall].motion.amplitude_x != state.walls[wall].motion.amplitude_x)
+      settings.reject("wall.shake_amplitude",
+                      "moves the walls across by another way than the run to be continued",
+                      "shake them as far across as that run, or start afresh");
 }
 
 void take_over(const State& earlier, const ContactModel& model, State& state) {
@@ -95,8 +115,7 @@ void take_over(const State& earlier, const ContactModel& model, State& state) {
     g.spin[i] -= g.spin_kick[i] / 2;
   }
   for (std::size_t wall = 0; wall < state.walls.size(); ++wall)
-    state.walls[wall].motion.start =
-        earlier.walls[wall].motion.shift(earlier.box, earlier.time_step, earlier.step);
+    go_on_from(earlier.walls[wall].motion, earlier, state.walls[wall].motion);
   for (const Contact& contact : earlier.contacts)
     state.contacts.push_back(carried_over(contact, earlier.time(), model));
 }

@@ -22,8 +22,14 @@ namespace riesel::scenarios {
 /// tube or of other grains than the settings say.
 State earlier_state(const io::Settings& settings);
 
+/// Rejects walls that would have to jump across, into their grains: those of `state` must be shaken
+/// as far in that direction as those of `earlier`.
+void reject_other_swing_across(const io::Settings& settings, const State& earlier,
+                               const State& state);
+
 /// Moves grains and contacts of `earlier` to `state`, whose box, walls, gravity and time step are
-/// set and which has no grains yet.
+/// set and which has no grains yet. Walls go on from where they were and at the phase of their
+/// oscillation.
 void take_over(const State& earlier, const ContactModel& model, State& state);
 
 /// Whether runs of the tube may follow each other along this setting: not where it is about the

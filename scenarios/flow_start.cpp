@@ -152,6 +152,7 @@ Flow start_from_file(const io::Settings& settings, const ContactModel& model, Ro
 Flow continue_run(const io::Settings& settings, const ContactModel& model, Room room) {
   const State earlier = earlier_state(settings);
   room.reject_too_small(settings, 2.0 * std::ranges::max(earlier.grains.radius), room.empty);
+  reject_other_swing_across(settings, earlier, room.empty);
   set_time_step(settings, model, earlier.grains.mass, room.empty);
   reject_fast_walls(settings, room.empty);
   take_over(earlier, model, room.empty);

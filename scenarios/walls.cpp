@@ -4,13 +4,29 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 namespace riesel::scenarios {
 
 namespace {
 
-constexpr auto amplitude_key = "wall.shake_amplitude", frequency_key = "wall.shake_frequency";
+using std::numbers::pi;
+
+constexpr auto amplitude_key = "wall.shake_amplitude", frequency_key = "wall.shake_frequency",
+               angle_key = "wall.shake_angle";
+
+WallMotion shaking(const io::Settings& settings, const Box& box, const std::string& key_of_length) {
+  const double amplitude = settings.number(amplitude_key), angle = settings.number(angle_key);
+  if (amplitude > 0.25 * std::min(box.width, box.length))
+    settings.reject(amplitude_key, "more than a quarter of the period or of the width",
+                    "choose it smaller, or the room larger (" + key_of_length + ")");
+  return {.amplitude_x = amplitude * std::sin(angle),
+          .amplitude_y = amplitude * std::cos(angle),
+          .frequency = settings.number(frequency_key)};
+}
 
 /// The walls and the grains do not fit: the key that was given of the two, or that of the walls.
 std::string to_blame(const io::Settings& settings, const std::string& key_of_walls) {
@@ -45,24 +61,25 @@ io::SettingsTable wall_settings() {
        .unit = "m",
        .fallback = "0",
        .range = io::non_negative(),
-       .doc = "The walls shake along their length, all alike: by this much to either side."},
+       .doc = "The walls shake, all alike: by this much to either side."},
       {.key = frequency_key,
        .unit = "1/s",
        .fallback = "0",
        .range = io::non_negative(),
        .doc = "How often, as a sine of the time."},
+      {.key = angle_key,
+       .unit = "rad",
+       .fallback = "0",
+       .range = io::between(-0.5 * pi, 0.5 * pi),
+       .doc = "In which direction: 0 along the walls, 90 degrees across them."},
   };
 }
 
 WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
                     const std::string& key_of_length) {
-  const WallMotion shaking{.amplitude = settings.number(amplitude_key),
-                           .frequency = settings.number(frequency_key)};
-  if (shaking.amplitude > 0.25 * box.length)
-    settings.reject(amplitude_key, "more than a quarter of the period",
-                    "choose it smaller, or " + key_of_length + " longer");
+  const WallMotion motion = shaking(settings, box, key_of_length);
   if (settings.text("wall.surface") == "smooth")
-    return {.line = line, .radius = 0.0, .count = 0, .motion = shaking};
+    return {.line = line, .radius = 0.0, .count = 0, .motion = motion};
   const double spacing = settings.number("wall.spacing");
   if (spacing > box.length)
     settings.reject("wall.spacing", "wider than the walls are long",
@@ -70,7 +87,7 @@ WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
   return {.line = line,
           .radius = 0.5 * settings.number("wall.grain_diameter"),
           .count = std::llround(box.length / spacing),
-          .motion = shaking};
+          .motion = motion};
 }
 
 void reject_short_period(const io::Settings& settings, double largest, const State& empty,

@@ -24,6 +24,8 @@ class Frame:
     step: int
     position: NDArray[np.float32]  #: m
     velocity: NDArray[np.float32]  #: m/s
+    spin: NDArray[np.float32] | None  #: rad/s, of the shape (grains,); None where grains do not rotate
+    wall_position: NDArray[np.float32]  #: m, of wall grains
 
 
 class Trajectory(Sequence[Frame]):
@@ -38,7 +40,7 @@ class Trajectory(Sequence[Frame]):
             self.radius: NDArray[np.float64] = grains["radius"][()]  #: m
             self.mass: NDArray[np.float64] = grains["mass"][()]  #: kg
             walls = file["particles/walls"]
-            self.wall_position: NDArray[np.float64] = walls["position"][:, :2]  #: m, of wall grains
+            self.walls_move: bool = "value" in walls["position"]
             self.wall_radius: NDArray[np.float64] = walls["radius"][()]  #: m
 
     def __len__(self) -> int:
@@ -61,7 +63,9 @@ class Trajectory(Sequence[Frame]):
             yield from (self._frame(file, i) for i in range(len(self)))
 
     def _frame(self, file: Any, index: int) -> Frame:
-        grains = file["particles/grains"]
+        grains, walls = file["particles/grains"], file["particles/walls/position"]
         return Frame(time=float(self.time[index]), step=int(self.step[index]),
                      position=grains["position/value"][index, :, :2],
-                     velocity=grains["velocity/value"][index, :, :2])
+                     velocity=grains["velocity/value"][index, :, :2],
+                     spin=grains["spin/value"][index] if "spin" in grains else None,
+                     wall_position=walls["value"][index, :, :2] if self.walls_move else walls[:, :2])

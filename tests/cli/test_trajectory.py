@@ -126,6 +126,41 @@ class Contents(TrajectoryTest):
             self.assertTrue((amber["cell_angles"][:] == 90).all())
 
 
+class WallsThatMove(TrajectoryTest):
+    """And grains that rotate: both are in each frame then."""
+
+    @classmethod
+    def setUpClass(cls):
+        maker = cls.maker()
+        settings = ("output.trajectory_interval=1 ns", "run.duration=0.5 ms", "grains.rotation=disc",
+                    "wall.shake_amplitude=0.5 mm", "wall.shake_frequency=3000", "wall.shake_angle=30 degrees")
+        cls.out = maker.run_tube("out", *(word for setting in settings for word in ("--set", setting)))
+        cls.file = h5py.File(cls.out / "trajectory.h5", "r")
+        cls.addClassCleanup(cls.file.close)
+        cls.run_file = h5py.File(cls.out / "run.h5", "r")
+        cls.addClassCleanup(cls.run_file.close)
+
+    def test_each_frame_has_the_walls_where_they_are(self):
+        walls, described = self.file["particles/walls/position"], self.run_file["final/walls"]
+        length = self.run_file["final"].attrs["box_length"]
+        at_first = [(line, k * length / count) for line, count in zip(
+            described["line"][:], described["count"][:]) for k in range(count)]
+        for time, places in zip(walls["time"][:], walls["value"][:]):
+            swing = 0.5e-3 * np.sin(2 * np.pi * 3000 * time)
+            expected = at_first + swing * np.array([0.5, np.sqrt(0.75)])
+            off = places[:, :2] - expected
+            off[:, 1] -= length * np.round(off[:, 1] / length)
+            self.assertLess(abs(off).max(), 1e-8)
+        self.assertTrue((walls["value"][:, :, 1] >= 0).all() and (walls["value"][:, :, 1] < length).all())
+
+    def test_each_frame_has_the_spins(self):
+        spin = self.file[f"{GRAINS}/spin"]
+        self.assertEqual(spin["value"].attrs["unit"], b"rad s-1")
+        self.assertEqual(spin["step"][:].tolist(), self.file[f"{GRAINS}/position/step"][:].tolist())
+        np.testing.assert_allclose(spin["value"][-1], self.run_file["final/spin"][:], rtol=1e-6)
+        self.assertGreater(abs(spin["value"][-1]).max(), 1)
+
+
 class Trajectory(TrajectoryTest):
 
     def test_it_does_not_change_the_run(self):

@@ -124,12 +124,13 @@ private:
   Body wall_grain(const WallLattice& wall, std::int64_t k, double level) const {
     const double y = static_cast<double>(k) * box_.length / static_cast<double>(wall.count);
     const auto way = [&](std::int64_t step) {
-      return wall.motion.way(box_, static_cast<double>(step) * dt_);
+      const WallWay gone = wall.motion.way(box_, static_cast<double>(step) * dt_);
+      return Vector2d(gone.x, gone.y);
     };
-    const double before = way(step_) - way(step_ - 1), after = way(step_ + 1) - way(step_);
-    return {.position = {wall.line, wall.smooth() ? level : y + way(step_)},
-            .half_step_velocity = {0.0, before / dt_},
-            .acceleration = {0.0, (after - before) / (dt_ * dt_)},
+    const Vector2d now = way(step_), before = now - way(step_ - 1), after = way(step_ + 1) - now;
+    return {.position = {wall.line + now.x(), wall.smooth() ? level : y + now.y()},
+            .half_step_velocity = before / dt_,
+            .acceleration = (after - before) / (dt_ * dt_),
             .radius = wall.radius,
             .mass = 0.0,
             .spin = {}};

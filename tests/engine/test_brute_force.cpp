@@ -134,11 +134,18 @@ TEST_CASE("grains between walls that move go as by brute force") {
   }
   SECTION("to and fro") {
     for (WallLattice& wall : state.walls)
-      wall.motion = {.velocity = 0.5, .amplitude = 1e-3, .frequency = 2000.0};
+      wall.motion = {.velocity = 0.5, .amplitude_y = 1e-3, .frequency = 2000.0};
+  }
+  SECTION("across") {
+    state.walls[0].motion = {.amplitude_x = 0.8e-3, .frequency = 1500.0};
+    state.walls[1].motion = {
+        .amplitude_x = -0.5e-3, .amplitude_y = 0.5e-3, .frequency = 3000.0, .phase = 2.0};
   }
   SECTION("smooth ones") {
+    const WallMotion motion =
+        GENERATE(WallMotion{.velocity = 9.0}, WallMotion{.amplitude_x = 1e-3, .frequency = 1000.0});
     for (WallLattice& wall : state.walls)
-      wall = {.line = wall.line, .radius = 0.0, .count = 0, .motion = {.velocity = 9.0}};
+      wall = {.line = wall.line, .radius = 0.0, .count = 0, .motion = motion};
   }
   const Events events = agree(state, 800);
   CHECK(events.pairs_begun > 20);

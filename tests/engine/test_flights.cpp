@@ -81,9 +81,27 @@ TEST_CASE("a thin gas between moving walls goes both ways alike") {
   State state = empty_box(12e-3, 20e-3);
   add_walls(state, 16);
   state.walls[0].motion = {.velocity = -3.0};
-  state.walls[1].motion = {.velocity = 3.0, .amplitude = 0.5e-3, .frequency = 1000.0};
+  state.walls[1].motion = {.velocity = 3.0, .amplitude_y = 0.5e-3, .frequency = 1000.0};
   Dice dice(75);
   throw_grains(state, 30, {.left = 0.0, .right = 12e-3, .low = 0.0, .high = 20e-3, .speed = 2.0},
+               dice);
+  const State end = same_both_ways(state, 10'000);
+  CHECK(end.tally.walls.begun > 15);
+  CHECK(end.tally.impulses.work.value() > 0.0);
+}
+
+TEST_CASE("grains that walls shaken across come to go both ways alike") {
+  State state = empty_box(12e-3, 20e-3);
+  SECTION("corrugated") { add_walls(state, 16); }
+  SECTION("smooth") {
+    for (const double line : {0.0, 12e-3}) state.walls.push_back(WallLattice::smooth_at(line));
+    state.gravity.x = -10.0;
+  }
+  state.walls[0].motion = {.amplitude_x = 2e-3, .frequency = 200.0};
+  state.walls[1].motion = {.amplitude_x = -1e-3, .amplitude_y = 1e-3, .frequency = 500.0};
+  // At rest, and most of them where no wall is at first.
+  Dice dice(76);
+  throw_grains(state, 30, {.left = 1e-3, .right = 11e-3, .low = 0.0, .high = 20e-3, .speed = 0.0},
                dice);
   const State end = same_both_ways(state, 10'000);
   CHECK(end.tally.walls.begun > 15);

@@ -110,7 +110,9 @@ TEST_CASE("the hash notices where the grains began where gravity is at an angle"
 
 TEST_CASE("the hash notices walls that move, and their work") {
   CHECK(noticed([](State& s) { s.walls[0].motion.velocity = 1e-9; }));
-  CHECK(noticed([](State& s) { s.walls[1].motion = {.amplitude = 1e-9, .frequency = 1.0}; }));
+  CHECK(noticed([](State& s) { s.walls[1].motion = {.amplitude_y = 1e-9, .frequency = 1.0}; }));
+  CHECK(noticed([](State& s) { s.walls[1].motion = {.amplitude_x = 1e-9, .frequency = 1.0}; }));
+  CHECK(noticed([](State& s) { s.walls[1].motion = {.amplitude_x = 1e-9, .phase = 1.0}; }));
   CHECK(noticed([](State& s) { s.tally.impulses.work.add(1e-20); }));
 }
 

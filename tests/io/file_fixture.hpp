@@ -175,13 +175,16 @@ inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
   constexpr auto denormal = std::numeric_limits<double>::denorm_min();
   riesel::State state;
   state.box = {.width = 0.1 / 3.0, .length = 0.1};
-  state.walls = {
-      {.line = -0.0, .radius = 3.3e-4, .count = 83},
-      {.line = 0.02,
-       .radius = 0.0,
-       .count = 0,
-       .motion = {
-           .velocity = -1.0 / 3.0, .amplitude = 1e-5, .frequency = 100.0 / 7.0, .start = least}}};
+  state.walls = {{.line = -0.0, .radius = 3.3e-4, .count = 83},
+                 {.line = 0.02,
+                  .radius = 0.0,
+                  .count = 0,
+                  .motion = {.velocity = -1.0 / 3.0,
+                             .amplitude_x = 1e-6,
+                             .amplitude_y = 1e-5,
+                             .frequency = 100.0 / 7.0,
+                             .phase = 0.1,
+                             .start = least}}};
   state.gravity.y = -0.0;
   state.time_step = 1e-6 / 3.0;
   state.step = most;
@@ -295,8 +298,8 @@ inline std::string bits_of(const riesel::State& state) {
                            state.origin.moment_x});
   bits.add(state.step);
   for (const auto& wall : state.walls) {
-    bits.add_all(std::vector{wall.line, wall.radius, wall.motion.velocity, wall.motion.amplitude,
-                             wall.motion.frequency});
+    bits.add_all(std::vector{wall.line, wall.radius, wall.motion.velocity, wall.motion.amplitude_x,
+                             wall.motion.amplitude_y, wall.motion.frequency, wall.motion.phase});
     bits.add(wall.count);
     bits.add(wall.motion.start);
   }

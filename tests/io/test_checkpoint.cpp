@@ -289,6 +289,10 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "wall 1 moves too far or too fast");
   CHECK(refusal([](auto& c) { c.state.walls[1].motion.frequency = nan; })
         == "wall 1 moves too far or too fast");
+  CHECK(refusal([](auto& c) { c.state.walls[1].motion.phase = nan; })
+        == "wall 1 moves too far or too fast");
+  CHECK(refusal([](auto& c) { c.state.walls[1].motion.amplitude_x = 1.0; })
+        == "wall 1 moves too far or too fast");
   CHECK(refusal([](auto& c) { c.state.grains.radius[1] = nan; })
         == "the radius of grain 1 is not positive");
   CHECK(refusal([](auto& c) { c.state.grains.mass[2] = -1.0; })

@@ -182,7 +182,8 @@ TEST_CASE("the energy of a tube at an angle is accounted for, the better the sma
 TEST_CASE("the energy between moving walls is accounted for, the better the smaller the step") {
   WallMotion motion;
   SECTION("at constant velocity") { motion = {.velocity = 5.0}; }
-  SECTION("to and fro") { motion = {.amplitude = 0.5e-3, .frequency = 1500.0}; }
+  SECTION("to and fro") { motion = {.amplitude_y = 0.5e-3, .frequency = 1500.0}; }
+  SECTION("across") { motion = {.amplitude_x = 0.3e-3, .frequency = 400.0}; }
   const auto residual = [&](double dt) {
     State start = walled_gas(dt, 0.0, 60);
     start.walls[0].motion = motion;

@@ -71,8 +71,9 @@ void add_slopes(std::uint64_t seed, State& state) {
   for (WallLattice& wall : state.walls) {
     wall.motion.velocity = dice.between(-5.0, 5.0);
     if (dice.below(2) == 0) continue;
-    wall.motion.amplitude = dice.between(0.0, 1e-3);
+    wall.motion.amplitude_y = dice.between(0.0, 1e-3);
     wall.motion.frequency = dice.between(0.0, 1e3);
+    if (dice.below(2) == 0) wall.motion.amplitude_x = dice.between(-0.5e-3, 0.5e-3);
   }
 }
 

@@ -110,7 +110,7 @@ class Flow(CommandTest):
         self.assertEqual(len(trajectory[3:5]), 2)
         self.assertEqual(trajectory[4].time, trajectory.time[4])
         np.testing.assert_array_equal(trajectory.radius, final.grains["radius"])
-        self.assertEqual(trajectory.wall_position.shape, (sum(final.walls["count"]), 2))
+        self.assertEqual(trajectory[0].wall_position.shape, (sum(final.walls["count"]), 2))
         with self.assertRaises(IndexError):
             trajectory[len(trajectory)]
 

@@ -133,8 +133,6 @@ TEST_CASE("what does not fit into a shear cell is refused") {
   check_mentions(complaint(cell_yaml, {"cell.width=1.5 mm"}), {"cell.width", "too narrow"});
   check_mentions(complaint(cell_yaml, {"cell.length=3 mm"}), {"cell.length", "too short"});
   check_mentions(complaint(cell_yaml, {"cell.velocity=1e5 m/s"}), {"cell.velocity", "too fast"});
-  check_mentions(complaint(cell_yaml, {"wall.shake_amplitude=4 mm", "wall.shake_frequency=10"}),
-                 {"wall.shake_amplitude", "quarter"});
 }
 
 TEST_CASE("in a sheared cell collisions take what the walls put in") {
@@ -189,19 +187,7 @@ TEST_CASE("a sheared cell goes on where it was, with walls that have moved") {
                           "start.from=" + directory.path().string(), "cell.velocity=2 m/s"});
   CHECK(next.state.walls[1].motion.velocity == 1.0);
   const StepUnits then(earlier), now(next.state);
-  for (std::size_t wall : {0U, 1U}) CHECK(now.walls[wall].shift == then.walls[wall].shift);
+  for (std::size_t wall : {0U, 1U}) CHECK(now.walls[wall].y == then.walls[wall].y);
   CHECK(next.state.contacts.size() == earlier.contacts.size());
   CHECK_NOTHROW(after_a_while(next));
-}
-
-TEST_CASE("shaken walls heat what is between them, as they are told to") {
-  const auto start = tube({"wall.shake_amplitude=0.2 mm", "wall.shake_frequency=50", "gravity=0",
-                           "start.axial_velocity=0", "start.random_velocity=0.05 m/s"});
-  CHECK(start.state.walls[0].motion.amplitude == 0.2e-3);
-  Simulation simulation(start.state, start.model, 1);
-  simulation.advance(std::llround(0.2 / start.state.time_step));
-  const Energies energies = observe(simulation.state()).energies;
-  CHECK(energies.wall_work > 0.0);
-  CHECK(std::abs(energies.residual)
-        < 0.01 * (energies.wall_work + simulation.state().origin.energy));
 }

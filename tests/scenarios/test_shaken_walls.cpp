@@ -1,0 +1,84 @@
+// Walls that shake: in which direction, how far, and where a run goes on.
+#include "engine/encounter.hpp"
+#include "engine/observables.hpp"
+#include "engine/simulation.hpp"
+#include "io/checkpoint.hpp"
+#include "tests/io/file_fixture.hpp"
+#include "tests/scenarios/scenario_fixture.hpp"
+
+#include <cmath>
+
+using namespace scenario_fixture;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+Overrides shaken(const Overrides& more) {
+  Overrides all = {"wall.shake_amplitude=0.2 mm", "wall.shake_frequency=50"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("walls shake in the direction that they are told") {
+  const WallMotion along = tube(shaken({})).state.walls[1].motion;
+  CHECK(along.amplitude_x == 0.0);
+  CHECK(along.amplitude_y == 0.2e-3);
+  const WallMotion oblique = tube(shaken({"wall.shake_angle=-30 degrees"})).state.walls[1].motion;
+  CHECK_THAT(oblique.amplitude_x, WithinRel(-0.1e-3, 1e-12));
+  CHECK_THAT(oblique.amplitude_y, WithinRel(0.1e-3 * std::sqrt(3.0), 1e-12));
+  const State across = tube(shaken({"wall.shake_angle=90 degrees"})).state;
+  CHECK_THAT(across.walls[0].motion.amplitude_x, WithinRel(0.2e-3, 1e-12));
+  CHECK_THAT(across.walls[0].motion.way(across.box, 5e-3).x, WithinRel(0.2e-3, 1e-9));
+  CHECK_THAT(across.walls[0].motion.way(across.box, 5e-3).y, WithinAbs(0.0, 1e-12));
+}
+
+TEST_CASE("walls that shake too far or too fast are refused") {
+  check_mentions(complaint(tube_yaml, {"wall.shake_amplitude=6 mm", "wall.shake_frequency=10"}),
+                 {"wall.shake_amplitude", "quarter"});
+  check_mentions(complaint(tube_yaml, shaken({"wall.shake_frequency=1e8"})),
+                 {"wall.shake_frequency", "too fast"});
+}
+
+TEST_CASE("shaken walls heat what is between them, as they are told to") {
+  const auto start = tube({"wall.shake_amplitude=0.2 mm", "wall.shake_frequency=50", "gravity=0",
+                           "start.axial_velocity=0", "start.random_velocity=0.05 m/s"});
+  CHECK(start.state.walls[0].motion.amplitude_y == 0.2e-3);
+  Simulation simulation(start.state, start.model, 1);
+  simulation.advance(std::llround(0.2 / start.state.time_step));
+  const Energies energies = observe(simulation.state()).energies;
+  CHECK(energies.wall_work > 0.0);
+  CHECK(std::abs(energies.residual)
+        < 0.01 * (energies.wall_work + simulation.state().origin.energy));
+}
+
+TEST_CASE("a run between shaken walls goes on where they were") {
+  const file_fixture::ScratchDirectory directory;
+  const std::string angle = GENERATE("0", "90 degrees", "50 degrees");
+  const auto start = tube(shaken({"wall.shake_angle=" + angle}));
+  Simulation simulation(start.state, start.model, 1);
+  simulation.advance(std::llround(23e-3 / start.state.time_step));
+  const State& earlier = simulation.state();
+  io::write_checkpoint(
+      directory / io::checkpoint_name,
+      {.state = earlier,
+       .settings = read(tube_yaml, shaken({"wall.shake_angle=" + angle})).effective_yaml(),
+       .source = {}});
+  const Overrides continued = {"start.kind=continued", "start.from=" + directory.path().string(),
+                               "wall.shake_angle=" + angle, "wall.shake_frequency=70"};
+  const auto next = tube(shaken(continued));
+  const StepUnits then(earlier), now(next.state);
+  for (std::size_t wall : {0U, 1U}) {
+    const auto off_by = [&](Fixed a, Fixed b, double quantum) {
+      return std::abs(static_cast<double>(a - b)) * quantum;
+    };
+    CHECK(off_by(now.walls[wall].x, then.walls[wall].x, start.state.box.quantum_x()) < 1e-15);
+    CHECK(now.walls[wall].y == then.walls[wall].y);
+  }
+  if (angle == "0") return;
+  Overrides other = shaken(continued);
+  other.emplace_back("wall.shake_amplitude=0.3 mm");
+  check_mentions(complaint(tube_yaml, other), {"wall.shake_amplitude", "across"});
+}
