@@ -27,7 +27,7 @@ continue_along: contact.restitution
 # Each run takes several seconds.
 LONG = """\
 base: tube.yaml
-set: {run.duration: 6 s, output.checkpoint_interval: 1 h}
+set: {run.duration: 20 s, output.checkpoint_interval: 1 h}
 axes: {contact.restitution: [0.8, 0.9]}
 """
 
@@ -140,7 +140,10 @@ class OnACluster(SweepTest):
         self.assert_ends_as_locally(CHAINS)
 
     def test_a_task_whose_time_is_over_is_queued_again(self):
-        self.submit(LONG, "--max-walltime", "4 s")
+        begin = time.monotonic()
+        self.sweep_to_end(LONG, "local")
+        takes = time.monotonic() - begin  # as long as a run: both go at once
+        self.submit(LONG, "--max-walltime", f"{0.5 * takes:.1f} s")
         self.wait_for_requeue()
         self.cluster.wait_for_all_jobs(patience=240.0)
         self.assertGreater(max(self.attempts()), 1)
