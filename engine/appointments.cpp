@@ -17,6 +17,55 @@ constexpr std::uint32_t appointments_at_a_time = 1024;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
+/// A grain on its course, now; s steps lead by u s + fall s^2 / 2.
+struct Flight {
+  Fixed x, y;             // quanta
+  double ux, uy;          // m per step
+  double fall_x, fall_y;  // m per step^2
+};
+
+Flight flight_of(std::uint32_t slot, const State& state, const Courses& courses, std::int64_t now) {
+  const Box& box = state.box;
+  const Fall fall = courses.fall(), fallen = fall.times(now);
+  const double fall_x = box.metres_x(fall.x), fall_y = box.metres_y(fall.y);
+  // Whole steps lead by v s + fall s (s + 1) / 2.
+  return {.x = courses.x(slot, now),
+          .y = courses.y(slot, now),
+          .ux = box.metres_x(wrapped_sum(state.grains.ux[slot], fallen.x)) + 0.5 * fall_x,
+          .uy = box.metres_y(wrapped_sum(state.grains.uy[slot], fallen.y)) + 0.5 * fall_y,
+          .fall_x = fall_x,
+          .fall_y = fall_y};
+}
+
+/// Of its way across the tube to where the wall can be.
+double steps_across(const Flight& f, const WallLattice& wall, const Box& box, double reach) {
+  const double x = box.metres_x(f.x) - wall.line;
+  const double gap = std::abs(x) - reach - std::abs(wall.motion.amplitude_x);
+  const double to_wall = x > 0.0 ? -1.0 : 1.0;
+  return gap > 0.0 ? steps_to_go(gap, to_wall * f.ux, to_wall * f.fall_x) : 0.0;
+}
+
+/// Of its way straight to the nearest wall grain, and of the wall's to it.
+double steps_to_nearest(const Flight& f, const WallLattice& wall, double reach, const State& state,
+                        std::int64_t now) {
+  const Box& box = state.box;
+  const WallMotion& motion = wall.motion;
+  const WallShift shift =
+      motion.is_there() ? motion.shift(box, state.time_step, now) : WallShift{0, 0};
+  const double x = box.metres_x(f.x) - wall.line - box.metres_x(shift.x);
+  const Fixed y = wrapped_difference(f.y, shift.y);
+  double nearest2 = forever;
+  for_each_wall_grain_within(wall, box, y, 0.0, [&](std::int64_t, Fixed there) {
+    const double dy = box.metres_y(wrapped_difference(there, y));
+    nearest2 = std::min(nearest2, x * x + dy * dy);
+  });
+  const double gap = std::sqrt(nearest2) - reach;
+  if (gap <= 0.0) return 0.0;
+  const double speed = std::hypot(f.ux, f.uy - motion.velocity * state.time_step)
+                       + motion.fastest_oscillation() * state.time_step;
+  return steps_to_go(gap, speed, std::hypot(f.fall_x, f.fall_y));
+}
+
 }  // namespace
 
 void Appointments::start_over() {
@@ -127,44 +176,16 @@ void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool 
 }
 
 /// Steps that a grain can do on its course, and within its tolerance, before it can touch a wall
-/// grain: not fewer than it needs to cover the gap to the nearest, nor than its way across the tube
-/// needs to where the wall can be.
+/// grain.
 double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
   if (near.partners != 0) return 0.0;
   const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
-  const Grains& g = state_.grains;
-  const Box& box = state_.box;
   const double stray = courses_.deflected(near.slot) ? tolerance_ : 0.0;
-  const double reach = (g.radius[near.slot] + wall.radius) * generous + stray;
-  const WallMotion& motion = wall.motion;
-  const WallShift shift =
-      motion.is_there() ? motion.shift(box, state_.time_step, now) : WallShift{0, 0};
-  const Fall fall = courses_.fall(), fallen = fall.times(now);
-  const double fall_x = box.metres_x(fall.x), fall_y = box.metres_y(fall.y);
-  // s steps lead by u s + fall s (s + 1) / 2.
-  const double ux = box.metres_x(wrapped_sum(g.ux[near.slot], fallen.x)) + 0.5 * fall_x;
-  const double uy = box.metres_y(wrapped_sum(g.uy[near.slot], fallen.y)) + 0.5 * fall_y;
-  const double from_line = box.metres_x(courses_.x(near.slot, now)) - wall.line;
-
-  const double beyond_reach = std::abs(from_line) - reach - std::abs(motion.amplitude_x);
-  const double to_wall = from_line > 0.0 ? -1.0 : 1.0;
-  const double across =
-      beyond_reach > 0.0 ? steps_to_go(beyond_reach, to_wall * ux, to_wall * fall_x) : 0.0;
+  const double reach = (state_.grains.radius[near.slot] + wall.radius) * generous + stray;
+  const Flight flight = flight_of(near.slot, state_, courses_, now);
+  const double across = steps_across(flight, wall, state_.box, reach);
   if (across == forever) return forever;
-
-  const double x = from_line - box.metres_x(shift.x);
-  const Fixed y = wrapped_difference(courses_.y(near.slot, now), shift.y);
-  double nearest2 = forever;
-  for_each_wall_grain_within(wall, box, y, 0.0, [&](std::int64_t, Fixed there) {
-    const double dy = box.metres_y(wrapped_difference(there, y));
-    nearest2 = std::min(nearest2, x * x + dy * dy);
-  });
-  const double gap = std::sqrt(nearest2) - reach;
-  if (gap <= 0.0) return across / generous;
-  const double speed = std::hypot(ux, uy - motion.velocity * state_.time_step)
-                       + motion.fastest_oscillation() * state_.time_step;
-  const double direct = steps_to_go(gap, speed, std::hypot(fall_x, fall_y));
-  return std::max(across, direct) / generous;
+  return std::max(across, steps_to_nearest(flight, wall, reach, state_, now)) / generous;
 }
 
 }  // namespace riesel

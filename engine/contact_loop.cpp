@@ -27,6 +27,12 @@ void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
   }
 }
 
+/// J per kg of the grain, along one axis; kicks and the wall's displacement `u` in quanta.
+double work_along(Fixed kick_of_grain, Fixed u, Fixed kick_of_wall, double to_velocity) {
+  const double mean_velocity = (real(u) + 0.5 * real(kick_of_wall)) * to_velocity;
+  return real(kick_of_grain) * to_velocity * mean_velocity;
+}
+
 }  // namespace
 
 Meeting meeting_of_pair(const Slice& slice, const Grains& g, std::uint32_t pair) {
@@ -81,12 +87,8 @@ void count_work_of_walls(Slice& slice, const StepUnits& units) {
     const Meeting& m = contacts.meeting(i);
     const BodyMotion& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
     const BodyKick kick = contacts.kick_of_first(i);
-    const auto power = [](Fixed of_grain, Fixed u, Fixed of_wall, double to_velocity) {
-      const double mean_velocity = (real(u) + 0.5 * real(of_wall)) * to_velocity;
-      return real(of_grain) * to_velocity * mean_velocity;
-    };
-    const double x = power(kick.x, wall.ux, wall.kick_x, units.velocity_x);
-    const double y = power(kick.y, wall.uy, wall.kick_y, units.velocity_y);
+    const double x = work_along(kick.x, wall.ux, wall.kick_x, units.velocity_x);
+    const double y = work_along(kick.y, wall.uy, wall.kick_y, units.velocity_y);
     slice.tally.impulses.work.add(m.mass_first * (x + y));
   }
 }
