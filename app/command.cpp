@@ -279,8 +279,14 @@ private:
   std::function<int()> command_;
 };
 
+/// Each line says who speaks.
 int fail(int status, const char* message) noexcept {
-  std::fprintf(stderr, "riesel: %s\n", message);
+  std::fputs("riesel: ", stderr);
+  for (const char* letter = message; *letter != '\0'; ++letter) {
+    std::fputc(*letter, stderr);
+    if (*letter == '\n') std::fputs("riesel: ", stderr);
+  }
+  std::fputc('\n', stderr);
   return status;
 }
 

@@ -12,6 +12,7 @@
 #include "app/walltime.hpp"
 #include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
+#include "engine/steady_state.hpp"
 #include "engine/stopping_rule.hpp"
 #include "engine/tube_profiles.hpp"
 #include "io/durable_file.hpp"
@@ -176,6 +177,19 @@ private:
                       judged.free_fall_gain);
   }
 
+  /// For those who wait for it.
+  void note_precision() {
+    if (!schedule_.relative_error || !is_time_to_look(static_cast<std::size_t>(file_.rows())))
+      return;
+    const Judged judged = judged_by(simulation_.state(), interval());
+    const SteadyState so_far =
+        assess_steady_state(file_.series(judged.series), judged.free_fall_gain);
+    precision_so_far_ =
+        fmt::format("  error {:.2g} % of {:.2g} %", 100.0 * so_far.error / std::abs(so_far.mean),
+                    100.0 * *schedule_.relative_error);
+    tell("t = {:.6g} s:{}", simulation_.state().time(), precision_so_far_);
+  }
+
   /// s, between two rows.
   double interval() const {
     return static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step;
@@ -211,7 +225,8 @@ private:
     if (schedule_.is_row(state.step)) add_row();
     if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
-                   fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s", state.time(), last_.mean_vy));
+                   fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s{}", state.time(), last_.mean_vy,
+                               precision_so_far_));
   }
 
   void add_frame() {
@@ -242,6 +257,7 @@ private:
     histograms_.add(simulation_.state().tally);
     times_.measuring += seconds_since(start);
     file_.append(series_row(last_, simulation_.state().tally));
+    note_precision();
     if (last_.outside > 0.0)
       throw RunFailure(fmt::format(
           "{:.0f} grains have gone through a wall at t = {:.6g} s: the contacts are too soft for "
@@ -382,6 +398,7 @@ private:
   HistogramBlocks histograms_;
   Observables last_;
   Progress progress_;
+  std::string precision_so_far_;  // for the line of progress
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
   double longest_piece_ = 0.0,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 namespace riesel::io {
@@ -49,16 +50,47 @@ When unmet_condition(const std::string& key, const SettingsContents& contents) {
 }
 
 /// A setting without effect would be a lie about the run.
-void refuse_idle_settings(const GivenSettings& given, const SettingsContents& contents) {
-  for (const auto& [key, entry] : given.by_key) {
-    if (contents.find(key) != nullptr) continue;
-    const When condition = unmet_condition(key, contents);
-    const auto actual = std::get<std::string>(contents.find(condition.key)->value.value());
-    throw SettingsError(entry.key_place, key,
-                        fmt::format("has no effect when {} is {}", condition.key, actual),
-                        fmt::format("remove it; it applies only when {}", to_string(condition)));
-  }
+void refuse_idle_setting(const std::string& key, const Place& place,
+                         const SettingsContents& contents) {
+  const When condition = unmet_condition(key, contents);
+  const auto actual = std::get<std::string>(contents.find(condition.key)->value.value());
+  throw SettingsError(place, key, fmt::format("has no effect when {} is {}", condition.key, actual),
+                      fmt::format("remove it; it applies only when {}", to_string(condition)));
 }
+
+/// Reads the rows of a table one by one, past mistakes.
+class RowReader {
+public:
+  RowReader(const GivenSettings& given, SettingsContents& contents, Mistakes& mistakes)
+      : given_(given), contents_(contents), mistakes_(mistakes) {}
+
+  void read(const Setting& row) {
+    if (row.only_when && unknown_.contains(row.only_when->key)) {
+      unknown_.insert(row.key);
+      return;
+    }
+    if (row.only_when && !holds(*row.only_when, contents_)) return;
+    // What is missing may be what is misspelt.
+    const bool is_given = given_.by_key.contains(row.key);
+    const bool known = (row.required && !is_given && mistakes_.any()) ? false : mistakes_.note([&] {
+      contents_.entries.push_back(read_row(row, given_, contents_));
+    });
+    if (!known) unknown_.insert(row.key);
+  }
+
+  void refuse_idle_settings() {
+    for (const auto& [key, entry] : given_.by_key) {
+      if (contents_.find(key) != nullptr || unknown_.contains(key)) continue;
+      mistakes_.note([&] { refuse_idle_setting(key, entry.key_place, contents_); });
+    }
+  }
+
+private:
+  const GivenSettings& given_;
+  SettingsContents& contents_;
+  Mistakes& mistakes_;
+  std::set<std::string> unknown_;  // what they are, or whether they count
+};
 
 }  // namespace
 
@@ -79,15 +111,15 @@ Place SettingsContents::place_of(const std::string& key) const {
 SettingsContents read_settings(const YamlNode& file, const std::string& text,
                                const SettingsTables& tables,
                                const std::vector<YamlEntry>& overrides) {
-  const auto given = gather_settings(file, tables, overrides);
+  Mistakes mistakes;
+  const auto given = gather_settings(file, tables, overrides, mistakes);
   SettingsContents contents = {
       file.place.source, text, tables.at(given.scenario), given.sections, {}};
   verify_table(contents.table);
-  for (const auto& row : contents.table) {
-    if (row.only_when && !holds(*row.only_when, contents)) continue;
-    contents.entries.push_back(read_row(row, given, contents));
-  }
-  refuse_idle_settings(given, contents);
+  RowReader reader(given, contents, mistakes);
+  for (const auto& row : contents.table) reader.read(row);
+  reader.refuse_idle_settings();
+  if (mistakes.any()) mistakes.throw_them();
   return contents;
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 namespace riesel::io {
@@ -45,6 +48,25 @@ SettingsError::SettingsError(Place place, std::string key, std::string problem, 
       key_(std::move(key)),
       problem_(std::move(problem)),
       remedy_(std::move(remedy)) {}
+
+SettingsError::SettingsError(const SettingsError& first, const std::string& what_of_all)
+    : std::runtime_error(what_of_all),
+      place_(first.place_),
+      key_(first.key_),
+      problem_(first.problem_),
+      remedy_(first.remedy_) {}
+
+void Mistakes::throw_them() {
+  // Overrides, which have no lines, come last.
+  const auto order = [](const SettingsError& error) {
+    const auto& [source, line, column] = error.place();
+    return std::tuple(line == 0 ? std::numeric_limits<int>::max() : line, column);
+  };
+  std::ranges::stable_sort(all_, {}, order);
+  std::string lines = all_.front().what();
+  for (std::size_t i = 1; i < all_.size(); ++i) lines += std::string("\n") + all_[i].what();
+  throw SettingsError(all_.front(), lines);
+}
 
 std::string quoted(const std::string& text) {
   return fmt::format("'{}'", on_one_line(excerpt(text)));

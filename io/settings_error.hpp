@@ -2,8 +2,10 @@
 // key, the problem and the remedy.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace riesel::io {
 
@@ -22,6 +24,8 @@ class SettingsError : public std::runtime_error {
 public:
   /// `key` is the dotted path, or empty if the problem is not that of a key.
   SettingsError(Place place, std::string key, std::string problem, std::string remedy);
+  /// The same as the first, with what() of them all.
+  SettingsError(const SettingsError& first, const std::string& what_of_all);
 
   const Place& place() const { return place_; }
   const std::string& key() const { return key_; }
@@ -33,6 +37,31 @@ private:
   std::string key_;
   std::string problem_;
   std::string remedy_;
+};
+
+/// Those of one file or command line, told together.
+class Mistakes {
+public:
+  /// Calls read() and keeps the SettingsError that it throws; whether there was none.
+  template <class Read>
+  bool note(Read read) {
+    try {
+      read();
+      return true;
+    } catch (const SettingsError& error) {
+      all_.push_back(error);
+      if (all_.size() == most) throw_them();
+      return false;
+    }
+  }
+
+  bool any() const { return !all_.empty(); }
+  /// Throws the SettingsError of the first in the file; its what() has one line for each.
+  void throw_them();
+
+private:
+  static constexpr std::size_t most = 20;
+  std::vector<SettingsError> all_;
 };
 
 /// Text from a settings file as an error message shows it: in quotes, on one line and not too long.

@@ -52,8 +52,8 @@ std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& ov
 /// Sorts entries into the collection, under the rules of one scenario.
 class Gatherer {
 public:
-  Gatherer(std::string scenario, const SettingsTables& tables)
-      : tables_(tables), table_(tables.at(scenario)) {
+  Gatherer(std::string scenario, const SettingsTables& tables, Mistakes& mistakes)
+      : tables_(tables), table_(tables.at(scenario)), mistakes_(mistakes) {
     given_.scenario = std::move(scenario);
   }
 
@@ -82,17 +82,19 @@ public:
 
 private:
   void add_entries(const std::string& section, const std::vector<YamlEntry>& entries) {
-    for (const auto& entry : entries) {
-      const auto key = key_of(section, entry.key);
-      const bool is_dotted = entry.key.find('.') != std::string::npos;
-      if (has_section(table_, key)) {
-        add_section(key, entry);
-      } else if (is_dotted && has_section(table_, section_of(key))) {
-        throw SettingsError(entry.key_place, key, "dotted keys are for --set only",
-                            fmt::format("write '{}'", in_sections(key)));
-      } else {
-        add(key, entry);
-      }
+    for (const auto& entry : entries) mistakes_.note([&] { add_entry(section, entry); });
+  }
+
+  void add_entry(const std::string& section, const YamlEntry& entry) {
+    const auto key = key_of(section, entry.key);
+    const bool is_dotted = entry.key.find('.') != std::string::npos;
+    if (has_section(table_, key)) {
+      add_section(key, entry);
+    } else if (is_dotted && has_section(table_, section_of(key))) {
+      throw SettingsError(entry.key_place, key, "dotted keys are for --set only",
+                          fmt::format("write '{}'", in_sections(key)));
+    } else {
+      add(key, entry);
     }
   }
 
@@ -117,6 +119,7 @@ private:
 
   const SettingsTables& tables_;
   const SettingsTable& table_;
+  Mistakes& mistakes_;
   GivenSettings given_;
 };
 
@@ -129,10 +132,10 @@ std::vector<YamlEntry> parse_overrides(const std::vector<std::string>& texts) {
 }
 
 GivenSettings gather_settings(const YamlNode& file, const SettingsTables& tables,
-                              const std::vector<YamlEntry>& overrides) {
-  Gatherer gatherer(read_scenario(file, overrides, tables), tables);
+                              const std::vector<YamlEntry>& overrides, Mistakes& mistakes) {
+  Gatherer gatherer(read_scenario(file, overrides, tables), tables, mistakes);
   gatherer.add_file(file);
-  for (const auto& entry : overrides) gatherer.add_override(entry);
+  for (const auto& entry : overrides) mistakes.note([&] { gatherer.add_override(entry); });
   return gatherer.take();
 }
 

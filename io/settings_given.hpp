@@ -21,9 +21,9 @@ struct GivenSettings {
 std::vector<YamlEntry> parse_overrides(const std::vector<std::string>& texts);
 
 /// `overrides` have dotted keys; they replace or add to what the file says, the last one of a key
-/// wins; one without a value takes the key out. Throws SettingsError: no or an unknown scenario,
-/// unknown keys, sections that are none.
+/// wins; one without a value takes the key out. Notes unknown keys, and sections that are none;
+/// throws SettingsError: no or an unknown scenario.
 GivenSettings gather_settings(const YamlNode& file, const SettingsTables& tables,
-                              const std::vector<YamlEntry>& overrides);
+                              const std::vector<YamlEntry>& overrides, Mistakes& mistakes);
 
 }  // namespace riesel::io

@@ -176,7 +176,10 @@ GivenSettings gather(const SweepFile& sweep, const SettingsTables& tables) {
     entries.insert(entries.end(), branch.overrides.begin(), branch.overrides.end());
   }
   refuse_varied_scenario(entries);
-  return gather_settings(sweep.base, tables, entries);
+  Mistakes mistakes;
+  GivenSettings given = gather_settings(sweep.base, tables, entries, mistakes);
+  if (mistakes.any()) mistakes.throw_them();
+  return given;
 }
 
 }  // namespace

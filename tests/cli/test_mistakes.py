@@ -1,7 +1,7 @@
-"""A user's mistakes in a settings file or an override: exit status 2, one message that says where,
+"""A user's mistakes in a settings file or an override: exit status 2, a message for each that says where,
 which key, what is wrong and what to do, and nothing written."""
 
-from riesel_command import SMALL_TUBE, CommandTest, bytes_of_files
+from riesel_command import BAD_INPUT, SMALL_TUBE, CommandTest, bytes_of_files
 
 # What is replaced in SMALL_TUBE, by what, where the message points to, and what it mentions.
 MISTAKES_IN_FILES = {
@@ -93,7 +93,6 @@ MISTAKES_IN_OVERRIDES = {
     "seed=[1": ["not valid YAML"],
     "contact.damping=1e4": ["contact.", "damping", "restitution", "remove one"],
     "start.axial_velocity=1000 km/s": ["start.axial_velocity:", "too fast", "m/s"],
-    "scenario=wall_array": ["tube.yaml:3:10:", "the scenario wall_array does not have it"],
 }
 
 
@@ -120,6 +119,41 @@ class Mistakes(CommandTest):
                 self.move_to_an_empty_home()
                 self.write("tube.yaml", SMALL_TUBE)
                 self.assert_mistake("tube.yaml", "--set", override, mentions=mentions)
+
+    def assert_told(self, lines, *arguments):
+        result = self.riesel("check", *arguments)
+        self.assertEqual(result.returncode, BAD_INPUT, result)
+        told = result.stderr.splitlines()
+        self.assertEqual(len(told), len(lines), told)
+        for one, expected in zip(told, lines):
+            self.assertRegex(one, rf"\Ariesel: {expected}.*; ")
+
+    def test_several_are_told_at_once(self):
+        self.write("tube.yaml", SMALL_TUBE.replace("width: 10 mm", "width: 10 kg").replace("0.3}", "2}")
+                   .replace("restitution:", "restitutoin:") + "weather: {rain: 1}\n")
+        self.assert_told([r"tube.yaml:2:32: contact.restitutoin: unknown key",
+                          r"tube.yaml:3:25: grains.area_fraction: must be from 0.001 to 0.9",
+                          r"tube.yaml:4:15: tube.width: expected a length",
+                          r"tube.yaml:7:1: weather: unknown key",
+                          r"--set seed=x: seed: expected an integer"], "tube.yaml", "--set", "seed=x")
+
+    def test_what_follows_from_another_mistake_is_not_told(self):
+        self.write("tube.yaml", SMALL_TUBE.replace("stiffness:", "law: herz, stifness:"))
+        self.assert_told([r"tube.yaml:2:16: contact.law: ", r"tube.yaml:2:22: contact.stifness: unknown key"],
+                         "tube.yaml")
+
+    def test_another_scenario_does_not_have_the_settings_of_this_one(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        self.assert_told([r"tube.yaml:3:10: grains.area_fraction: unknown key",
+                          r"tube.yaml:4:1: tube: unknown key",
+                          r"tube.yaml:5:1: start: unknown key", r"tube.yaml:6:7: run.duration: unknown key"],
+                         "tube.yaml", "--set", "scenario=wall_array")
+
+    def test_more_than_a_screen_of_them_is_cut(self):
+        self.write("tube.yaml", SMALL_TUBE + "".join(f"k{i}: 1\n" for i in range(1000)))
+        result = self.riesel("check", "tube.yaml")
+        self.assertEqual(result.returncode, BAD_INPUT)
+        self.assertEqual(len(result.stderr.splitlines()), 20)
 
     def test_in_the_number_of_threads(self):
         self.write("tube.yaml", SMALL_TUBE)

@@ -2,11 +2,13 @@
 happens on the way, or when the time is up."""
 
 import csv
+import itertools
 import random
+import re
 import signal
 import time
 
-from riesel_command import SHIPPED, SMALL_TUBE, CommandTest, data_of
+from riesel_command import DONE, SHIPPED, SMALL_TUBE, CommandTest, data_of
 
 # Soft contacts take long steps. At 20 % the run ends with the look at 1438 rows.
 UNTIL = "{until: {relative_error: 20 %, at_most: 3 s}}"
@@ -24,6 +26,10 @@ def looks():
     while True:
         yield rows
         rows += rows // 4
+
+
+def looks_until(last):
+    return itertools.takewhile(lambda rows: rows <= last, looks())
 
 
 def number_of_rows(out):
@@ -53,7 +59,14 @@ class Until(UntilTest):
         self.assertEqual((ended_by, state), ("precision", "steady"))
         self.assertLess(relative_error, 0.2)
         self.assertEqual(number_of_rows(out), ROWS)
-        self.assertIn(ROWS, [rows for rows, _ in zip(looks(), range(20))])
+        self.assertIn(ROWS, looks_until(ROWS))
+
+    def test_the_error_is_told_with_each_look(self):
+        result = self.riesel("run", "until.yaml", "--out", "out", "--verbose")
+        self.assertEqual(result.returncode, DONE, result)
+        told = [float(error) for error in re.findall(r"^t = \S+ s:  error (\S+) % of 20 %$", result.stderr, re.MULTILINE)]
+        self.assertEqual(len(told), list(looks_until(ROWS)).index(ROWS) + 1, result.stderr)
+        self.assertAlmostEqual(told[-1], 100 * self.end_of(self.home / "out")[2], delta=0.06 * told[-1])
 
     def test_it_is_the_run_of_that_duration(self):
         out = self.run_until("out")

@@ -165,7 +165,7 @@ TEST_CASE("unknown keys") {
   CHECK(tube_error("run: {thread: 2}")
         == "f.yaml:4:7: run.thread: unknown key; did you mean 'run.threads'?");
   CHECK(tube_error("run: {trheads: 2}").find("did you mean 'run.threads'?") != std::string::npos);
-  CHECK(tube_error("grains: {diameter: 0,5}")
+  CHECK(tube_error("grains: {diameter: 3,5}")
         == "f.yaml:4:22: grains.5: unknown key; a comma begins the next key; write a decimal "
            "point, as in 0.92");
   CHECK(tube_error("run: {threads:2}")
