@@ -3,6 +3,7 @@
 #include "app/cost.hpp"
 #include "app/exit_status.hpp"
 #include "app/plain_words.hpp"
+#include "app/schedule.hpp"
 #include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
@@ -126,11 +127,9 @@ void warn_of_open_walls(const State& state) {
 }
 
 void print_trajectory(const io::Settings& settings, const State& state, double steps) {
-  constexpr auto interval = "output.trajectory_interval";
-  if (!settings.has(interval)) return;
-  const auto steps_per_frame =
-      static_cast<double>(scenarios::steps_between(settings.number(interval), state.time_step));
-  const double frames = std::floor(steps / steps_per_frame) + 1.0;
+  const std::int64_t steps_per_frame = Schedule(settings, state.time_step).steps_per_frame;
+  if (steps_per_frame == 0) return;
+  const double frames = std::floor(steps / static_cast<double>(steps_per_frame)) + 1.0;
   line("trajectory", "{:.0f} frames, {:.1f} MB", frames,
        frames * static_cast<double>(io::bytes_per_frame(state)) / 1e6);
 }

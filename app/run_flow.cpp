@@ -7,6 +7,7 @@
 #include "app/print_profile.hpp"
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
+#include "app/schedule.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
 #include "app/walltime.hpp"
@@ -20,7 +21,6 @@
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
-#include "scenarios/run_length.hpp"
 #include "scenarios/run_limits.hpp"
 
 #include <fmt/core.h>
@@ -47,39 +47,6 @@ struct LimitExceeded : RunFailure {
   using RunFailure::RunFailure;
 };
 
-/// How often what happens, in steps; all of it fixed by the settings, so that a resumed run has the
-/// same rhythm.
-struct Schedule {
-  Schedule(const io::Settings& settings, const scenarios::RunLength& length, double time_step)
-      : last_step(std::llround(std::ceil(length.at_most / time_step - 1e-9))),
-        relative_error(length.relative_error),
-        steps_per_row(scenarios::steps_between(settings.number("output.interval"), time_step)),
-        steps_per_frame(settings.has(trajectory_key)
-                            ? scenarios::steps_between(settings.number(trajectory_key), time_step)
-                            : 0),
-        seconds_between_checkpoints(settings.number("output.checkpoint_interval")) {}
-
-  bool is_row(std::int64_t step) const { return step % steps_per_row == 0; }
-  bool is_frame(std::int64_t step) const {
-    return steps_per_frame > 0 && step % steps_per_frame == 0;
-  }
-
-  /// The next step at which something is due.
-  std::int64_t next(std::int64_t step) const {
-    const auto after = [step](std::int64_t steps) { return (step / steps + 1) * steps; };
-    const std::int64_t row = std::min(after(steps_per_row), last_step);
-    return steps_per_frame > 0 ? std::min(row, after(steps_per_frame)) : row;
-  }
-
-  static constexpr auto trajectory_key = "output.trajectory_interval";
-
-  std::int64_t last_step;
-  std::optional<double> relative_error;  // of the mean velocity, to stop at before the last step
-  std::int64_t steps_per_row;
-  std::int64_t steps_per_frame;        // of the trajectory; 0: there is none
-  double seconds_between_checkpoints;  // on the clock
-};
-
 /// What a run that goes on has behind it.
 struct Past {
   std::string source;               // the user's settings file, verbatim
@@ -98,7 +65,7 @@ public:
         directory_(std::move(directory)),
         max_walltime_(options.max_walltime),
         verbosity_(options.verbosity),
-        schedule_(settings_, scenarios::run_length(settings_), state.time_step),
+        schedule_(settings_, state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
         limits_(scenarios::run_limits(settings_)),
