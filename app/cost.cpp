@@ -1,15 +1,14 @@
 #include "app/cost.hpp"
 
+#include "app/schedule.hpp"
 #include "app/stepping.hpp"
 #include "engine/simulation.hpp"
-#include "scenarios/run_length.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <vector>
 
 namespace riesel::app {
@@ -28,7 +27,7 @@ double seconds_since(Clock::time_point start) {
 }  // namespace
 
 double steps_of(const io::Settings& settings, const scenarios::Flow& flow) {
-  return std::ceil(scenarios::run_length(settings).at_most / flow.state.time_step);
+  return static_cast<double>(Schedule(settings, flow.state.time_step).last_step);
 }
 
 double measured_speed(const io::Settings& settings, const scenarios::Flow& flow, int threads,
