@@ -79,9 +79,10 @@ public:
   }
 
   void refuse_idle_settings() {
-    for (const auto& [key, entry] : given_.by_key) {
+    for (const auto& given : given_.by_key) {
+      const std::string& key = given.first;
       if (contents_.find(key) != nullptr || unknown_.contains(key)) continue;
-      mistakes_.note([&] { refuse_idle_setting(key, entry.key_place, contents_); });
+      mistakes_.note([&] { refuse_idle_setting(key, given.second.key_place, contents_); });
     }
   }
 
