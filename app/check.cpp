@@ -143,12 +143,25 @@ void print_contacts_of_sizes(const NormalLaw& normal, const Grains& grains, doub
   print_contact("two heaviest grains", normal, 0.5 * heaviest, speed);
 }
 
+/// Seen by what lies on it, in units of gravity where there is some.
+void print_shaking(const State& state) {
+  const WallMotion& motion = state.walls.front().motion;
+  if (!motion.oscillates()) return;
+  const double omega = 2.0 * std::numbers::pi * motion.frequency;
+  const double speed = motion.fastest_oscillation();
+  const double gravity = std::hypot(state.gravity.x, state.gravity.y);
+  line("walls shake", "up to {:.3g} m/s and {:.3g} m/s^2{}, {:.0f} steps per period", speed,
+       omega * speed, gravity > 0.0 ? fmt::format(" ({:.3g} g)", omega * speed / gravity) : "",
+       1.0 / (motion.frequency * state.time_step));
+}
+
 void print_bodies(const State& state) {
   double area = 0.0;
   for (const double radius : state.grains.radius) area += std::numbers::pi * radius * radius;
   line("grains", "{}, area fraction {:.4f}", state.grains.size(),
        area / (state.box.width * state.box.length));
   const WallLattice& wall = state.walls.front();
+  print_shaking(state);
   if (wall.smooth()) {
     line("walls", "smooth");
     return;
@@ -169,7 +182,8 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   const double both_fastest = std::numbers::sqrt2 * fastest;
   const double smaller = state.walls.front().smaller_radius(radius);
   const Pair grains{.reduced_mass = 0.5 * mass, .speed = both_fastest, .smaller_radius = radius};
-  const Pair wall{.reduced_mass = mass, .speed = fastest, .smaller_radius = smaller};
+  const double fastest_at_wall = fastest + state.walls.front().motion.fastest_oscillation();
+  const Pair wall{.reduced_mass = mass, .speed = fastest_at_wall, .smaller_radius = smaller};
   print_contact("grain and grain", normal, grains.reduced_mass, grains.speed);
   print_contact("grain and wall", normal, wall.reduced_mass, wall.speed);
   print_contacts_of_sizes(normal, state.grains, both_fastest);

@@ -127,11 +127,12 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
 }  // namespace
 
 Judged judged_by(const State& state, double interval) {
-  const bool sheared =
-      state.gravity.y == 0.0 && std::ranges::any_of(state.walls, [](const WallLattice& wall) {
-        return wall.motion.velocity != 0.0;
+  const bool agitated =
+      state.gravity.x != 0.0 || std::ranges::any_of(state.walls, [](const WallLattice& wall) {
+        return wall.motion.velocity != 0.0 || wall.motion.oscillates();
       });
-  if (sheared) return {.series = "granular_temperature", .free_fall_gain = {}};
+  if (state.gravity.y == 0.0 && agitated)
+    return {.series = "granular_temperature", .free_fall_gain = {}};
   return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
 }
 

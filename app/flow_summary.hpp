@@ -19,8 +19,8 @@ struct FlowRecords {
   double interval;             ///< s, between two rows
 };
 
-/// By which of the series a flow is judged steady: its mean velocity, or where only the walls
-/// drive it past each other, how hot it is.
+/// By which of the series a flow is judged steady: its mean velocity, or how hot it is where
+/// nothing drives it along, but walls that move or gravity across.
 struct Judged {
   const char* series;
   std::optional<double> free_fall_gain;  ///< per row, for the verdict

@@ -11,16 +11,15 @@
 namespace riesel::app {
 
 std::string explanation_of_state(const io::FlowSummary& s) {
-  if (s.state == "steady")
-    return s.judged_by == "granular_temperature"
-               ? "no trend of the granular temperature after the transient"
-               : "no trend after the transient";
+  const char* of_what = s.judged_by == "granular_temperature" ? " of the granular temperature" : "";
+  if (s.state == "steady") return fmt::format("no trend{} after the transient", of_what);
   if (s.state == "accelerating")
     return "the grains still gain speed: the mean is no steady velocity";
-  if (s.state == "drifting") return "there still is a trend: the mean is no steady velocity";
+  if (s.state == "drifting")
+    return fmt::format("there still is a trend{}: the mean is no steady one", of_what);
   if (s.independent_samples < min_independent_samples)
-    return fmt::format("{:.2g} of {:.0f} independent samples for a steady mean",
-                       s.independent_samples, min_independent_samples);
+    return fmt::format("{:.2g} of {:.0f} independent samples{} for a steady mean",
+                       s.independent_samples, min_independent_samples, of_what);
   return fmt::format("the transient takes {:.3g} of {:.3g} s, too much for a steady mean",
                      s.transient_end, s.time);
 }

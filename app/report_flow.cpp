@@ -53,10 +53,12 @@ private:
     const bool is_steady = s.state == "steady";
     page().paragraph(
         fmt::format(
-            "Mean axial velocity {} after {:.3g} s, from {} independent samples (68 % error "
-            "bar). State: {}: {}.{}",
-            with_error(s.mean_axial_velocity, "m/s"), s.transient_end,
-            number(s.independent_samples, "{:.3g}"), s.state, explanation_of_state(s),
+            "Mean axial velocity {} after {:.3g} s (68 % error bar). State, by {} independent "
+            "samples: {}: {}.{}",
+            s.state == "accelerating" ? number(s.mean_axial_velocity.value, "{:.4g} m/s")
+                                      : with_error(s.mean_axial_velocity, "m/s"),
+            s.transient_end, number(s.independent_samples, "{:.3g}"), s.state,
+            explanation_of_state(s),
             is_steady ? "" : " The mean is not to be used as a property of the flow."),
         is_steady ? "good" : "doubtful");
     tell_validity();

@@ -33,7 +33,7 @@ double mean_diameter(const io::FinalState& state) {
 double margin_of(const io::FinalState& state) {
   double margin = 0.0;
   for (const Grain& grain : state.grains) margin = std::max(margin, grain.radius);
-  for (const WallLattice& wall : state.walls) margin = std::max(margin, wall.radius);
+  for (const WallLattice& wall : state.walls) margin = std::max(margin, wall.reach());
   return margin;
 }
 
@@ -54,6 +54,7 @@ public:
   std::size_t columns() const { return columns_; }
   double scale() const { return scale_; }  ///< px/m
   bool is_whole() const { return length_shown() > (1.0 - 1e-9) * tube_length_; }
+  double column_length() const { return column_length_; }                       ///< m
   double length_shown() const { return number_of_columns() * column_length_; }  ///< m
   double width() const {
     return number_of_columns() * (outer_width_ * scale_ + gap) - gap;
@@ -146,6 +147,7 @@ private:
     for (const WallLattice& wall : state_->walls) {
       const double spacing = wall.spacing(state_->box);
       const WallWay way = wall.motion.way(state_->box, state_->time);
+      if (wall.smooth()) draw_plane(wall.line + way.x);
       for (std::int64_t k = 0; k < wall.count; ++k) {
         const double y = state_->box.wrapped(static_cast<double>(k) * spacing + way.y);
         const auto column = layout_.column_of(y);
@@ -154,6 +156,16 @@ private:
       }
     }
     svg_.end_group();
+  }
+
+  /// A smooth wall at x (m).
+  void draw_plane(double x) {
+    for (std::size_t column = 0; column < layout_.columns(); ++column) {
+      const double top = static_cast<double>(column) * layout_.column_length();
+      svg_.line(layout_.place(column, x, top),
+                layout_.place(column, x, top + layout_.column_length()),
+                {.stroke = "#9a9a9a", .stroke_width = 2.0});
+    }
   }
 
   void draw_grains() {

@@ -22,9 +22,11 @@ def animate(trajectory: Path, film: Path, frames_per_second: float) -> None:
         positions, velocities = grains["position/value"], grains["velocity/value"]
         times = grains["position/time"][:]
         walls_move = "value" in walls["position"]
-        wall_positions = walls["position/value"] if walls_move else walls["position"][:][None]
-        tube = TubePicture(*grains["box/edges"][:2], wall_positions[0][:, :2], walls["radius"][:],
-                           grains["radius"][:])
+        wall_positions = walls["position/value"][:] if walls_move else walls["position"][:][None]
+        width, length = grains["box/edges"][:2]
+        beyond = [0.0, -wall_positions[..., 0].min(initial=0.0), wall_positions[..., 0].max(initial=0.0) - width]
+        tube = TubePicture(width, length, wall_positions[0][:, :2], walls["radius"][:], grains["radius"][:],
+                           max(beyond))
         # Rare fast grains shall not take the colours from the others.
         sample = velocities[:: max(1, len(times) // 50)][:, :, 1]
         velocity_range = tuple(np.percentile(sample, [0.5, 99.5]))

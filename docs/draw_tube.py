@@ -21,15 +21,17 @@ MM = 1e3  # per metre
 class TubePicture:
     """Lengths in m: positions as (x, y), y along the fall."""
 
-    def __init__(self, width, length, wall_positions, wall_radii, radii):
+    def __init__(self, width, length, wall_positions, wall_radii, radii, swing=0.0):
+        """`swing`: how far walls go beyond their lines."""
         height = 1.3 + 9.4 * width / length  # of the figure; its width is 11
         even_pixels = 0.2  # films want them
         self.figure, self._axes = plt.subplots(figsize=(11, round(height / even_pixels) * even_pixels), dpi=130)
         self._walls = self._discs(wall_positions, wall_radii, facecolor="0.55")
         self._grains = self._discs(np.zeros((len(radii), 2)), radii, cmap="viridis", linewidth=0)
-        self._axes.set(xlim=(0, length * MM), ylim=(-1, width * MM + 1), aspect="equal",
+        self._axes.set(xlim=(0, length * MM), ylim=(-1 - swing * MM, (width + swing) * MM + 1), aspect="equal",
                        xlabel="y along the fall (mm)", ylabel="x (mm)")
         self.figure.colorbar(self._grains, label="axial velocity (m/s)", pad=0.02, fraction=0.012)
+        self._axes.set_title("t")  # so that there is room for one
         self.figure.tight_layout()
 
     def _discs(self, positions, radii, **style):
@@ -70,8 +72,9 @@ def draw(run_file: Path, picture: Path) -> None:
     with h5py.File(run_file) as file:
         final = file["final"]
         walls = wall_grains(final)
+        swing = max(abs(final["walls"]["amplitude_x"][:]))
         tube = TubePicture(final.attrs["box_width"], final.attrs["box_length"], walls[:, :2], walls[:, 2],
-                           final["radius"][:])
+                           final["radius"][:], swing)
         tube.show(final["position"][:], final["velocity"][:, 1])
     tube.figure.savefig(picture)
 

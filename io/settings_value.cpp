@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <filesystem>
 
@@ -122,10 +123,13 @@ void refuse_value(const Setting& row, const YamlNode& node, const std::string& r
 
 void check_range(const Setting& row, const YamlNode& node, double value) {
   if (row.range.contains(value)) return;
+  const bool bare_angle = row.unit == "rad" && !node.scalar.empty()
+                          && std::isdigit(static_cast<unsigned char>(node.scalar.back())) != 0;
   throw SettingsError(
       node.place, row.key,
       fmt::format("must be {}, got {}", to_string(row.range, row.unit), describe(node)),
-      "give a value in this range");
+      bare_angle ? "a bare number counts in rad: write '" + node.scalar + " degrees'?"
+                 : "give a value in this range");
 }
 
 }  // namespace riesel::io

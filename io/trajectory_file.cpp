@@ -55,7 +55,7 @@ TrajectoryFacts facts_of(const State& state, const std::string& settings) {
   const auto& radii = state.grains.radius;
   return {.grains = state.grains.size(),
           .wall_grains = wall_grains,
-          .walls_move = walls_move,
+          .walls_move = walls_move && wall_grains > 0,
           .grains_rotate = state.grains.rotate(),
           .width = state.box.width,
           .length = state.box.length,

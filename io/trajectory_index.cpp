@@ -61,6 +61,7 @@ std::string grid(std::string_view name, const std::string& content) {
 
 std::string trajectory_index(const TrajectoryIndex& index) {
   const auto walls = [&](std::uint64_t frame) {
+    if (index.wall_grains == 0) return std::string();  // ParaView reads no grid without points
     const std::string places = index.walls_move ? of_frame(index, "/particles/walls/position/value",
                                                            index.wall_grains, frame)
                                                 : whole(index.file, "/particles/walls/position",

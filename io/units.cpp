@@ -136,6 +136,7 @@ Dissection dissect_checked(const std::string& unit, const std::string& si_unit) 
   if (unit.size() > longest_unit) throw UnitError("shorten the unit");
   const auto known =
       has_only_exponents(unit) ? UnitDatabase::instance().dissect(unit) : std::nullopt;
+  if (!known && unit == "deg") throw UnitError("write 'degrees'");
   if (!known) throw UnitError(fmt::format("replace '{}', which is not a known unit", unit));
   if (!known->only_scaled) {
     throw UnitError(fmt::format("replace '{}', which is not a plain multiple of an SI unit", unit));

@@ -90,10 +90,14 @@ State earlier_state(const io::Settings& settings) {
 void reject_other_swing_across(const io::Settings& settings, const State& earlier,
                                const State& state) {
   for (std::size_t wall = 0; wall < state.walls.size(); ++wall)
-    if (earlier.walls[wall].motion.amplitude_x != state.walls[wall].motion.amplitude_x)
+    if (const double before = earlier.walls[wall].motion.amplitude_x,
+        now = state.walls[wall].motion.amplitude_x;
+        before != now)
       settings.reject("wall.shake_amplitude",
-                      "moves the walls across by another way than the run to be continued",
-                      "shake them as far across as that run, or start afresh");
+                      fmt::format("swings the walls across by {:.6g} m, and the run to be "
+                                  "continued by {:.6g} m",
+                                  now, before),
+                      "shake them as far across, by amplitude and angle, or start afresh");
 }
 
 void take_over(const State& earlier, const ContactModel& model, State& state) {

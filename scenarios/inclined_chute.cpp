@@ -59,8 +59,9 @@ State empty_chute(const io::Settings& settings) {
   State state;
   state.box = {.width = settings.number("chute.height"), .length = settings.number("chute.length")};
   state.walls = {wall_at(0.0, settings, state.box, "chute.length")};
-  const double gravity = settings.number("gravity"), angle = settings.number("chute.inclination");
-  state.gravity = {.x = -gravity * std::cos(angle), .y = gravity * std::sin(angle)};
+  const double gravity = settings.number("gravity");
+  const auto [level, down] = direction(settings.number("chute.inclination"));
+  state.gravity = {.x = -gravity * level, .y = gravity * down};
   return state;
 }
 

@@ -48,8 +48,9 @@ State empty_tube(const io::Settings& settings) {
   state.box = {.width = settings.number("tube.width"), .length = settings.number("tube.length")};
   for (const double line : {0.0, state.box.width})
     state.walls.push_back(wall_at(line, settings, state.box, "tube.length"));
-  const double gravity = settings.number("gravity"), tilt = settings.number("tube.tilt");
-  state.gravity = {.x = -gravity * std::sin(tilt), .y = gravity * std::cos(tilt)};
+  const double gravity = settings.number("gravity");
+  const auto [along, across] = direction(settings.number("tube.tilt"));
+  state.gravity = {.x = -gravity * across, .y = gravity * along};
   return state;
 }
 

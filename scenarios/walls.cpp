@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -18,14 +17,34 @@ using std::numbers::pi;
 constexpr auto amplitude_key = "wall.shake_amplitude", frequency_key = "wall.shake_frequency",
                angle_key = "wall.shake_angle";
 
-WallMotion shaking(const io::Settings& settings, const Box& box, const std::string& key_of_length) {
-  const double amplitude = settings.number(amplitude_key), angle = settings.number(angle_key);
-  if (amplitude > 0.25 * std::min(box.width, box.length))
-    settings.reject(amplitude_key, "more than a quarter of the period or of the width",
-                    "choose it smaller, or the room larger (" + key_of_length + ")");
-  return {.amplitude_x = amplitude * std::sin(angle),
-          .amplitude_y = amplitude * std::cos(angle),
-          .frequency = settings.number(frequency_key)};
+/// Half of it is likely to be forgotten.
+void reject_half_given(const io::Settings& settings, const char* given, const char* missing) {
+  if (settings.given(given) && !settings.given(missing))
+    settings.reject(given, std::string("moves nothing without ") + missing,
+                    std::string("give ") + missing + ", too, or remove both");
+}
+
+/// `part` is what the walls swing in this direction, `room` how long the box is there: m.
+void reject_large_swing(const io::Settings& settings, double part, double room, const char* name) {
+  if (std::abs(part) <= 0.25 * room) return;
+  settings.reject(
+      amplitude_key,
+      fmt::format("swings by {:.4g} m along a {} of {:.4g} m, more than a quarter of it",
+                  std::abs(part), name, room),
+      "choose it smaller; is a unit forgotten, as in '0.5 mm'?");
+}
+
+WallMotion shaking(const io::Settings& settings, const Box& box) {
+  reject_half_given(settings, amplitude_key, frequency_key);
+  reject_half_given(settings, frequency_key, amplitude_key);
+  const double amplitude = settings.number(amplitude_key);
+  const auto [along, across] = direction(settings.number(angle_key));
+  const WallMotion motion{.amplitude_x = amplitude * across,
+                          .amplitude_y = amplitude * along,
+                          .frequency = settings.number(frequency_key)};
+  reject_large_swing(settings, motion.amplitude_x, box.width, "width");
+  reject_large_swing(settings, motion.amplitude_y, box.length, "period");
+  return motion;
 }
 
 /// The walls and the grains do not fit: the key that was given of the two, or that of the walls.
@@ -66,7 +85,7 @@ io::SettingsTable wall_settings() {
        .unit = "1/s",
        .fallback = "0",
        .range = io::non_negative(),
-       .doc = "How often, as a sine of the time."},
+       .doc = "How often: the f of sin(2 pi f t)."},
       {.key = angle_key,
        .unit = "rad",
        .fallback = "0",
@@ -75,9 +94,16 @@ io::SettingsTable wall_settings() {
   };
 }
 
+Direction direction(double angle) {
+  constexpr double rounding = 1e-12;
+  const bool right = std::abs(std::abs(angle) - 0.5 * pi) < rounding;
+  return {.along = right ? 0.0 : std::cos(angle),
+          .across = right ? std::copysign(1.0, angle) : std::sin(angle)};
+}
+
 WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
                     const std::string& key_of_length) {
-  const WallMotion motion = shaking(settings, box, key_of_length);
+  const WallMotion motion = shaking(settings, box);
   if (settings.text("wall.surface") == "smooth")
     return {.line = line, .radius = 0.0, .count = 0, .motion = motion};
   const double spacing = settings.number("wall.spacing");

@@ -8,6 +8,12 @@
 
 namespace riesel::scenarios {
 
+/// Cosine and sine of an angle, exactly 0 at a right angle.
+struct Direction {
+  double along, across;
+};
+Direction direction(double angle);
+
 /// `wall.surface`, of corrugated walls `wall.grain_diameter` and `wall.spacing`, and how they
 /// shake.
 io::SettingsTable wall_settings();

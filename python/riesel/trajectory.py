@@ -15,7 +15,7 @@ from .table import opened
 _REMEDY = "give the run a setting output.trajectory_interval"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Frame:
     """Grains at one moment, in the order of their ids: arrays of the shape (grains, 2), x across and
     y along the tube, in [0, length)."""
@@ -26,6 +26,9 @@ class Frame:
     velocity: NDArray[np.float32]  #: m/s
     spin: NDArray[np.float32] | None  #: rad/s, of the shape (grains,); None where grains do not rotate
     wall_position: NDArray[np.float32]  #: m, of wall grains
+
+    def __repr__(self) -> str:
+        return f"<Frame at {self.time:g} s of {len(self.position)} grains>"
 
 
 class Trajectory(Sequence[Frame]):

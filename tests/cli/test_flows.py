@@ -77,3 +77,13 @@ class Flows(CommandTest):
                 self.assert_done(self.riesel("resume", part, "--set", f"run.duration={duration}"))
                 self.assertEqual(self.state_hash(part), self.state_hash(whole))
                 self.assert_done(self.riesel("report", whole))
+
+    def test_a_shaken_bed_is_judged_by_how_hot_it_is(self):
+        out = self.run_of("bed", SMOOTH, "--set", "tube.tilt=90 degrees", "--set", "wall.shake_amplitude=0.2 mm",
+                          "--set", "wall.shake_frequency=50", "--set", "wall.shake_angle=90 degrees")
+        summary = self.summary(out)
+        self.assertEqual(summary["judged_by"], "granular_temperature")
+        self.assertEqual(summary["balance"]["gravity"], 0.0)
+        checked = self.riesel("check", "bed.yaml", "--set", "wall.shake_amplitude=0.2 mm", "--set",
+                              "wall.shake_frequency=50").stdout
+        self.assertRegex(checked, r"walls shake +up to 0.0628 m/s and 19.7 m/s\^2 \(1.97 g\), \d+ steps per period")

@@ -92,6 +92,9 @@ MISTAKES_IN_OVERRIDES = {
     "grains.area_fraction=2": ["grains.area_fraction:", "from 0.001 to 0.9", "'2'"],
     "seed=[1": ["not valid YAML"],
     "contact.damping=1e4": ["contact.", "damping", "restitution", "remove one"],
+    "tube.tilt=20": ["must be from 0", "'20'", "write '20 degrees'"],
+    "tube.tilt=20 deg": ["an angle", "write 'degrees'"],
+    "wall.shake_amplitude=1 mm": ["wall.shake_amplitude: moves nothing", "give wall.shake_frequency"],
     "start.axial_velocity=1000 km/s": ["start.axial_velocity:", "too fast", "m/s"],
 }
 

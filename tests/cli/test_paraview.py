@@ -48,3 +48,11 @@ class ParaView(CommandTest):
             for i, frame in enumerate(found["frames"]):
                 np.testing.assert_array_equal(np.float32(frame["walls"]["position"]), walls["position/value"][i])
                 np.testing.assert_array_equal(np.float32(frame["grains"]["spin"]), grains["spin/value"][i])
+
+    def test_smooth_walls_have_no_grains(self):
+        found, out = self.shown("--set", "wall.surface=smooth")
+        with h5py.File(out / "trajectory.h5", "r") as file:
+            for i, frame in enumerate(found["frames"]):
+                self.assertEqual(sorted(frame), ["grains"])
+                np.testing.assert_array_equal(np.float32(frame["grains"]["position"]),
+                                              file["particles/grains/position/value"][i])

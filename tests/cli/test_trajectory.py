@@ -161,6 +161,19 @@ class WallsThatMove(TrajectoryTest):
         self.assertGreater(abs(spin["value"][-1]).max(), 1)
 
 
+class WithoutWallGrains(TrajectoryTest):
+
+    def test_smooth_walls_that_move_leave_a_file_that_is_read(self):
+        out = self.run_tube("out", "--set", "wall.surface=smooth", "--set", "wall.shake_amplitude=0.5 mm",
+                            "--set", "wall.shake_frequency=300")
+        with h5py.File(out / "trajectory.h5", "r") as file:
+            self.assertEqual(file["particles/walls/position"].shape, (0, 3))
+            self.assertGreater(len(file[f"{GRAINS}/position/value"]), 2)
+        if netCDF4 is not None:
+            with netCDF4.Dataset(out / "trajectory.h5") as amber:
+                self.assertGreater(len(amber["time"]), 2)
+
+
 class Trajectory(TrajectoryTest):
 
     def test_it_does_not_change_the_run(self):

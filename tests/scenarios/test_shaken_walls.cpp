@@ -9,7 +9,6 @@
 #include <cmath>
 
 using namespace scenario_fixture;
-using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 namespace {
@@ -32,14 +31,34 @@ TEST_CASE("walls shake in the direction that they are told") {
   const State across = tube(shaken({"wall.shake_angle=90 degrees"})).state;
   CHECK_THAT(across.walls[0].motion.amplitude_x, WithinRel(0.2e-3, 1e-12));
   CHECK_THAT(across.walls[0].motion.way(across.box, 5e-3).x, WithinRel(0.2e-3, 1e-9));
-  CHECK_THAT(across.walls[0].motion.way(across.box, 5e-3).y, WithinAbs(0.0, 1e-12));
+  CHECK(across.walls[0].motion.amplitude_y == 0.0);
 }
 
 TEST_CASE("walls that shake too far or too fast are refused") {
-  check_mentions(complaint(tube_yaml, {"wall.shake_amplitude=6 mm", "wall.shake_frequency=10"}),
-                 {"wall.shake_amplitude", "quarter"});
+  const auto swing = [](const char* amplitude, const char* angle) {
+    return complaint(tube_yaml, {"wall.shake_frequency=10", "tube.length=40 mm",
+                                 std::string("wall.shake_amplitude=") + amplitude,
+                                 std::string("wall.shake_angle=") + angle});
+  };
+  check_mentions(swing("11 mm", "0"), {"wall.shake_amplitude", "period of 0.04 m", "quarter"});
+  check_mentions(swing("6 mm", "90 degrees"), {"wall.shake_amplitude", "width of 0.02 m"});
+  CHECK(swing("6 mm", "0") == "accepted");
   check_mentions(complaint(tube_yaml, shaken({"wall.shake_frequency=1e8"})),
                  {"wall.shake_frequency", "too fast"});
+}
+
+TEST_CASE("a shaking of which half is given is refused") {
+  check_mentions(complaint(tube_yaml, {"wall.shake_amplitude=1 mm"}),
+                 {"wall.shake_amplitude: moves nothing", "give wall.shake_frequency, too"});
+  check_mentions(complaint(tube_yaml, {"wall.shake_frequency=50"}),
+                 {"wall.shake_frequency: moves nothing", "give wall.shake_amplitude, too"});
+  CHECK(complaint(tube_yaml, shaken({"wall.shake_amplitude=0"})) == "accepted");
+}
+
+TEST_CASE("a tube that lies has no gravity along it") {
+  const State state = tube({"tube.tilt=90 degrees"}).state;
+  CHECK(state.gravity.y == 0.0);
+  CHECK(state.gravity.x == -10.0);
 }
 
 TEST_CASE("shaken walls heat what is between them, as they are told to") {
@@ -80,5 +99,6 @@ TEST_CASE("a run between shaken walls goes on where they were") {
   if (angle == "0") return;
   Overrides other = shaken(continued);
   other.emplace_back("wall.shake_amplitude=0.3 mm");
-  check_mentions(complaint(tube_yaml, other), {"wall.shake_amplitude", "across"});
+  check_mentions(complaint(tube_yaml, other),
+                 {"wall.shake_amplitude", "swings the walls across by", "to be continued by"});
 }
