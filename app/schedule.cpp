@@ -9,7 +9,6 @@ namespace riesel::app {
 
 Schedule::Schedule(const io::Settings& settings, double time_step)
     : steps_per_row(scenarios::steps_between(settings.number("output.interval"), time_step)),
-      steps_per_frame(0),
       seconds_between_checkpoints(settings.number("output.checkpoint_interval")) {
   const scenarios::RunLength length = scenarios::run_length(settings);
   last_step = std::llround(std::ceil(length.at_most / time_step - 1e-9));

@@ -23,7 +23,7 @@ struct Schedule {
   std::int64_t last_step;
   std::optional<double> relative_error;  ///< of the mean velocity, to stop at before the last step
   std::int64_t steps_per_row;
-  std::int64_t steps_per_frame;        ///< of the trajectory; 0: there is none
+  std::int64_t steps_per_frame = 0;    ///< of the trajectory; 0: there is none
   double seconds_between_checkpoints;  ///< on the clock
 };
 

@@ -13,7 +13,7 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double g = 10.0;  // m/s^2
+constexpr double weight_per_mass = 10.0;  // m/s^2
 
 State plate(const WallMotion& motion) {
   State state = empty_box(10e-3, 20e-3);
@@ -24,11 +24,12 @@ State plate(const WallMotion& motion) {
 
 /// A grain that lies on a plate shaken with `gamma` times the weight, from the lowest point on.
 struct Shaken {
-  explicit Shaken(double gamma) : amplitude(gamma * g / (omega * omega)), state(plate({})) {
-    state.gravity.x = -g;
+  explicit Shaken(double gamma)
+      : amplitude(gamma * weight_per_mass / (omega * omega)), state(plate({})) {
+    state.gravity.x = -weight_per_mass;
     state.walls[0].motion = {
         .amplitude_x = amplitude, .frequency = omega / (2.0 * pi), .phase = -0.5 * pi};
-    const double overlap = mass * g * (1.0 + gamma) / stiffness;
+    const double overlap = mass * weight_per_mass * (1.0 + gamma) / stiffness;
     add_grain(state, grain(radius - amplitude - overlap, 5e-3, 0.0, 0.0));
   }
 
@@ -61,7 +62,8 @@ TEST_CASE("a grain stays on a plate that is shaken with less than its weight") {
   CHECK(end.tally.walls.begun <= 1);
   CHECK(end.tally.walls.ended == 0);
   const double way = end.walls[0].motion.way(end.box, end.time()).x;
-  CHECK(grain_at(end, 0).x == Approx(radius + way).margin(2.0 * mass * g / stiffness));
+  CHECK(grain_at(end, 0).x
+        == Approx(radius + way).margin(2.0 * mass * weight_per_mass / stiffness));
 }
 
 TEST_CASE("a grain leaves a plate that is shaken with more than its weight where the two part") {
