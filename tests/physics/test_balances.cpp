@@ -194,7 +194,8 @@ TEST_CASE("the energy between moving walls is accounted for, the better the smal
   };
   const double coarse = residual(2e-6), fine = residual(0.25e-6);
   CHECK(coarse < 0.01);
-  CHECK(fine < 0.2 * coarse);
+  CAPTURE(coarse, fine);
+  CHECK(fine < 0.025 * coarse);  // second order: an eighth of the step, and a 64th of the residual
 }
 
 TEST_CASE("the residual of the energy vanishes at second order in the time step") {
