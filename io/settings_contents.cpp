@@ -120,7 +120,7 @@ SettingsContents read_settings(const YamlNode& file, const std::string& text,
   RowReader reader(given, contents, mistakes);
   for (const auto& row : contents.table) reader.read(row);
   reader.refuse_idle_settings();
-  if (mistakes.any()) mistakes.throw_them();
+  mistakes.throw_if_any();
   return contents;
 }
 

@@ -56,7 +56,8 @@ SettingsError::SettingsError(const SettingsError& first, const std::string& what
       problem_(first.problem_),
       remedy_(first.remedy_) {}
 
-void Mistakes::throw_them() {
+void Mistakes::throw_if_any() {
+  if (!any()) return;
   // Overrides, which have no lines, come last.
   const auto order = [](const SettingsError& error) {
     const auto& [source, line, column] = error.place();

@@ -50,14 +50,14 @@ public:
       return true;
     } catch (const SettingsError& error) {
       all_.push_back(error);
-      if (all_.size() == most) throw_them();
+      if (all_.size() == most) throw_if_any();
       return false;
     }
   }
 
   bool any() const { return !all_.empty(); }
   /// Throws the SettingsError of the first in the file; its what() has one line for each.
-  void throw_them();
+  void throw_if_any();
 
 private:
   static constexpr std::size_t most = 20;

@@ -178,7 +178,7 @@ GivenSettings gather(const SweepFile& sweep, const SettingsTables& tables) {
   refuse_varied_scenario(entries);
   Mistakes mistakes;
   GivenSettings given = gather_settings(sweep.base, tables, entries, mistakes);
-  if (mistakes.any()) mistakes.throw_them();
+  mistakes.throw_if_any();
   return given;
 }
 

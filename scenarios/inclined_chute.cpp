@@ -9,7 +9,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <numbers>
 #include <vector>
 

@@ -7,7 +7,6 @@
 #include "scenarios/flow_start.hpp"
 #include "scenarios/walls.hpp"
 
-#include <cmath>
 #include <numbers>
 
 namespace riesel::scenarios {
