@@ -2,8 +2,10 @@
 // to the step in which they no longer do.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <optional>
 
 namespace riesel {
 
@@ -18,6 +20,13 @@ struct ContactName {
 };
 
 inline constexpr std::int32_t no_wall = -1;
+
+/// Of contacts that are to be told about, one each at most: what is told must not depend on who
+/// found which.
+inline std::optional<ContactName> first_by_name(const std::optional<ContactName>& a,
+                                                const std::optional<ContactName>& b) {
+  return a && b ? std::min(*a, *b) : a ? a : b;
+}
 
 /// SI units throughout. Times are resolved within the step: the relative path of the two bodies
 /// tells when they met and when they will part.

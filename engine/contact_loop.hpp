@@ -47,7 +47,7 @@ void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed
 /// calls ended(i) before contact i goes.
 template <class Ended>
 void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
-  if (contacts.trouble()) slice.trouble = contacts.trouble();
+  slice.trouble = first_by_name(slice.trouble, contacts.trouble());
   for (const std::size_t i : contacts.ended()) {
     slice.tally.end(contacts.contact(i), contacts.meeting(i).reach());
     note_over(slice, contacts.meeting(i));

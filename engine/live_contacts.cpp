@@ -380,6 +380,7 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
 
 void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const ContactModel& model) {
   ended_.clear();
+  trouble_.reset();
   if (size() == 0) return;
   if (any_level_ || (partner_ == Partner::wall && units.walls_move)) follow_walls(bodies, units);
   if (partner_ == Partner::grain)
@@ -390,7 +391,7 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
     if (block_flags_[block / lanes] == 0) continue;
     for (std::size_t i = block; i < std::min(block + lanes, size()); ++i) {
       if ((flags_[i] & apart) != 0) ended_.push_back(i);
-      if ((flags_[i] & unusable) != 0) trouble_ = meetings_[i].name;
+      if ((flags_[i] & unusable) != 0) trouble_ = first_by_name(trouble_, meetings_[i].name);
     }
   }
   std::reverse(ended_.begin(), ended_.end());

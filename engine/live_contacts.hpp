@@ -68,7 +68,7 @@ public:
   /// The last contact takes the place of contact `i`.
   void remove(std::size_t i);
 
-  /// A contact whose kick in the last step() is no usable number.
+  /// The first by name of the contacts whose kick in the last step() is no usable number.
   const std::optional<ContactName>& trouble() const { return trouble_; }
 
 private:

@@ -269,10 +269,12 @@ void Simulation::collect() {
 void Simulation::fail_if_in_trouble() const {
   const std::string when =
       " at t = " + std::to_string(state_.time()) + " s (step " + std::to_string(state_.step) + ")";
+  std::optional<ContactName> trouble;
+  for (const Slice& slice : candidates_->slices()) trouble = first_by_name(trouble, slice.trouble);
+  if (trouble)
+    throw RunFailure("the force between " + partners(*trouble) + " is not finite" + when
+                     + "; a shorter time step may help");
   for (const Slice& slice : candidates_->slices()) {
-    if (slice.trouble)
-      throw RunFailure("the force between " + partners(*slice.trouble) + " is not finite" + when
-                       + "; a shorter time step may help");
     if (slice.lost)
       throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when
                        + "; stiffer contacts or a shorter time step may help");

@@ -87,7 +87,7 @@ struct alignas(cache_line) Slice {
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
   bool failed() const { return trouble || lost; }
-  std::optional<ContactName> trouble;  ///< a contact whose force is no usable number
+  std::optional<ContactName> trouble;  ///< the first contact whose force is no usable number
   std::optional<std::int32_t> lost;    ///< id of a grain that has left the representable space
 
   bool owns(std::uint32_t slot) const { return slot - begin < end - begin; }

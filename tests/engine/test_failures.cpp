@@ -23,9 +23,10 @@ void check_refused(const State& state) {
 }
 
 /// What advance() throws, or "no failure".
-std::string failure(const State& state, std::int64_t steps, int threads = 1) {
+std::string failure(const State& state, std::int64_t steps, int threads = 1,
+                    Stepping stepping = Stepping::automatic) {
   try {
-    advanced(state, paper_model(), steps, threads);
+    advanced(state, paper_model(), steps, threads, stepping);
   } catch (const RunFailure& failure) {
     return failure.what();
   }
@@ -125,6 +126,22 @@ TEST_CASE("two grains in the very same place are reported, not turned into numbe
   const int threads = GENERATE(1, 2);
   CHECK_THAT(failure(state, 10, threads),
              Contains("grain 1 and grain 2") && Contains("not finite") && Contains("step 1"));
+}
+
+TEST_CASE("of several forces that are not finite the first by name is reported, by any way") {
+  State state = empty_box(20e-3, 20e-3);
+  add_walls(state, 20);
+  for (int pair = 0; pair < 8; ++pair)
+    add_grain(state, grain(3e-3, 1e-3 + 2.2e-3 * pair, 0.0, 0.0));
+  for (int pair = 0; pair < 8; ++pair)
+    add_grain(state, grain(3e-3, 1e-3 + 2.2e-3 * pair, 0.0, 0.0));
+  add_grain(state, grain(0.0, 0.0, 0.0, 0.0));
+  state = shuffled(std::move(state), GENERATE(1u, 2u, 3u));
+  for (const Stepping stepping : {Stepping::plain, Stepping::windows})
+    for (const int threads : {1, 2, 4}) {
+      CAPTURE(threads, stepping == Stepping::plain);
+      CHECK_THAT(failure(state, 10, threads, stepping), Contains("between grain 0 and grain 8"));
+    }
 }
 
 TEST_CASE("a grain in the very place of a wall grain is reported") {
