@@ -16,8 +16,29 @@ namespace {
 
 constexpr int exit_cannot_execute = 127;
 
+/// While it lives no signal is handled: one that comes to a child before it has become a program
+/// would be taken by its parent's handlers, and lost.
+class SignalsHeldBack {
+public:
+  SignalsHeldBack() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeldBack() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeldBack(const SignalsHeldBack&) = delete;
+  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
+  SignalsHeldBack(SignalsHeldBack&&) = delete;
+  SignalsHeldBack& operator=(SignalsHeldBack&&) = delete;
+
+  const sigset_t& before() const { return before_; }
+
+private:
+  sigset_t before_;
+};
+
 /// In the child: only calls that are safe between fork and exec, as the parent may have threads.
-[[noreturn]] void become(char* const* arguments, int log, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, int log, pid_t parent, const sigset_t& signals) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(exit_cannot_execute);  // it died before it was watched
@@ -25,6 +46,8 @@ constexpr int exit_cannot_execute = 127;
   dup2(nothing, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  sigprocmask(SIG_SETMASK, &signals, nullptr);
   execv("/proc/self/exe", arguments);
   _exit(exit_cannot_execute);
 }
@@ -35,11 +58,13 @@ pid_t start(std::vector<std::string> arguments, const std::filesystem::path& log
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
 
-  const int descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  const int descriptor =
+      open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) throw io::system_failure(log, "cannot be written", errno);
   const pid_t parent = getpid();
+  const SignalsHeldBack signals;
   const pid_t child = fork();
-  if (child == 0) become(pointers.data(), descriptor, parent);
+  if (child == 0) become(pointers.data(), descriptor, parent, signals.before());
   const int error = errno;
   close(descriptor);
   if (child < 0) throw io::system_failure(log, "no process can be started for the run", error);

@@ -130,6 +130,8 @@ void remove_other_figures(const Report& report, const fs::path& figures) {
 void write(const Report& report, const fs::path& directory) {
   const fs::path figures = directory / figures_name;
   std::error_code error;
+  if (fs::is_symlink(figures, error))
+    throw io::FileError(figures, "is a link to another place", "remove it");
   fs::create_directories(figures, error);
   if (error) throw io::system_failure(figures, "cannot be made", error.value());
   for (const ReportFigure& figure : report.figures)

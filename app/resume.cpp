@@ -82,8 +82,8 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   const auto home = std::filesystem::is_directory(options.checkpoint)
                         ? options.checkpoint
                         : std::filesystem::absolute(options.checkpoint).parent_path();
-  return resume_flow(settings, std::move(found.checkpoint), RunDirectory::reopen(home, settings),
-                     arguments, options.flow);
+  return resume_flow(settings, std::move(found.checkpoint), RunDirectory::reopen(home), arguments,
+                     options.flow);
 }
 
 }  // namespace riesel::app

@@ -23,8 +23,10 @@ bool stopped_before_checkpoint(const fs::path& directory) {
          && !fs::exists(directory / io::summary_name);
 }
 
-RunDirectory::RunDirectory(const fs::path& path, const io::Settings& settings)
-    : path_(path), lock_(std::make_unique<io::DirectoryLock>(path)) {
+RunDirectory::RunDirectory(const fs::path& path)
+    : path_(path), lock_(std::make_unique<io::DirectoryLock>(path)) {}
+
+void RunDirectory::write_settings(const io::Settings& settings) const {
   io::write_durably(file(io::effective_settings_name),
                     "# Written by " + written_by() + ".\n" + settings.effective_yaml());
 }
@@ -45,16 +47,25 @@ RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& sett
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw io::system_failure(path, "cannot be made", error.value());
-  return {path, settings};
+  RunDirectory directory(path);
+  directory.write_settings(settings);
+  io::sync_directory_of(fs::canonical(path));
+  return directory;
 }
 
-RunDirectory RunDirectory::reopen(const fs::path& path, const io::Settings& settings) {
+RunDirectory RunDirectory::reopen(const fs::path& path) {
   if (!fs::exists(path / io::run_file_name))
     throw UnusableInput((path / io::run_file_name).string()
                         + ": is missing; restore the file, or start the run again elsewhere");
-  RunDirectory directory(path, settings);
-  fs::remove(directory.file(io::summary_name));  // of the shorter run
-  return directory;
+  return RunDirectory(path);
+}
+
+void RunDirectory::go_on(const io::Settings& settings) const {
+  write_settings(settings);
+  const fs::path summary = file(io::summary_name);  // of the shorter run
+  std::error_code error;
+  fs::remove(summary, error);
+  if (error) throw io::system_failure(summary, "cannot be removed", error.value());
 }
 
 }  // namespace riesel::app

@@ -28,8 +28,10 @@ public:
   /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run in
   /// it already, io::FileError if it cannot be written.
   static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
-  /// The directory of a run that goes on.
-  static RunDirectory reopen(const std::filesystem::path& path, const io::Settings& settings);
+  /// The directory of a run that is to go on. Nothing in it is changed.
+  static RunDirectory reopen(const std::filesystem::path& path);
+  /// Nothing is in the way of the run: its settings may have changed, and it has no result now.
+  void go_on(const io::Settings& settings) const;
 
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
@@ -38,7 +40,8 @@ public:
   void require_in_place() const { lock_->require_in_place(); }
 
 private:
-  RunDirectory(const std::filesystem::path& path, const io::Settings& settings);
+  explicit RunDirectory(const std::filesystem::path& path);
+  void write_settings(const io::Settings& settings) const;
 
   std::filesystem::path path_;
   std::unique_ptr<io::DirectoryLock> lock_;

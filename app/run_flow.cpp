@@ -81,10 +81,12 @@ public:
 
   int run() {
     start_ = last_checkpoint_ = Clock::now();
+    if (past_.rows > 0) directory_.go_on(settings_);
     tell_beginning();
     try {
       if (file_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
+      if (max_walltime_ && longest_save_ == 0.0) save();  // to know how long it takes
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
       return fail(failure, "; with another limit it goes on from there, see 'riesel resume'");
@@ -299,6 +301,7 @@ private:
   }
 
   int tell_result() {
+    directory_.require_in_place();
     last_ = observe(simulation_.state());
     io::FlowSummary s = summarise({file_, strips_, profiles_, interval()}, simulation_.state(),
                                   simulation_.model(), last_);
@@ -330,23 +333,15 @@ private:
   /// Keeps what there is: the state may tell why.
   int fail(const RunFailure& failure, const char* way_on) {
     progress_.finish();
+    fmt::print(stderr, "riesel: the run failed: {}\n", failure.what());  // whatever the disk does
+    directory_.require_in_place();
     file_.write_final_state(simulation_.state());
     file_.flush();
     if (trajectory_) trajectory_->commit();
-    fmt::print(stderr, "riesel: the run failed: {}\nthe state of that moment is in {}{}\n",
-               failure.what(), directory_.file(keep_for_post_mortem()).string(), way_on);
+    const auto post_mortem = directory_.file(post_mortem_name);
+    io::write_checkpoint(post_mortem, checkpoint());
+    fmt::print(stderr, "the state of that moment is in {}{}\n", post_mortem.string(), way_on);
     return exit_failed;
-  }
-
-  /// The name of the file that holds the state. A state with numbers that are none is no
-  /// checkpoint.
-  std::string keep_for_post_mortem() const {
-    try {
-      io::write_checkpoint(directory_.file(post_mortem_name), checkpoint());
-      return post_mortem_name;
-    } catch (const io::FileError&) {
-      return io::run_file_name;
-    }
   }
 
   const io::Settings settings_;

@@ -289,6 +289,17 @@ void LiveContacts::become_rich() {
   }
 }
 
+/// The state is to be kept, for a look at it: without the kicks and the numbers of a contact that
+/// are none.
+void LiveContacts::make_harmless(std::size_t i) {
+  for (auto& kicks : kick_) kicks[i] = 0;
+  if (rich_)
+    for (auto& kicks : spin_kick_) kicks[i] = 0;
+  const std::size_t members = rich_ ? life_members : poor_life_members;
+  for (std::size_t m = 0; m < members; ++m)
+    if (!std::isfinite(life_[m][i])) life_[m][i] = 0.0;
+}
+
 /// The points of smooth walls go along with their grains, those of moving walls with the walls.
 void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
   for (std::size_t i = 0; i < size(); ++i) {
@@ -391,7 +402,9 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
     if (block_flags_[block / lanes] == 0) continue;
     for (std::size_t i = block; i < std::min(block + lanes, size()); ++i) {
       if ((flags_[i] & apart) != 0) ended_.push_back(i);
-      if ((flags_[i] & unusable) != 0) trouble_ = first_by_name(trouble_, meetings_[i].name);
+      if ((flags_[i] & unusable) == 0) continue;
+      trouble_ = first_by_name(trouble_, meetings_[i].name);
+      make_harmless(i);
     }
   }
   std::reverse(ended_.begin(), ended_.end());

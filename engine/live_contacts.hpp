@@ -68,7 +68,8 @@ public:
   /// The last contact takes the place of contact `i`.
   void remove(std::size_t i);
 
-  /// The first by name of the contacts whose kick in the last step() is no usable number.
+  /// The first by name of the contacts whose kick in the last step() was no usable number, so that
+  /// it gave none.
   const std::optional<ContactName>& trouble() const { return trouble_; }
 
 private:
@@ -89,6 +90,7 @@ private:
   template <Partner partner>
   void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
   void become_rich();
+  void make_harmless(std::size_t i);
   void follow_walls(const Bodies& bodies, const StepUnits& units);
   void pad();
   template <class Visit>

@@ -244,7 +244,7 @@ FoundCheckpoint find_checkpoint(const fs::path& path) {
       return {.checkpoint = read_checkpoint(previous), .path = previous, .note = note};
     } catch (const FileError& older) {
       throw FileError(newest, error.problem() + "; " + previous.string() + ": " + older.problem(),
-                      "start the run again");
+                      older.remedy());
     }
   }
 }

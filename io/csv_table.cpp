@@ -21,10 +21,12 @@ struct Text {
   int place;  // column of its first character
 };
 
+/// No further than any table goes: what is left makes no table of a line of commas.
 std::vector<Text> split(std::string_view line) {
   constexpr std::string_view blanks = " \t\r";
+  constexpr std::size_t most_cells = 1000;
   std::vector<Text> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
+  for (std::size_t begin = 0; begin <= line.size() && cells.size() < most_cells;) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
     const std::size_t first = std::min(line.find_first_not_of(blanks, begin), end);
     std::string_view text = line.substr(first, end - first);

@@ -16,10 +16,18 @@ namespace {
 
 constexpr std::size_t most_at_once = std::size_t{1} << 30;  // bytes; what Linux takes
 
+/// What a call of the system returns that no signal has interrupted.
+template <class Call>
+auto uninterrupted(Call call) {
+  for (;;)
+    if (const auto result = call(); result >= 0 || errno != EINTR) return result;
+}
+
 }  // namespace
 
 Descriptor::Descriptor(const std::filesystem::path& name, int flags, std::filesystem::path path)
-    : path_(std::move(path)), descriptor_(open(name.c_str(), flags | O_CLOEXEC, 0666)) {
+    : path_(std::move(path)),
+      descriptor_(uninterrupted([&] { return open(name.c_str(), flags | O_CLOEXEC, 0666); })) {
   check(descriptor_);
 }
 
@@ -29,9 +37,9 @@ Descriptor::~Descriptor() {
 
 void Descriptor::write(std::string_view content) {
   while (!content.empty()) {
-    const ssize_t written =
-        ::write(descriptor_, content.data(), std::min(content.size(), most_at_once));
-    if (written < 0 && errno == EINTR) continue;
+    const ssize_t written = uninterrupted([&] {
+      return ::write(descriptor_, content.data(), std::min(content.size(), most_at_once));
+    });
     check(written);
     content.remove_prefix(static_cast<std::size_t>(written));
   }
@@ -41,9 +49,9 @@ std::string Descriptor::read_at(std::uint64_t offset, std::size_t size) {
   std::string content(size, '\0');
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t got =
-        pread(descriptor_, &content[done], size - done, static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
+    const ssize_t got = uninterrupted([&] {
+      return pread(descriptor_, &content[done], size - done, static_cast<off_t>(offset + done));
+    });
     check(got, "cannot be read");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
@@ -54,10 +62,10 @@ std::string Descriptor::read_at(std::uint64_t offset, std::size_t size) {
 
 void Descriptor::write_at(std::uint64_t offset, std::string_view content) {
   while (!content.empty()) {
-    const ssize_t written =
-        pwrite(descriptor_, content.data(), std::min(content.size(), most_at_once),
-               static_cast<off_t>(offset));
-    if (written < 0 && errno == EINTR) continue;
+    const ssize_t written = uninterrupted([&] {
+      return pwrite(descriptor_, content.data(), std::min(content.size(), most_at_once),
+                    static_cast<off_t>(offset));
+    });
     check(written);
     offset += static_cast<std::uint64_t>(written);
     content.remove_prefix(static_cast<std::size_t>(written));
@@ -68,10 +76,12 @@ void Descriptor::make_at_least(std::uint64_t size) {
   struct stat about = {};
   check(fstat(descriptor_, &about));
   const auto wanted = static_cast<off_t>(size);
-  if (about.st_size < wanted) check(ftruncate(descriptor_, wanted));
+  if (about.st_size < wanted) check(uninterrupted([&] { return ftruncate(descriptor_, wanted); }));
 }
 
-void Descriptor::sync() { check(fsync(descriptor_)); }
+void Descriptor::sync() {
+  check(uninterrupted([&] { return fsync(descriptor_); }));
+}
 
 void Descriptor::close() { check(::close(std::exchange(descriptor_, -1))); }
 

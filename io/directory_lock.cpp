@@ -68,7 +68,8 @@ std::pair<std::uint64_t, std::uint64_t> identity_of(const std::filesystem::path&
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
     : directory_(directory),
-      descriptor_(open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+      descriptor_(
+          open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
   if (lock_patiently(descriptor_)) {
     describe_holder(descriptor_);
@@ -92,7 +93,7 @@ void DirectoryLock::require_in_place() const {
 }
 
 bool DirectoryLock::is_held(const std::filesystem::path& directory) {
-  const int descriptor = open((directory / lock_name).c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = open((directory / lock_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0) return false;
   const bool held = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   close(descriptor);

@@ -52,12 +52,12 @@ void rename_to(const fs::path& from, const fs::path& to, const fs::path& path) {
   }
 }
 
+}  // namespace
+
 void sync_directory_of(const fs::path& path) {
   const auto parent = path.parent_path();
   Descriptor(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY, path).sync();
 }
-
-}  // namespace
 
 void write_durably(const fs::path& path, std::string_view content, Previous previous) {
   const Leftover aside(with_suffix(path, ".tmp"));

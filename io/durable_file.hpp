@@ -27,6 +27,10 @@ enum class Previous { discard, keep };
 void write_durably(const std::filesystem::path& path, std::string_view content,
                    Previous previous = Previous::discard);
 
+/// What has been made at `path` will be found there: its directory is on the disk. Throws
+/// FileError.
+void sync_directory_of(const std::filesystem::path& path);
+
 /// NAME.previous: where the generation before is kept.
 std::filesystem::path previous_generation(const std::filesystem::path& path);
 

@@ -73,6 +73,7 @@ std::map<std::string, std::uint64_t> read_hdf5_members(const Bytes& file,
   constexpr std::uint64_t of_groups = 0, key_size = 8, entry_size = 40, link = 2;
   const Bytes heap = read_heap(file, members.heap);
   std::map<std::string, std::uint64_t> found;
+  std::uint64_t letters = 0;
   const auto take_leaf = [&](const Bytes&, std::uint64_t address) {
     const Bytes leaf = file.from(address);
     require(leaf.part(0, 4).text() == "SNOD" && leaf.number(4, 1) == 1, "a group is damaged");
@@ -83,6 +84,8 @@ std::map<std::string, std::uint64_t> read_hdf5_members(const Bytes& file,
       require(entry.number(16, 4) != link, "a group holds links");
       const auto name = name_in(heap, entry.number(0, 8));
       require(found.empty() || found.rbegin()->first < name, "the names are out of order");
+      letters += name.size();
+      require(letters <= heap.size(), "the names overlap");
       found.emplace_hint(found.end(), name, entry.number(8, 8));
     }
   };

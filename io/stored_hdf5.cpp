@@ -49,10 +49,22 @@ std::uint64_t find_root(const StoredBytes& bytes, std::size_t user_block) {
 
 }  // namespace
 
-StoredObject::StoredObject(std::shared_ptr<const StoredBytes> bytes, std::uint64_t address,
+void StoredBytes::give(std::uint64_t size) {
+  constexpr std::uint64_t copies = 16;  // whoever reads all of a file needs two or three
+  require(size <= copies * all.size() - given, "it shows the same bytes in too many places");
+  given += size;
+}
+
+StoredObject::StoredObject(std::shared_ptr<StoredBytes> bytes, std::uint64_t address,
                            std::string path)
     : bytes_(std::move(bytes)),
-      header_(attempt("open " + path, [&] { return read_hdf5_header(bytes_->content, address); })),
+      header_(attempt("open " + path,
+                      [&] {
+                        constexpr std::uint64_t about_a_header = 64;
+                        auto header = read_hdf5_header(bytes_->content, address);
+                        bytes_->give(about_a_header * (1 + header.attributes.size()));
+                        return header;
+                      })),
       path_(std::move(path)) {}
 
 std::string StoredObject::reading(const std::string& name) const {
@@ -81,6 +93,7 @@ std::string StoredObject::text_attribute(const std::string& name) const {
   return attempt(reading(name), [&] {
     const auto& stored = single_value(name);
     require(stored.type.kind == Hdf5Type::Kind::text, "it is no text of fixed length");
+    bytes_->give(stored.type.size);
     return without_padding(stored.value.part(0, stored.type.size).text());
   });
 }
@@ -105,6 +118,7 @@ void StoredData::read(std::span<T> values) const {
   attempt("read the data set " + path(), [&] {
     require(header().type->kind == kind_of<T>, "it has another type");
     require(values.size() == size.rows * size.columns, "the size does not match");
+    bytes()->give(values.size_bytes());
     read_bytes({reinterpret_cast<char*>(values.data()), values.size_bytes()});
     return 0;
   });
@@ -132,12 +146,14 @@ void StoredData::read_bytes(std::span<char> memory) const {
   }
 }
 
-StoredGroup::StoredGroup(std::shared_ptr<const StoredBytes> bytes, std::uint64_t address,
+StoredGroup::StoredGroup(std::shared_ptr<StoredBytes> bytes, std::uint64_t address,
                          std::string path)
     : StoredObject(std::move(bytes), address, std::move(path)) {
   members_ = attempt("open the group " + this->path(), [&] {
     require(header().members.has_value(), "it is no group");
-    return read_hdf5_members(file(), *header().members);
+    auto members = read_hdf5_members(file(), *header().members);
+    for (const auto& member : members) this->bytes()->give(member.first.size());
+    return members;
   });
 }
 
@@ -180,6 +196,7 @@ std::string StoredGroup::text(const std::string& name) const {
     require(header.extent->empty(), "it is not a single value");
     require(!header.layout->chunked && header.layout->size == header.type->size,
             "it has a layout that is never written");
+    bytes()->give(header.layout->size);
     return without_padding(file().part(header.layout->address, header.layout->size).text());
   });
 }

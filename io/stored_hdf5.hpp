@@ -4,9 +4,9 @@
 //
 // What this program writes is a small part of the format (classic groups, numbers and texts, one
 // filter), so the reader is small, too. It works on the bytes of the file and follows no address
-// out of them, asks for no more memory than the file is large, takes each step along a tree
-// forwards, and refuses all that this program does not write. The words for errors are those of
-// Hdf5Error.
+// out of them, copies no more out of the file than a few times its length, takes each step along a
+// tree forwards, and refuses all that this program does not write. The words for errors are those
+// of Hdf5Error.
 #pragma once
 
 #include "io/hdf5_header.hpp"
@@ -25,7 +25,12 @@ namespace riesel::io {
 /// The bytes of a file, shared by all that is read from it.
 struct StoredBytes {
   std::vector<char> all;
-  Bytes content;  ///< behind the user block: addresses count from here
+  Bytes content;            ///< behind the user block: addresses count from here
+  std::uint64_t given = 0;  ///< bytes that were copied out of it
+
+  /// Counts what is copied out. A forged file may show the same bytes in many places: throws
+  /// Hdf5Error where it gives far more than it has.
+  void give(std::uint64_t size);
 };
 
 /// What groups and data sets have in common: attributes. Members throw Hdf5Error.
@@ -36,10 +41,10 @@ public:
   std::string text_attribute(const std::string& name) const;
 
 protected:
-  StoredObject(std::shared_ptr<const StoredBytes> bytes, std::uint64_t address, std::string path);
+  StoredObject(std::shared_ptr<StoredBytes> bytes, std::uint64_t address, std::string path);
 
   const Bytes& file() const { return bytes_->content; }
-  const std::shared_ptr<const StoredBytes>& bytes() const { return bytes_; }
+  const std::shared_ptr<StoredBytes>& bytes() const { return bytes_; }
   const Hdf5Header& header() const { return header_; }
   const std::string& path() const { return path_; }
 
@@ -47,7 +52,7 @@ private:
   const Hdf5Attribute& single_value(const std::string& name) const;
   std::string reading(const std::string& name) const;
 
-  std::shared_ptr<const StoredBytes> bytes_;
+  std::shared_ptr<StoredBytes> bytes_;
   Hdf5Header header_;
   std::string path_;  ///< in the file, for errors
 };
@@ -83,7 +88,7 @@ public:
 
 private:
   friend StoredGroup stored_hdf5(std::vector<char> bytes, std::size_t user_block);
-  StoredGroup(std::shared_ptr<const StoredBytes> bytes, std::uint64_t address, std::string path);
+  StoredGroup(std::shared_ptr<StoredBytes> bytes, std::uint64_t address, std::string path);
 
   std::uint64_t address_of(const std::string& name) const;
   std::string path_of(const std::string& name) const;

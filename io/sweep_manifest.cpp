@@ -4,9 +4,11 @@
 #include "io/file_error.hpp"
 #include "io/json_cell.hpp"
 #include "io/json_file.hpp"
+#include "io/settings_error.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace riesel::io {
@@ -40,6 +42,13 @@ Json to_json(const ManifestPoint& point, const std::vector<VariedSetting>& varie
           {"reason", point.reason}};
 }
 
+/// The name of a point is that of its directory: no other place may come of it.
+void require_name_of_point(const std::string& name) {
+  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (name.size() != 16 || !std::ranges::all_of(name, is_digit))
+    throw std::runtime_error("a point has the name " + quoted(name));
+}
+
 ManifestPoint point_of(const Json& json, const std::vector<VariedSetting>& varied) {
   ManifestPoint point = {.name = json.at("name"),
                          .parent = json.at("parent"),
@@ -54,6 +63,8 @@ ManifestPoint point_of(const Json& json, const std::vector<VariedSetting>& varie
   for (const auto& setting : varied) {
     point.values.push_back(cell_of(json.at("settings").at(setting.key)));
   }
+  require_name_of_point(point.name);
+  if (!point.parent.empty()) require_name_of_point(point.parent);
   return point;
 }
 

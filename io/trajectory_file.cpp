@@ -169,12 +169,13 @@ public:
   /// A file that is there.
   Contents(fs::path path, const State& state, const std::string& settings)
       : Contents(std::move(path), facts_of(state, settings), state.time_step) {
-    file_.emplace(path_, O_RDWR, path_);
+    file_.emplace(path_, O_RDWR | O_NOFOLLOW, path_);
     const std::string head = file_->read_at(0, trajectory_head_size);
     head_ = read_trajectory_head(Bytes(head));
     require(head_.grains == facts_.grains && head_.wall_grains == facts_.wall_grains
                 && head_.frames_per_block == layout_.frames_per_block,
             "it is of other grains");
+    require(head_.end <= fs::file_size(path_), "it is shorter than its head says");
     read_blocks();
   }
 

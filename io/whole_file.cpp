@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <span>
@@ -55,11 +56,18 @@ private:
   int descriptor_;
 };
 
+/// A sparse file may be longer than any disk.
+std::uint64_t memory_of_this_machine() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES))
+         * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
 std::vector<char> read_whole_file(const fs::path& path, std::uint64_t most) {
   File file(path);
   const auto size = file.size();
+  most = std::min(most, memory_of_this_machine());
   if (size > most) {
     throw FileError(path, fmt::format("is larger than {} bytes", most),
                     "check that this is the right file");

@@ -20,13 +20,22 @@ namespace {
 constexpr auto from_key = "start.from";
 constexpr std::array carried_sections = {"grains", "wall", "tube", "chute", "cell"};
 
-io::Checkpoint checkpoint_of(const io::Settings& settings) {
+io::FoundCheckpoint find(const io::Settings& settings) {
   try {
-    return io::find_checkpoint(settings.text(from_key)).checkpoint;
+    return io::find_checkpoint(settings.text(from_key));
   } catch (const io::FileError& error) {
     settings.reject(from_key, fmt::format("no state can be read ({})", error.what()),
                     "give the directory of a run that has come to its end, or its checkpoint.h5");
   }
+}
+
+/// That of the generation before would make another run of the same settings.
+io::Checkpoint checkpoint_of(const io::Settings& settings) {
+  io::FoundCheckpoint found = find(settings);
+  if (!found.note.empty())
+    settings.reject(from_key, fmt::format("its newest state cannot be read ({})", found.note),
+                    "make that run again, or name the state before: " + found.path.string());
+  return std::move(found.checkpoint);
 }
 
 /// What the earlier run gives cannot be set anew.

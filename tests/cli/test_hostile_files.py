@@ -1,12 +1,13 @@
 """Files made to do harm are refused at once: within 2 s of processor time and 1 GB of memory, or the
 system ends the command."""
 
+import json
 import resource
 import subprocess
 
 import h5py
 
-from riesel_command import COMMAND, CommandTest
+from riesel_command import COMMAND, CommandTest, bytes_of_files
 
 PROCESSOR_TIME, MEMORY = 2, 1 << 30  # s, bytes
 SIZE = 100_000_000
@@ -85,6 +86,29 @@ class HostileFiles(CommandTest):
                     result = self.limited(command, "run")
                     self.assertIn(result.returncode, (1, 2), result)
                     self.assert_one_message(result.stderr, "run")
+
+    def test_no_file_outside_the_directory_is_touched(self):
+        victim = self.write_bytes("elsewhere/checkpoint.h5", b"precious").parent
+        before = bytes_of_files(victim)
+        for name in ("../../elsewhere", str(victim)):
+            point = {"name": name, "parent": "", "branch": "", "leg": "", "settings": {}, "expected_seconds": 1.0,
+                     "most_threads": 1, "status": "waiting", "attempts": 0, "reason": ""}
+            manifest = {"format": "riesel sweep", "format_version": 1, "varied": [], "points": [point]}
+            self.write_bytes("sweep/manifest.json", json.dumps(manifest).encode())
+            for command in (["sweep-task", "sweep", 0], ["status", "sweep"], ["collect", "sweep"],
+                            ["report", "sweep"]):
+                with self.subTest(name, command=command):
+                    self.assert_one_message(self.limited(*command).stderr, "manifest.json", "the name")
+        run = self.run_small_tube("run")
+        for name in (".lock", "figures"):
+            with self.subTest(name):
+                (run / name).unlink(missing_ok=True)
+                (run / name).symlink_to(victim / "checkpoint.h5" if name == ".lock" else victim)
+                result = self.riesel("report", run)
+                self.assertEqual(result.returncode, 1)
+                self.assert_one_message(result.stderr, str(run))
+                (run / name).unlink()
+        self.assertEqual(bytes_of_files(victim), before)
 
     def test_deep_nesting_in_json(self):
         for name, command in (("run/summary.json", "report"), ("run/manifest.json", "status")):

@@ -70,6 +70,19 @@ class Resume(CommandTest):
                            "output.checkpoint_interval=60 s")
         self.assert_same_result(self.run_small_tube("long"), short)
 
+    def test_what_cannot_go_on_is_left_as_it_is(self):
+        run = self.run_small_tube("run")
+        with open(run / "run.h5", "r+b") as file:
+            file.truncate(2000)
+        before = bytes_of_files(run)
+        result = self.riesel("resume", run, "--set", "run.duration=20 ms")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assert_one_message(result.stderr, "run.h5", "restore the file")
+        after = bytes_of_files(run)
+        for files in (before, after):
+            files.pop(".lock")  # names the process
+        self.assertEqual(after, before)
+
     def test_the_result_does_not_depend_on_the_threads_before_and_after(self):
         rows = ["--set", "output.interval=0.1 ms"]
         long = self.run_small_tube("long", *rows, "--set", "run.duration=0.4 ms")

@@ -1,8 +1,10 @@
 // What must not go on: states that are none, grains that get lost, forces that are no numbers.
+#include "engine/observables.hpp"
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -158,6 +160,23 @@ TEST_CASE("a force beyond all bounds is reported") {
   model.normal = LinearLaw{GENERATE(1e300, std::numeric_limits<double>::infinity()), 0.0};
   Simulation simulation(state, model, 1);
   CHECK_THROWS_AS(simulation.advance(10), RunFailure);
+}
+
+TEST_CASE("the state of a run that failed has nothing in it that is no number") {
+  State state = empty_box(10e-3, 10e-3);
+  state.grains.inertia = GENERATE(0.0, disc);
+  for (int i = 0; i < 2; ++i) add_grain(state, grain(6e-3, 6e-3, 0.0, 0.0));
+  const ContactModel model = state.grains.rotate() ? rolling_model() : paper_model();
+  Simulation simulation(state, model, 1, GENERATE(Stepping::plain, Stepping::windows));
+  CHECK_THROWS_AS(simulation.advance(5), RunFailure);
+  const State& end = simulation.state();
+  REQUIRE(end.contacts.size() == 1);
+  const Contact& contact = end.contacts.front();
+  CHECK(std::isfinite(contact.elastic_energy));
+  CHECK(std::isfinite(contact.friction_x));
+  CHECK(std::isfinite(contact.end));
+  CHECK(std::isfinite(observe(end).energies.residual));
+  CHECK(end.grains.kick_x == state.grains.kick_x);
 }
 
 TEST_CASE("a failed run stays failed") {

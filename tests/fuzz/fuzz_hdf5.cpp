@@ -3,7 +3,7 @@
 // The first byte of the input says what the rest is: the content of a file, or changes to that of a
 // good one, each a place (2 bytes), what to do there (1 byte) and a word (8 bytes). So a fuzzer
 // needs not find out what HDF5 is, and what it finds is short. The length is made right, as who
-// forges a file would do; the fuzzer's readers take checksums for right.
+// forges a file would do; the fuzzer's readers take the checksums of data sets for right.
 #include "io/checkpoint.hpp"
 #include "io/run_file.hpp"
 #include "io/run_reader.hpp"
@@ -103,14 +103,13 @@ Content changed(const Good& good, Input changes) {
   return content;
 }
 
-/// Behind the first line of a seal.
+/// Behind a seal. The length that HDF5 wants is made right, too.
 Content sealed(const Content& content, const std::string& kind) {
   constexpr std::size_t place_of_length = 40;
-  const std::string title = "riesel " + kind + "\n";
   Content image(io::seal_size + content.size());
-  std::copy(title.begin(), title.end(), image.begin());
   std::copy(content.begin(), content.end(), image.begin() + io::seal_size);
   put(image, io::seal_size + place_of_length, image.size(), 8);
+  io::seal(image, kind);
   return image;
 }
 

@@ -199,14 +199,18 @@ TEST_CASE("A checkpoint of another version of the format is refused with the way
   const ScratchDirectory directory;
   const auto path = directory / "c.h5";
   write_checkpoint(path, special_checkpoint());
-  forge(path, [](Hdf5Group& root) {
-    root.set_attribute("format_version", std::int64_t{99});
-    root.set_attribute("riesel_version", "9.9.9");
-  });
-  const auto error = error_of_reading(path);
-  CAPTURE(error);
-  CHECK(error.find("has version 99 of the format") != std::string::npos);
-  CHECK(error.ends_with("; use riesel 9.9.9"));
+  write_checkpoint(path, special_checkpoint());
+  for (const fs::path& generation : {path, previous_generation(path)})
+    forge(generation, [](Hdf5Group& root) {
+      root.set_attribute("format_version", std::int64_t{99});
+      root.set_attribute("riesel_version", "9.9.9");
+    });
+  for (const auto& error :
+       {error_of_reading(path), message_of<FileError>([&] { find_checkpoint(path); })}) {
+    CAPTURE(error);
+    CHECK(error.find("has version 99 of the format") != std::string::npos);
+    CHECK(error.ends_with("; use riesel 9.9.9"));
+  }
 }
 
 TEST_CASE("A checkpoint of grains that rotate holds all bits of their spins") {

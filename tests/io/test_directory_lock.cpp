@@ -35,6 +35,15 @@ TEST_CASE("A second lock of a directory in the same process is refused, too") {
   CHECK_FALSE(error_of_locking(directory.path()).empty());
 }
 
+TEST_CASE("A lock that is a link to another file is refused, and that file is left alone") {
+  const ScratchDirectory directory;
+  overwrite(directory / "precious", "mine");
+  fs::create_symlink(directory / "precious", directory / ".lock");
+  CHECK(contains(error_of_locking(directory.path()), "cannot be locked"));
+  CHECK_FALSE(DirectoryLock::is_held(directory.path()));
+  CHECK(contents(directory / "precious") == "mine");
+}
+
 TEST_CASE("The lock of a killed process is gone") {
   const ScratchDirectory directory;
   CHECK(in_other_process([&] {

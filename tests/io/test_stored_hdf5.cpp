@@ -151,6 +151,45 @@ TEST_CASE("Trees that bite their own tail are refused") {
   }
 }
 
+TEST_CASE("Names that lie within each other are refused") {
+  auto file = Hdf5File::create();
+  constexpr std::size_t members = 8, longest = 60;
+  {
+    auto root = file.root();
+    root.create_group(std::string(longest, 'a'));
+    for (char name = 'b'; name < 'a' + static_cast<char>(members); ++name)
+      root.create_group(std::string(1, name));
+  }
+  const auto image = file.image();
+  std::vector<char> bytes(image.begin(), image.end());
+  const auto entry = [&, leaf = place_of(bytes, "SNOD")](std::size_t i) {
+    return leaf + 8 + i * 40;
+  };
+  const auto first = word(bytes, entry(0));
+  REQUIRE(stored_hdf5(bytes, 0).names().size() == members);
+  for (std::size_t i = 0; i < members; ++i) put(bytes, entry(i), first + members - 1 - i);
+  CHECK(contains(message_of<Hdf5Error>([&] { stored_hdf5(bytes, 0); }), "the names overlap"));
+}
+
+TEST_CASE("A file gives a few times what it has, and no more") {
+  const auto bytes = image_of_table(1000, false);
+  const auto group = stored_hdf5(bytes, 0).group("g");
+  const auto table = group.data("t");
+  std::vector<std::int64_t> values(2000);
+  for (int i = 0; i < 5; ++i) table.read(std::span(values));
+  CHECK_THROWS_WITH(
+      [&] {
+        for (int i = 0; i < 20; ++i) table.read(std::span(values));
+      }(),
+      Catch::Matchers::Contains("too many places"));
+  const auto texts = stored_hdf5(bytes, 0).group("g");
+  CHECK_THROWS_WITH(
+      [&] {
+        for (std::size_t i = 0; i < bytes.size(); ++i) static_cast<void>(texts.text("x"));
+      }(),
+      Catch::Matchers::Contains("too many places"));
+}
+
 TEST_CASE("Sizes that are not in the file are refused before any memory is taken") {
   auto bytes = image_of_table(70'001, true);
   const std::uint64_t rows = 70'001, columns = 2;

@@ -3,6 +3,7 @@
 #include "engine/observables.hpp"
 #include "engine/simulation.hpp"
 #include "io/checkpoint.hpp"
+#include "io/durable_file.hpp"
 #include "scenarios/continued_start.hpp"
 #include "tests/io/file_fixture.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
@@ -153,6 +154,17 @@ TEST_CASE("A continued start is refused where the earlier run does not fit") {
   check_mentions(complaint(yaml, {"start.from=/nowhere"}), {"start.from", "has no effect"});
   check_mentions(complaint(continued, {"start.axial_velocity=1"}), {"has no effect"});
   check_mentions(complaint(yaml, {"start.kind=continued"}), {"start.from", "is missing"});
+}
+
+TEST_CASE("A continued start does not take an older state than the newest without a word") {
+  const EarlierRun earlier;
+  const auto newest = earlier.directory() / io::checkpoint_name;
+  const auto previous = io::previous_generation(newest);
+  std::filesystem::copy_file(newest, previous);
+  std::filesystem::resize_file(newest, 1000);
+  check_mentions(complaint(continued_yaml(earlier.directory())),
+                 {"start.from", "is damaged", previous.string()});
+  CHECK(flow(continued_yaml(previous)).state.grains.size() == earlier.state().grains.size());
 }
 
 TEST_CASE("Runs can follow each other along what the earlier run does not give") {
