@@ -74,6 +74,25 @@ bool tells_of_lost_grain(const std::string& failure) {
   return failure.find("has left the system") != std::string::npos;
 }
 
+/// kg m/s along the tube, with the kicks that the next step takes up: what contacts have given to
+/// the grains, and they had at first. Gravity's part is not in it.
+double momentum_along(const State& state) {
+  const Grains& g = state.grains;
+  const double velocity = state.box.quantum_y() / state.time_step;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < g.size(); ++i)
+    sum += g.mass[i] * velocity * real(wrapped_sum(g.uy[i], g.kick_y[i]));
+  return sum;
+}
+
+/// kg m/s, by which two sums over the grains may differ for their rounding.
+double rounding_of_momentum(const State& state) {
+  double sizes = 0.0;
+  for (std::size_t i = 0; i < state.grains.size(); ++i)
+    sizes += state.grains.mass[i] * std::abs(grain_at(state, i).vy);
+  return 1e-9 * sizes;
+}
+
 /// One that the plain run has not found yet.
 bool has_lost_grain(const State& state) {
   return std::ranges::any_of(state.grains.x, [&](Fixed x) {
@@ -130,6 +149,11 @@ Complaints balances(const SetUp& set_up, const Outcome& outcome) {
   // A force cut off at zero gives back what the damping had taken too much.
   if (set_up.model.attraction == Attraction::keep && observe(end).energies.normal_loss < 0.0)
     complaints.emplace_back("the damping has won energy");
+  const double gained = momentum_along(end) - momentum_along(set_up.start);
+  const double given = observe(end).wall_impulse_y;
+  if (std::abs(gained - given) > rounding_of_momentum(end) + 1e-9 * std::abs(given))
+    complaints.push_back("the walls gave " + std::to_string(given) + " kg m/s and the grains got "
+                         + std::to_string(gained));
   if (set_up.equal_masses && end.walls.empty()
       && integer_momentum(end) != integer_momentum(set_up.start))
     complaints.emplace_back("momentum is not conserved");
