@@ -114,7 +114,7 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
     return enough ? series.ratio(part, whole).value : unknown;
   };
   return {
-      .max_overlap_ratio = max_overlap_ratio(state),
+      .max_overlap_ratio = largest_overlap(state).ratio,
       .brake_failure_fraction = of_walls("wall_braking_cut_short", "wall_braking"),
       .passages_per_visit = of_walls("wall_contacts_cut_short", "wall_visits"),
       .wall_speed_ratio = of_walls("wall_entry_slip", "wall_contacts_ended") / v_crit,

@@ -10,23 +10,24 @@ namespace riesel::app {
 
 namespace {
 
-/// The lasting contact with the largest overlap so far; it need not be that of the whole run.
-std::string deepest_contact(const State& state, double overlap) {
-  const auto deepest = std::max_element(
-      state.contacts.begin(), state.contacts.end(),
-      [](const Contact& a, const Contact& b) { return a.max_overlap < b.max_overlap; });
-  if (deepest == state.contacts.end() || deepest->max_overlap < overlap)
-    return "in a contact that has ended";
+/// The contact that had it, if it lasts.
+std::string contact_with(const LargestOverlap& largest, const State& state) {
+  const auto deepest =
+      std::find_if(state.contacts.begin(), state.contacts.end(), [&](const Contact& contact) {
+        return (contact.name.wall != no_wall) == largest.at_wall
+               && contact.max_overlap >= largest.overlap;
+      });
+  if (deepest == state.contacts.end()) return "in a contact that has ended";
   const auto& [wall, grain, partner] = deepest->name;
   return wall == no_wall
              ? fmt::format("between grains {} and {}", grain, partner)
              : fmt::format("of grain {} with grain {} of wall {}", grain, partner, wall);
 }
 
-std::string overlap_exceeded(const State& state, const Observables& seen, double ratio) {
+std::string overlap_exceeded(const State& state, const LargestOverlap& largest) {
   return fmt::format("an overlap of {:.3g} m, {:.3g} of the radius of the smaller body, {}; raise "
                      "contact.stiffness",
-                     seen.max_overlap, ratio, deepest_contact(state, seen.max_overlap));
+                     largest.overlap, largest.ratio, contact_with(largest, state));
 }
 
 std::string energy_error_exceeded(double ratio) {
@@ -52,9 +53,9 @@ std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Ob
     messages.push_back(fmt::format("at t = {:.6g} s (step {}) {} is exceeded: {}", seen.time,
                                    state.step, key, message()));
   };
-  const double overlap = limits_.overlap ? max_overlap_ratio(state) : 0.0;
-  look(limits_.overlap, "limits.overlap", overlap,
-       [&] { return overlap_exceeded(state, seen, overlap); });
+  const LargestOverlap largest = limits_.overlap ? largest_overlap(state) : LargestOverlap{};
+  look(limits_.overlap, "limits.overlap", largest.ratio,
+       [&] { return overlap_exceeded(state, largest); });
   const double error = energy_error_ratio(state, seen.energies);
   look(limits_.energy_error, "limits.energy_error", error,
        [&] { return energy_error_exceeded(error); });

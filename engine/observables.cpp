@@ -181,14 +181,17 @@ Observables observe(const State& state) {
   return o;
 }
 
-double max_overlap_ratio(const State& state) {
+LargestOverlap largest_overlap(const State& state) {
   const auto& radii = state.grains.radius;
   const double smallest = *std::min_element(radii.begin(), radii.end());
   double smallest_at_wall = smallest;
   for (const WallLattice& wall : state.walls)
     smallest_at_wall = wall.smaller_radius(smallest_at_wall);
-  return std::max(all_contacts(state, false).max_overlap / smallest,
-                  all_contacts(state, true).max_overlap / smallest_at_wall);
+  const double among_grains = all_contacts(state, false).max_overlap;
+  const double at_walls = all_contacts(state, true).max_overlap;
+  const LargestOverlap of_grains{among_grains, among_grains / smallest, false};
+  const LargestOverlap of_walls{at_walls, at_walls / smallest_at_wall, true};
+  return of_walls.ratio > of_grains.ratio ? of_walls : of_grains;
 }
 
 double energy_error_ratio(const State& state, const Energies& energies) {

@@ -55,9 +55,14 @@ double largest_speed(const Box& box, double time_step, std::size_t grains);
 
 Observables observe(const State& state);
 
-/// The largest overlap of all contacts since step 0 over the radius of the smallest body that can
-/// have had it.
-double max_overlap_ratio(const State& state);
+/// The largest overlap of all contacts since step 0, among grains or at walls, as a part of the
+/// radius of the smallest body that can have had it.
+struct LargestOverlap {
+  double overlap;  ///< m
+  double ratio;
+  bool at_wall;
+};
+LargestOverlap largest_overlap(const State& state);
 
 /// How much of the energy of `state` is an error of the time step: the size of the residual, and
 /// what contacts have won that should have lost, as a part of the energy turned over: what the run

@@ -1,6 +1,9 @@
 """Limits beyond which a run is stopped, or its user warned."""
 
+import re
 import shutil
+
+import h5py
 
 from riesel_command import DONE, FAILED, CommandTest
 
@@ -21,9 +24,15 @@ class Limits(CommandTest):
         return self.riesel("run", path, "--out", out, "--threads", 1,
                            *(part for option in options for part in ("--set", option)))
 
+    def post_mortem(self, out):
+        file = h5py.File(self.home / out / "post_mortem.h5", "r")
+        self.addCleanup(file.close)
+        return file
+
     def assert_stopped(self, out, result, *words):
+        """With the state of the moment that is told."""
         self.assertEqual(result.returncode, FAILED, result)
-        for word in (*words, "t = ", "(step ", "post_mortem.h5"):
+        for word in (*words, "t = ", f"(step {self.post_mortem(out).attrs['step']})", f"{out}/post_mortem.h5"):
             self.assertIn(word, result.stderr)
         self.assertFalse((self.home / out / "summary.json").exists())
 
@@ -52,9 +61,40 @@ class Limits(CommandTest):
                 self.assertEqual(result.returncode, DONE, result)
                 self.assert_same_result(whole, self.home / checkpoint.split("/")[0])
 
-    def test_an_overlap_too_deep_stops_it(self):
-        result = self.tube("overlap", "limits.overlap=0.02")
+    def overlap_told(self, interval):
+        """(m, part of a radius, where), as a run says that is stopped by its limit after this interval"""
+        result = self.tube("overlap", "limits.overlap=0.02", f"output.interval={interval}")
         self.assert_stopped("overlap", result, "limits.overlap", "contact.stiffness")
+        told = re.search(r"an overlap of (\S+) m, (\S+) of the radius of the smaller body, ([^;]+);", result.stderr)
+        return float(told[1]), float(told[2]), told[3]
+
+    def deepest_contact(self):
+        """{name: value}, of those that last in the end"""
+        contacts = self.post_mortem("overlap")["contacts"]
+        deepest = contacts["max_overlap"][:].argmax()
+        return {name: values[deepest].item() for name, values in contacts.items()}
+
+    def test_an_overlap_too_deep_stops_it_and_the_contact_with_a_wall_is_named(self):
+        overlap, ratio, where = self.overlap_told("0.2 ms")
+        contact = self.deepest_contact()
+        self.assertEqual(where, "of grain {grain} with grain {partner} of wall {wall}".format(**contact))
+        self.assertAlmostEqual(overlap / contact["max_overlap"], 1.0, delta=0.005)
+        radius = self.post_mortem("overlap")["walls/radius"][contact["wall"]]
+        self.assertAlmostEqual(ratio * radius / overlap, 1.0, delta=0.01)
+
+    def test_an_overlap_too_deep_stops_it_and_the_two_grains_are_named(self):
+        overlap, ratio, where = self.overlap_told("0.12 ms")
+        contact = self.deepest_contact()
+        self.assertEqual(contact["wall"], -1)
+        self.assertEqual(where, "between grains {grain} and {partner}".format(**contact))
+        self.assertAlmostEqual(overlap / contact["max_overlap"], 1.0, delta=0.005)
+        smallest = self.post_mortem("overlap")["grains/radius"][:].min()
+        self.assertAlmostEqual(ratio * smallest / overlap, 1.0, delta=0.01)
+
+    def test_of_an_overlap_in_a_contact_that_has_ended_no_grains_are_named(self):
+        overlap, _, where = self.overlap_told("2 ms")
+        self.assertGreater(overlap, 1.5 * self.deepest_contact()["max_overlap"])
+        self.assertEqual(where, "in a contact that has ended")
 
     def test_energy_from_nowhere_stops_it(self):
         # A damping so strong that a step overshoots.
@@ -62,6 +102,19 @@ class Limits(CommandTest):
                            "contact.law=power", "contact.stiffness=3e5", "contact.damping=1",
                            "contact.exponent_overlap=0")
         self.assert_stopped("energy", result, "limits.energy_error", "run.steps_per_collision")
+
+    def test_a_force_that_is_not_finite_stops_it(self):
+        """A damping by which the first touch kicks grains out of what velocities can be, or makes infinities."""
+        for damping in ("1e30", "1e308"):
+            with self.subTest(damping=damping):
+                out = f"damping-{damping}"
+                result = self.tube(out, "contact.restitution=", "contact.law=power", "contact.stiffness=3e5",
+                                   f"contact.damping={damping}", "contact.exponent_overlap=0")
+                self.assert_stopped(out, result, "is not finite", "a shorter time step may help")
+                named = re.search(r"the force between grain (\d+) and grain (\d+) ", result.stderr)
+                contacts = self.post_mortem(out)["contacts"]
+                self.assertIn((int(named[1]), int(named[2]), -1),
+                              zip(contacts["grain"], contacts["partner"], contacts["wall"]))
 
     def test_a_warning_is_given_once_and_the_run_goes_on(self):
         result = self.tube("warned", "limits.speed=3.5 m/s", "limits.action=warn")

@@ -6,6 +6,8 @@ import random
 import signal
 import time
 
+import h5py
+
 from riesel_command import DONE, FAILED, PATIENCE
 from test_sweep import SweepTest
 
@@ -19,6 +21,16 @@ LONG_CHAIN = LONG + "continue_along: contact.restitution\n"
 
 # It never ends by itself.
 ENDLESS = LONG.replace("600 ms", "1000 s")
+
+
+def saved_by_its_end(text):
+    """The sweep whose runs have no checkpoint due between the first and the end; frames tell that they get on."""
+    return text.replace("interval: 0.02 s", "interval: 1 h, output.trajectory_interval: 1 ms")
+
+
+def saved_step(run_directory):
+    with h5py.File(run_directory / "checkpoint.h5", "r") as file:
+        return file.attrs["step"].item()
 
 
 def children_of(pid):
@@ -60,6 +72,24 @@ class Interruption(SweepTest):
                         "the first checkpoint")
         return process
 
+    def last_frames(self):
+        """{directory of a run with a checkpoint: when its last frame was written}"""
+        return {path.parent: (path.parent / "trajectory.h5").stat().st_mtime_ns
+                for path in self.home.glob("out/points/*/checkpoint.h5")}
+
+    def wait_until_two_get_on(self):
+        """Returns the directories of runs that have made steps since the call: two at least."""
+        first = {}
+
+        def getting_on():
+            frames = self.last_frames()
+            for run, frame in frames.items():
+                first.setdefault(run, frame)
+            return [run for run, frame in frames.items() if frame > first[run]]
+
+        self.wait_until(lambda: len(getting_on()) >= 2, "a frame of two runs")
+        return getting_on()
+
     def stop(self, process, number):
         """Sends the signal and waits for the end of the sweep; its runs may take a little longer."""
         children = children_of(process.pid)
@@ -95,11 +125,22 @@ class Interruption(SweepTest):
                 self.assertEqual(self.stop(process, number), status)
 
     def test_by_polite_signals(self):
-        self.interrupt(LONG, [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+        text = saved_by_its_end(LONG)
+        self.interrupt(text, [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
         self.assertEqual({point["status"] for point in self.points()}
                          - {"interrupted", "waiting", "done"}, set())
         self.assertIn("interrupted", {point["status"] for point in self.points()})
-        self.assert_goes_on_as_uninterrupted(LONG)
+        self.assert_goes_on_as_uninterrupted(text)
+
+    def test_a_polite_signal_lets_each_run_save_what_it_has_reached(self):
+        steps = {}
+        for number in (signal.SIGTERM, signal.SIGINT):
+            process = self.start_sweep(saved_by_its_end(ENDLESS))
+            running = self.wait_until_two_get_on()
+            self.assertEqual(self.stop(process, number), 128 + number)
+            for run in running:
+                self.assertGreater(saved_step(run), steps.get(run, 0))
+            steps = {run: saved_step(run) for run in running}
 
     def test_runs_do_not_outlive_a_killed_sweep(self):
         process = self.start_sweep(ENDLESS)

@@ -1,15 +1,17 @@
 /* Faults on order, for the tests of tests/reliability: preloaded into riesel, it counts the calls that
- * change files, and at one of them kills the process or lets the call fail.
+ * change files, and at one of them kills the process, holds it or lets the call fail.
  *
  *   RIESEL_FAULT=CALL:N:WHAT    at the N-th call (from 1) of CALL: open, write, pwrite, ftruncate,
- *                               fsync, link, rename, close, or any for all of these together
+ *                               fsync, link, rename, unlink, mkdir, close, or any for all of these
+ *                               together
  *       WHAT = kill             SIGKILL before the call; in a write after a part of the bytes
  *              killed_after     SIGKILL when the call is done
+ *              held             ten minutes pass before the call, whatever signals come
  *              a number         the call fails with this errno; in a write after a part of the bytes,
  *                               but not with EINTR, of calls that have done nothing
  *              short            of a write: only a part is written, as the call tells
  *              a number and +   this call and all further ones of its kind fail with this errno
- *   RIESEL_FAULT_LOG=FILE       the name of each call is appended: to count them
+ *   RIESEL_FAULT_LOG=FILE       the name of each call is appended before it is made: to count them
  *
  * Only calls for files below the current directory count: of descriptors that were opened for
  * writing (or are directories that are synchronised), of names that do not begin with a slash. The
@@ -26,6 +28,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { most_descriptors = 1024 };
@@ -43,6 +46,8 @@ typedef ssize_t (*WriteAtCall)(int, const void*, size_t, off_t);
 typedef int (*ResizeCall)(int, off_t);
 typedef int (*DescriptorCall)(int);
 typedef int (*NamesCall)(const char*, const char*);
+typedef int (*NameCall)(const char*);
+typedef int (*MakeCall)(const char*, mode_t);
 
 static void log_call(const char* call) {
   const char* file = getenv("RIESEL_FAULT_LOG");
@@ -55,7 +60,7 @@ static void log_call(const char* call) {
 }
 
 struct Fault {
-  bool now, kills, kills_after, cuts_short;
+  bool now, kills, kills_after, cuts_short, holds;
   int error;
 };
 
@@ -76,6 +81,7 @@ static struct Fault fault_at(const char* call) {
   fault.kills = strcmp(what, "kill") == 0;
   fault.kills_after = strcmp(what, "killed_after") == 0;
   fault.cuts_short = strcmp(what, "short") == 0;
+  fault.holds = strcmp(what, "held") == 0;
   fault.error = atoi(what);
   return fault;
 }
@@ -85,10 +91,20 @@ static void die(void) {
   pause();
 }
 
+/* A signal that is only remembered does not cut it short. */
+static void hold(void) {
+  struct timespec left = {.tv_sec = 600};
+  while (nanosleep(&left, &left) != 0 && errno == EINTR) continue;
+}
+
 /* Before the call: whether it shall fail. */
 static bool fails(const struct Fault* fault) {
   if (!fault->now || fault->kills_after || fault->cuts_short) return false;
   if (fault->kills) die();
+  if (fault->holds) {
+    hold();
+    return false;
+  }
   errno = fault->error;
   return true;
 }
@@ -99,7 +115,8 @@ static void after(const struct Fault* fault) {
 
 /* Of the bytes of a write that is killed or fails: whether a part has been written before. */
 static bool leaves_half(const struct Fault* fault) {
-  return fault->now && !fault->kills_after && !fault->cuts_short && fault->error != EINTR;
+  return fault->now && !fault->kills_after && !fault->cuts_short && !fault->holds
+         && fault->error != EINTR;
 }
 
 static size_t allowed(const struct Fault* fault, size_t size) {
@@ -214,3 +231,30 @@ static int with_names(const char* from, const char* to, const char* name) {
 int rename(const char* from, const char* to) { return with_names(from, to, "rename"); }
 
 int link(const char* from, const char* to) { return with_names(from, to, "link"); }
+
+/* To remove what is not there changes nothing, and does not count. */
+static int with_name(const char* path, const char* name) {
+  const NameCall call = (NameCall)real(name);
+  struct stat about;
+  if (path[0] == '/' || lstat(path, &about) != 0) return call(path);
+  const struct Fault fault = fault_at("unlink");
+  if (fails(&fault)) return -1;
+  const int status = call(path);
+  after(&fault);
+  return status;
+}
+
+int unlink(const char* path) { return with_name(path, "unlink"); }
+
+/* What std::filesystem calls. */
+int remove(const char* path) { return with_name(path, "remove"); }
+
+int mkdir(const char* path, mode_t mode) {
+  const MakeCall call = (MakeCall)real("mkdir");
+  if (path[0] == '/') return call(path, mode);
+  const struct Fault fault = fault_at("mkdir");
+  if (fails(&fault)) return -1;
+  const int status = call(path, mode);
+  after(&fault);
+  return status;
+}

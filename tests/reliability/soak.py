@@ -3,16 +3,25 @@
 
     /usr/bin/python3 tests/reliability/soak.py [--hours 1] [--threads 2] [--seed 1] [--out DIRECTORY]
 
-10,000 grains, a checkpoint every three seconds. Looked at once a second: the memory of the process, and
-what its checkpoint counts. After each kill, rows that are missing or out of step in run.h5. At the end it
-prints how memory and cost per step went over the time, and ends with status 1 if rows were lost, a resume
-failed, or memory grew by more than rows take. The first sixth of the time does not count for that: profiles
-and histograms keep up to 128 samples apart, and then add them up in pairs.
+10,000 grains, a checkpoint every three seconds. Looked at ten times a second: the memory of the process, its
+processor time, and what its checkpoint counts. After each kill, rows that are missing or out of step in
+run.h5. At the end it prints how memory and cost per step went over the time, and ends with status 1
+
+- if rows were lost, or a resume failed;
+- if memory grew by more than rows take, from the second sixth of the time to the last;
+- if a step got dearer from the second sixth to the last: if the median of its processor time, from one
+  checkpoint to the next, grew by more than 10 % and three standard errors of the difference of the medians.
+
+The first sixth does not count, nor the first 20 s of a life: profiles and histograms keep up to 128 samples
+apart, and then add them up in pairs. A soak that is too short for one of these judgements says so.
+Processor time tells less of what else the machine does than time on the clock, but threads that wait for each
+other use it too: on a machine that is busy otherwise, the cost of a step is told by --threads 1 only.
 The command is build/release/app/riesel, or what the variable RIESEL names.
 """
 
 import argparse
 import dataclasses
+import math
 import os
 import pathlib
 import random
@@ -32,9 +41,14 @@ TUBE = {"tube.length": "0.714 m", "run.stepping": "windows", "run.duration": "10
         "output.interval": "20 ms", "output.checkpoint_interval": "3 s"}
 KILLED = -9
 WARM = 20.0  # s: older lives have made all that they keep
-PARTS = 6  # of the time, the first of which does not count for the growth of memory
+LOOK = 0.1  # s, from one look to the next
+SAMPLES = 128  # rows after which profiles and histograms do not grow any more
+PARTS = 6  # of the time; what grew is told from
+EARLY, LATE = 1, PARTS - 1  # the second and the last
 GROWTH = 1.0  # MB, that is borne besides
 ROW = 2e-3  # MB that a row takes: 41 numbers, in the state and in the images of the files
+DEARER, ERRORS = 0.1, 3.0  # that are borne: a part of the cost of a step, and standard errors
+FEWEST = 5  # costs in a part of the time, to tell its median and error
 
 
 @dataclasses.dataclass
@@ -44,8 +58,10 @@ class Look:
     hour: float  # since the start of the soak
     age: float  # s, of the process
     memory: float  # MB, resident
-    step: int
-    wall: float  # s, that all lives have used up to this step, as the checkpoint tells
+    processor: float  # s, that the process has used on all its threads
+    step: int  # of the last checkpoint, as
+    rows: int
+    is_first: bool  # to see this checkpoint
 
 
 def memory_of(process):
@@ -58,9 +74,29 @@ def memory_of(process):
     return int(resident[1]) / 1024 if resident else None
 
 
+def processor_time_of(process):
+    """s, in user and kernel mode; of a process that has ended and not been waited for, too."""
+    stat = pathlib.Path(f"/proc/{process.pid}/stat").read_text(encoding="utf-8")
+    user, kernel = stat.rpartition(")")[2].split()[11:13]
+    return (int(user) + int(kernel)) / os.sysconf("SC_CLK_TCK")
+
+
 def counted(checkpoint):
     with h5py.File(checkpoint, "r") as file:
-        return {name: file.attrs[name].item() for name in ("step", "wall_seconds", "rows", "time_step")}
+        return {name: file.attrs[name].item() for name in ("step", "rows", "time_step")}
+
+
+def median_with_error(values):
+    """The standard error is that of the median of as many normal values of the same scatter."""
+    return statistics.median(values), math.sqrt(math.pi / 2) * statistics.stdev(values) / math.sqrt(len(values))
+
+
+def gets_dearer(early, late):
+    """(whether, in words), of the costs of steps in two parts of the time"""
+    (before, error_before), (after, error_after) = median_with_error(early), median_with_error(late)
+    borne = DEARER * before + ERRORS * math.hypot(error_before, error_after)
+    return after - before > borne, (f"a step costs {after:.1f} us after {before:.1f} us, "
+                                    f"{after - before:+.1f} us of which {borne:.1f} us are borne")
 
 
 class Soak:
@@ -70,6 +106,7 @@ class Soak:
         self.begin = time.monotonic()
         self.looks, self.complaints = [], []
         self.lives = 0
+        self.seen, self.saved = None, None  # the last checkpoint: when it was written, and what it counts
 
     def start(self):
         if (self.out / "checkpoint.h5").exists():
@@ -82,18 +119,21 @@ class Soak:
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def look(self, process, born):
-        memory = memory_of(process)
-        if memory is None or not (self.out / "checkpoint.h5").exists():
+        memory, checkpoint = memory_of(process), self.out / "checkpoint.h5"
+        if memory is None or not checkpoint.exists():
             return
-        now = counted(self.out / "checkpoint.h5")
-        self.looks.append(Look(self.lives, (time.monotonic() - self.begin) / 3600,
-                               time.monotonic() - born, memory, now["step"], now["wall_seconds"]))
+        processor, written = processor_time_of(process), checkpoint.stat().st_mtime_ns
+        is_first = written != self.seen
+        if is_first:
+            self.seen, self.saved = written, counted(checkpoint)
+        self.looks.append(Look(self.lives, (time.monotonic() - self.begin) / 3600, time.monotonic() - born, memory,
+                               processor, self.saved["step"], self.saved["rows"], is_first))
 
     def live(self, seconds):
         """One life: from a start or resume to a kill."""
         process, born = self.start(), time.monotonic()
-        while time.monotonic() - born < seconds and process.poll() is None:
-            time.sleep(min(1.0, max(0.0, born + seconds - time.monotonic())))
+        while (left := born + seconds - time.monotonic()) > 0 and process.poll() is None:
+            time.sleep(min(LOOK, left))
             self.look(process, born)
         process.kill()
         message = process.communicate()[1]
@@ -123,35 +163,59 @@ class Soak:
     # --- what came of it ---
 
     def costs(self):
-        """[(hour, microseconds on the clock per step)] between the checkpoints of one life."""
-        costs = []
-        for before, after in zip(self.looks, self.looks[1:]):
+        """[(hour, microseconds of processor time per step)] between the checkpoints of one life."""
+        costs, looks = [], [look for look in self.looks if look.is_first]
+        for before, after in zip(looks, looks[1:]):
             if before.life == after.life and before.age > WARM and after.step > before.step:
-                costs.append((after.hour, 1e6 * (after.wall - before.wall) / (after.step - before.step)))
+                cost = 1e6 * (after.processor - before.processor) / (after.step - before.step)
+                costs.append((after.hour, cost))
         return costs
 
-    def print_parts(self, hours):
-        """Prints a row for each part of the time; returns the largest memory of each, in MB."""
-        costs, largest = self.costs(), []
-        print("| part of the time | memory, MB: median | largest | cost of a step, us | checkpoints |")
-        print("|---|--:|--:|--:|--:|")
+    def parts(self, hours):
+        """[(looks, costs of a step in microseconds)] of each part of the time."""
+        costs, parts = self.costs(), []
         for part in range(PARTS):
             low, high = (hours * k / PARTS for k in (part, part + 1))
-            memory = [look.memory for look in self.looks if low <= look.hour < high and look.age > WARM]
-            cost = [value for hour, value in costs if low <= hour < high]
-            if len(memory) < 2 or len(cost) < 2:
+            parts.append(([look for look in self.looks if low <= look.hour < high and look.age > WARM],
+                          [cost for hour, cost in costs if low <= hour < high]))
+        return parts
+
+    @staticmethod
+    def print_parts(parts, hours):
+        print("| part of the time | memory, MB: median | largest | processor time of a step, us | checkpoints |")
+        print("|---|--:|--:|--:|--:|")
+        for part, (looks, costs) in enumerate(parts):
+            if not looks or len(costs) < 2:
                 continue
-            largest.append(max(memory))
-            print(f"| {60 * low:.3g} to {60 * high:.3g} min | {statistics.median(memory):.1f} "
-                  f"| {largest[-1]:.1f} | {statistics.median(cost):.1f} +- "
-                  f"{statistics.stdev(cost) / len(cost) ** 0.5:.1f} | {len(cost)} |")
-        return largest
+            low, high = (60 * hours * k / PARTS for k in (part, part + 1))
+            memory = [look.memory for look in looks]
+            cost, error = median_with_error(costs)
+            print(f"| {low:.3g} to {high:.3g} min | {statistics.median(memory):.1f} | {max(memory):.1f} "
+                  f"| {cost:.1f} +- {error:.1f} | {len(costs)} |")
+
+    def judge_memory(self, early, late):
+        if not early or not late or early[0].rows < SAMPLES:
+            print("too short to judge the memory")
+            return
+        before, after = (max(look.memory for look in looks) for looks in (early, late))
+        if after - before > GROWTH + ROW * late[-1].rows:
+            self.complaints.append(f"memory grew from {before:.1f} MB to {after:.1f} MB")
+
+    def judge_costs(self, early, late):
+        if min(len(early), len(late)) < FEWEST:
+            print("too short to judge the cost of a step")
+            return
+        dearer, words = gets_dearer(early, late)
+        print(words)
+        if dearer:
+            self.complaints.append("steps got dearer; was the machine as free as before?")
 
     def report(self, hours):
-        largest = self.print_parts(hours)
-        now = counted(self.out / "checkpoint.h5")
-        if len(largest) > 2 and largest[-1] - largest[1] > GROWTH + ROW * now["rows"]:
-            self.complaints.append("memory grew")
+        parts, now = self.parts(hours), counted(self.out / "checkpoint.h5")
+        self.print_parts(parts, hours)
+        (early, early_costs), (late, late_costs) = parts[EARLY], parts[LATE]
+        self.judge_memory(early, late)
+        self.judge_costs(early_costs, late_costs)
         print(f"{self.lives} lives, {now['step']} steps ({now['step'] * now['time_step']:.3g} s of flow), "
               f"{now['rows']} rows, {len(self.complaints)} complaints")
         for complaint in self.complaints:

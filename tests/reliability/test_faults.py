@@ -2,7 +2,8 @@
 that change its files, or the call fails. Nothing that was saved is lost, and nothing stands half-written.
 
 The variable RIESEL_KILLS tells how many kills inside calls are tried, 24 unless it is set, and half as many
-at any moment; `all` tries each call, before and after it is done, and 200 moments. The same seed gives the same kills.
+at any moment; `all` tries each call, before and after it is done, and 200 moments. The same seed gives the same
+kills inside calls.
 """
 
 import errno
@@ -15,16 +16,21 @@ import time
 import h5py
 import numpy as np
 
-from riesel_command import CommandTest, SMALL_TUBE, bytes_of_files
+from riesel_command import PATIENCE, CommandTest, SMALL_TUBE, bytes_of_files
 
 SHIM = os.environ["RIESEL_SHIM"]
 KILLS = os.environ.get("RIESEL_KILLS", "24")
 # Saves with each row: about 20 rows, and at each some 18 calls.
 OUTPUT = "output: {interval: 0.3 ms, checkpoint_interval: 1e-6 s}\n"
 TUBE = SMALL_TUBE.replace("5 ms", "6 ms") + OUTPUT
+# Saved nearly as often, in an eighth of the steps: threads that wait for each other take longer on a busy machine.
+WINDOWS = SMALL_TUBE.replace("5 ms", "0.8 ms, stepping: windows") + OUTPUT.replace("0.3 ms", "0.05 ms")
 # A frame with each row, and 17 calls more.
 FRAMES = SMALL_TUBE.replace("5 ms", "3 ms") + OUTPUT.replace("}", ", trajectory_interval: 0.3 ms}")
-LOCK = "open ftruncate pwrite"  # of the directory
+# It neither ends nor saves by itself.
+ENDLESS = ["--set", "run.duration=1000 s", "--set", "output.checkpoint_interval=1 h"]
+AS_IN_TUBE = ["--set", "run.duration=6 ms", "--set", "output.checkpoint_interval=1e-6 s"]
+BEGINNING = "mkdir open ftruncate pwrite"  # the directory and its lock
 KINDS = ["open", "write", "fsync", "close", "link", "rename"]
 ERRORS = {28: "No space left", 5: "Input/output error", 13: "Permission denied", 30: "Read-only",
           122: "Disk quota exceeded"}
@@ -41,6 +47,7 @@ def frames_of(run_directory):
 
 class FaultTest(CommandTest):
     TUBE = TUBE
+    threads = 1
 
     @classmethod
     def setUpClass(cls):
@@ -57,14 +64,30 @@ class FaultTest(CommandTest):
         self.out = self.home / "out"
         self.random = random.Random(1)
 
-    def faulty(self, *arguments, fault=None, log=False):
-        """Calls the command with a fault; names of files are relative, as the shim wants them."""
-        environment = {"LD_PRELOAD": SHIM}
+    def environment(self, fault=None, log=False):
+        """Names of files must be relative then, as the shim wants them."""
+        # A thread that waits leaves its core to that which it waits for.
+        environment = {"LD_PRELOAD": SHIM, "OMP_WAIT_POLICY": "passive"}
         if fault is not None:
             environment["RIESEL_FAULT"] = fault
         if log:
             environment["RIESEL_FAULT_LOG"] = str(self.home / "log")
-        return self.riesel(*arguments, "--threads", "1", **environment)
+        return environment
+
+    def faulty(self, *arguments, **how):
+        """Calls the command with a fault."""
+        return self.riesel(*arguments, "--threads", self.threads, **self.environment(**how))
+
+    def start_faulty(self, *arguments, **how):
+        return self.start(*arguments, "--threads", self.threads, env={**os.environ, **self.environment(**how)})
+
+    def wait_for_calls(self, name, count):
+        """Until the log tells so many of them: each is told before it is made."""
+        deadline = time.monotonic() + PATIENCE
+        log = self.home / "log"
+        while not log.exists() or log.read_text(encoding="ascii").split().count(name) < count:
+            self.assertLess(time.monotonic(), deadline, f"there are no {count} calls of {name}")
+            time.sleep(0.002)
 
     def start_again(self):
         if self.out.exists():
@@ -80,12 +103,42 @@ class FaultTest(CommandTest):
 
     def assert_goes_on_as_uninterrupted(self):
         self.assert_done(self.go_on())
+        self.assert_came_to_the_same()
+
+    def assert_came_to_the_same(self):
         self.assert_same_result(self.whole, self.out)
-        self.assertEqual([path.name for path in self.out.iterdir() if ".tmp" in path.name], [])
+        left = [path.name for path in self.out.iterdir() if path.suffix in (".tmp", ".replaced")]
+        self.assertEqual(left, [])
 
     def kill_at(self, call, how):
         result = self.faulty("run", "tube.yaml", "--out", "out", fault=f"any:{call}:{how}")
         self.assertEqual(result.returncode, -signal.SIGKILL, result)
+
+    def kill_at_moment(self, moment):
+        """Returns whether the kill met a run that went on, and had a checkpoint."""
+        self.start_again()
+        process = self.start_faulty("run", "tube.yaml", "--out", "out")
+        time.sleep(moment)
+        has_checkpoint = (self.out / "checkpoint.h5").exists()
+        process.kill()
+        process.communicate()
+        return has_checkpoint and process.returncode == -signal.SIGKILL
+
+    def assert_survives_kills_at_any_moment(self, kills):
+        """So many kills at least, and then as many as it takes until half of `kills` have met a run that had a
+        checkpoint: how long a run takes is known from the one before them only, and it varies on a busy machine."""
+        begin = time.monotonic()
+        self.assert_goes_on_as_uninterrupted()
+        duration = time.monotonic() - begin
+        tried = met = 0
+        while tried < kills or (2 * met < kills and tried < 5 * kills):
+            moment = self.random.uniform(0.0, duration)
+            with self.subTest(moment=moment):
+                tried += 1
+                met += self.kill_at_moment(moment)
+                self.assert_goes_on_as_uninterrupted()
+        self.assertGreaterEqual(2 * met, kills, f"of {tried} kills only {met} met a run with a checkpoint")
+        print(f"{tried} kills at any moment, {met} of them of a run with a checkpoint")
 
     def kills(self):
         """(number of the call, kill or killed_after)"""
@@ -122,7 +175,7 @@ class Faults(FaultTest):
     # --- the order in which a file is written ---
 
     def test_a_file_is_on_the_disk_before_it_gets_its_name_and_the_name_before_anything_else(self):
-        self.assertRegex(self.calls_but_whole_files(), rf"\A{LOCK}( \*)+( close)?\Z")
+        self.assertRegex(self.calls_but_whole_files(), rf"\A{BEGINNING}( \*)+( close)?\Z")
 
     # --- kills ---
 
@@ -149,15 +202,36 @@ class Faults(FaultTest):
             self.assert_goes_on_as_uninterrupted()
 
     def test_killed_at_any_moment(self):
-        for _ in range(200 if KILLS == "all" else int(KILLS) // 2):
-            moment = self.random.uniform(0.0, 0.1)  # s
-            with self.subTest(moment=moment):
-                self.start_again()
-                process = self.start("run", "tube.yaml", "--out", "out", "--threads", 1)
-                time.sleep(moment)
-                process.kill()
-                process.communicate()
-                self.assert_goes_on_as_uninterrupted()
+        self.assert_survives_kills_at_any_moment(200 if KILLS == "all" else int(KILLS) // 2)
+
+    # --- signals ---
+
+    def test_a_second_signal_ends_a_run_that_is_held_while_it_saves(self):
+        """It is held where run.h5 has the new rows already, and the new checkpoint has not got its name. By itself it
+        would not go on before the test is over: what ends it is the second signal."""
+        for first, second in ((signal.SIGTERM, signal.SIGTERM), (signal.SIGINT, signal.SIGTERM),
+                              (signal.SIGTERM, signal.SIGINT)):
+            self.start_again()
+            self.assert_done(self.faulty("run", "tube.yaml", "--out", "out", "--set", "run.duration=3 ms"))
+            saved = self.saved_step()
+            (self.home / "log").unlink(missing_ok=True)
+            # It saves twice that its settings are others now; each time the checkpoint before gets a second name.
+            process = self.start_faulty("resume", "out", *ENDLESS, fault="link:3:held", log=True)
+            self.wait_for_calls("link", 2)
+            time.sleep(self.random.uniform(0.0, 0.1))
+            process.send_signal(first)
+            self.wait_for_calls("link", 3)
+            process.send_signal(second)
+            _, stderr = process.communicate(timeout=PATIENCE)
+            self.assertEqual(process.returncode, 128 + second, stderr)
+            self.assertEqual(self.saved_step(), saved)
+            self.assertTrue((self.out / "checkpoint.h5.tmp").exists())
+            self.assert_done(self.faulty("resume", "out", *AS_IN_TUBE))
+            self.assert_came_to_the_same()
+
+    def saved_step(self):
+        with h5py.File(self.out / "checkpoint.h5", "r") as file:
+            return file.attrs["step"].item()
 
     # --- calls that fail ---
 
@@ -194,10 +268,44 @@ class Faults(FaultTest):
                     self.assertEqual(after[name], before[name], name)
                 self.assert_goes_on_as_uninterrupted()
 
+    def test_what_was_left_half_written_is_removed_or_told(self):
+        for what in ("kill", "killed_after", errno.EIO):
+            with self.subTest(what=what):
+                self.start_again()
+                self.kill_at(self.calls.index("rename", len(self.calls) // 2) + 1, "kill")
+                result = self.faulty("resume", "out", fault=f"unlink:1:{what}")
+                if what == errno.EIO:
+                    self.assert_failed(result, "out", "File exists")
+                else:
+                    self.assertEqual(result.returncode, -signal.SIGKILL, result)
+                self.assert_goes_on_as_uninterrupted()
+
+    def test_the_summary_of_a_shorter_run_cannot_be_removed(self):
+        self.assert_done(self.faulty("run", "tube.yaml", "--out", "out", "--set", "run.duration=3 ms"))
+        result = self.faulty("resume", "out", *AS_IN_TUBE, fault=f"unlink:1:{errno.EIO}")
+        self.assert_fails_with_word(result, errno.EIO)
+        self.assert_done(self.faulty("resume", "out", *AS_IN_TUBE))
+        self.assert_came_to_the_same()
+
+    def test_the_directory_cannot_be_made(self):
+        result = self.faulty("run", "tube.yaml", "--out", "out", fault=f"mkdir:1:{errno.EACCES}")
+        self.assert_fails_with_word(result, errno.EACCES)
+        self.assertFalse(self.out.exists())
+
     def test_nothing_can_be_written_at_all(self):
         result = self.faulty("run", "tube.yaml", "--out", "out", fault="open:1:13+")
         self.assert_fails_with_word(result, 13)
         self.assertEqual(bytes_of_files(self.out), {})
+
+
+class FaultsOfWindows(FaultTest):
+    """Runs on two threads, which come to the bits of one."""
+
+    TUBE = WINDOWS
+    threads = 2
+
+    def test_killed_at_any_moment(self):
+        self.assert_survives_kills_at_any_moment(100 if KILLS == "all" else int(KILLS) // 4)
 
 
 class FaultsOfTrajectories(FaultTest):
@@ -222,7 +330,7 @@ class FaultsOfTrajectories(FaultTest):
     def test_an_outline_is_on_the_disk_before_the_head_points_to_it(self):
         frame, commit = "( pwrite){5}", "( ftruncate)? fsync pwrite fsync pwrite fsync"
         self.assertRegex(self.calls_but_whole_files(),
-                         rf"\A{LOCK}( \*)+ open((( \*)*{frame})?( \*)+{commit})+( \*)+( close)+\Z")
+                         rf"\A{BEGINNING}( \*)+ open((( \*)*{frame})?( \*)+{commit})+( \*)+( close)+\Z")
 
     def test_killed_inside_a_call(self):
         calls = self.calls_named("pwrite", "ftruncate")
