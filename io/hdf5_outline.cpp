@@ -176,12 +176,6 @@ Hdf5Attributes& Hdf5Attributes::add(const std::string& name, std::int64_t number
   return *this;
 }
 
-Hdf5Attributes& Hdf5Attributes::add(const std::string& name, double number) {
-  add(name, type_of(Hdf5Element::real64), {},
-      ByteWriter().number(std::bit_cast<std::uint64_t>(number), 8).bytes());
-  return *this;
-}
-
 Hdf5Attributes& Hdf5Attributes::add(const std::string& name,
                                     std::initializer_list<std::int32_t> numbers) {
   const std::array<std::uint64_t, 1> extent = {numbers.size()};

@@ -29,7 +29,6 @@ class Hdf5Attributes {
 public:
   Hdf5Attributes& add(const std::string& name, std::string_view text);
   Hdf5Attributes& add(const std::string& name, std::int64_t number);
-  Hdf5Attributes& add(const std::string& name, double number);
   Hdf5Attributes& add(const std::string& name, std::initializer_list<std::int32_t> numbers);
   /// A list of texts, padded to the length of the longest.
   Hdf5Attributes& add(const std::string& name, std::initializer_list<std::string_view> texts);

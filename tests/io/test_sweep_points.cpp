@@ -227,6 +227,8 @@ TEST_CASE("what cannot be a sweep is refused with its place") {
             .starts_with("s.yaml:2:11: branches: expected named sets of overrides, got a list"));
   CHECK(error_of("axes: {scenario: [tube, wall]}\n")
             .starts_with("s.yaml:2:8: scenario: cannot be changed by a sweep"));
+  CHECK(error_of("set: {scenario: wall}\n")
+            .starts_with("s.yaml:2:7: scenario: cannot be changed by a sweep"));
   CHECK(error_of("", "base: [tube.yaml]\n")
             .starts_with("s.yaml:1:7: base: expected the path of a settings file, or settings"));
   CHECK(error_of("axes: {impact.starts: [1, 2]}\ncontinue_along: impact.starts\n",
