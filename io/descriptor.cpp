@@ -1,6 +1,7 @@
 #include "io/descriptor.hpp"
 
 #include "io/file_error.hpp"
+#include "io/uninterrupted.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -15,13 +16,6 @@ namespace riesel::io {
 namespace {
 
 constexpr std::size_t most_at_once = std::size_t{1} << 30;  // bytes; what Linux takes
-
-/// What a call of the system returns that no signal has interrupted.
-template <class Call>
-auto uninterrupted(Call call) {
-  for (;;)
-    if (const auto result = call(); result >= 0 || errno != EINTR) return result;
-}
 
 }  // namespace
 

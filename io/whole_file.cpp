@@ -1,6 +1,7 @@
 #include "io/whole_file.hpp"
 
 #include "io/file_error.hpp"
+#include "io/uninterrupted.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,7 +22,9 @@ class File {
 public:
   /// A pipe without a writer would keep a plain open() waiting.
   explicit File(const fs::path& path)
-      : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+      : path_(path),
+        descriptor_(
+            uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })) {
     if (descriptor_ < 0) throw system_failure(path_, "cannot be opened", errno);
   }
   ~File() { close(descriptor_); }
@@ -42,9 +45,9 @@ public:
   std::size_t read(std::span<char> buffer) {
     std::size_t size = 0;
     while (size < buffer.size()) {
-      const ssize_t got = ::read(descriptor_, &buffer[size], buffer.size() - size);
+      const ssize_t got =
+          uninterrupted([&] { return ::read(descriptor_, &buffer[size], buffer.size() - size); });
       if (got == 0) break;
-      if (got < 0 && errno == EINTR) continue;
       if (got < 0) throw system_failure(path_, "cannot be read", errno);
       size += static_cast<std::size_t>(got);
     }

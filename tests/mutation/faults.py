@@ -160,7 +160,7 @@ FAULTS = [
     ("the generation before not kept", "io/durable_file.cpp",
      "  if (keeps) rename_to(replaced.path(), previous_generation(path), path);\n",
      "  static_cast<void>(keeps);\n"),
-    ("a write that is cut short by a signal taken for an error", "io/descriptor.cpp",
+    ("a write that is cut short by a signal taken for an error", "io/uninterrupted.hpp",
      "if (const auto result = call(); result >= 0 || errno != EINTR) return result;", "return call();"),
     ("a checksum that is not looked at", "io/seal.cpp",
      "const bool is_whole = is_long_enough && text_of(image).starts_with(seal_text(image, kind));",
