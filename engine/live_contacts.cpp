@@ -258,8 +258,7 @@ LiveContacts::Columns LiveContacts::columns() {
 
 Contact LiveContacts::contact(std::size_t i) const {
   auto words = std::bit_cast<Words>(Contact{.name = meetings_[i].name});
-  const std::size_t members = rich_ ? life_members : poor_life_members;
-  for (std::size_t m = 0; m < members; ++m) words[life_begin + m] = life_[m][i];
+  for (std::size_t m = 0; m < members(); ++m) words[life_begin + m] = life_[m][i];
   return seen_from(meetings_[i], std::bit_cast<Contact>(words));
 }
 
@@ -295,8 +294,7 @@ void LiveContacts::make_harmless(std::size_t i) {
   for (auto& kicks : kick_) kicks[i] = 0;
   if (rich_)
     for (auto& kicks : spin_kick_) kicks[i] = 0;
-  const std::size_t members = rich_ ? life_members : poor_life_members;
-  for (std::size_t m = 0; m < members; ++m)
+  for (std::size_t m = 0; m < members(); ++m)
     if (!std::isfinite(life_[m][i])) life_[m][i] = 0.0;
 }
 
@@ -341,8 +339,7 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   per_mass_[0][i] = bodies.per_mass_first;
   per_mass_[1][i] = bodies.per_mass_second;
   const auto words = std::bit_cast<Words>(seen_from(meeting, contact));
-  const std::size_t members = rich_ ? life_members : poor_life_members;
-  for (std::size_t m = 0; m < members; ++m) life_[m][i] = words[life_begin + m];
+  for (std::size_t m = 0; m < members(); ++m) life_[m][i] = words[life_begin + m];
   if (!rich_) return;
   radius_[0][i] = bodies.radius_first;
   radius_[1][i] = bodies.radius_second;

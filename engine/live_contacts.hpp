@@ -89,6 +89,7 @@ private:
             const Normal& normal, const Slip& slip);
   template <Partner partner>
   void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
+  std::size_t members() const { return rich_ ? life_members : poor_life_members; }
   void become_rich();
   void make_harmless(std::size_t i);
   void follow_walls(const Bodies& bodies, const StepUnits& units);

@@ -133,10 +133,7 @@ TEST_CASE("two grains in the very same place are reported, not turned into numbe
 TEST_CASE("of several forces that are not finite the first by name is reported, by any way") {
   State state = empty_box(20e-3, 20e-3);
   add_walls(state, 20);
-  for (int pair = 0; pair < 8; ++pair)
-    add_grain(state, grain(3e-3, 1e-3 + 2.2e-3 * pair, 0.0, 0.0));
-  for (int pair = 0; pair < 8; ++pair)
-    add_grain(state, grain(3e-3, 1e-3 + 2.2e-3 * pair, 0.0, 0.0));
+  for (int i = 0; i < 16; ++i) add_grain(state, grain(3e-3, 1e-3 + 2.2e-3 * (i % 8), 0.0, 0.0));
   add_grain(state, grain(0.0, 0.0, 0.0, 0.0));
   state = shuffled(std::move(state), GENERATE(1u, 2u, 3u));
   for (const Stepping stepping : {Stepping::plain, Stepping::windows})
