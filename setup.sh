@@ -174,7 +174,8 @@ lint() {
 }
 
 # The tests of reliability do not count: they kill, and count the calls that write. Nor do those of how the
-# program was compiled: here it is compiled for counting. The report comes even if a test fails. The rooms on which all results rest have to be reached each for itself.
+# program was compiled: here it is compiled for counting. The report comes even if a test fails. The rooms on
+# which all results rest have to be reached each for itself.
 coverage() {
   local complaints=() lines=build/coverage/lines.json room
   build coverage
