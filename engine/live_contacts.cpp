@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 namespace riesel {
@@ -20,13 +21,10 @@ constexpr std::size_t life_begin = offsetof(Contact, begin) / sizeof(double);
   ((offsetof(Contact, member) - offsetof(Contact, begin)) / sizeof(double))
 
 /// From the friction on name.grain to that on the first body, or back.
-Contact seen_from(const Meeting& meeting, Contact contact) {
-  if (meeting.turned) {
-    contact.friction_x = -contact.friction_x;
-    contact.friction_y = -contact.friction_y;
-    contact.rolling_torque = 0.0 - contact.rolling_torque;  // nothing has no sign
-  }
-  return contact;
+void see_from_the_other(Contact& contact) {
+  contact.friction_x = -contact.friction_x;
+  contact.friction_y = -contact.friction_y;
+  contact.rolling_torque = 0.0 - contact.rolling_torque;  // nothing has no sign
 }
 
 bool is_rich(const Contact& contact) {
@@ -257,9 +255,14 @@ LiveContacts::Columns LiveContacts::columns() {
 }
 
 Contact LiveContacts::contact(std::size_t i) const {
-  auto words = std::bit_cast<Words>(Contact{.name = meetings_[i].name});
-  for (std::size_t m = 0; m < members(); ++m) words[life_begin + m] = life_[m][i];
-  return seen_from(meetings_[i], std::bit_cast<Contact>(words));
+  Contact contact{.name = meetings_[i].name};
+  // Word by word where they stay: an array of them would be copied in wider words, and these wait
+  // until their parts are written.
+  auto* const life = reinterpret_cast<std::byte*>(&contact) + offsetof(Contact, begin);
+  for (std::size_t m = 0; m < members(); ++m)
+    std::memcpy(life + m * sizeof(double), &life_[m][i], sizeof(double));
+  if (meetings_[i].turned) see_from_the_other(contact);
+  return contact;
 }
 
 template <class Visit>
@@ -338,7 +341,9 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   const BodyPair bodies = meeting.bodies();
   per_mass_[0][i] = bodies.per_mass_first;
   per_mass_[1][i] = bodies.per_mass_second;
-  const auto words = std::bit_cast<Words>(seen_from(meeting, contact));
+  Contact seen = contact;
+  if (meeting.turned) see_from_the_other(seen);
+  const auto words = std::bit_cast<Words>(seen);
   for (std::size_t m = 0; m < members(); ++m) life_[m][i] = words[life_begin + m];
   if (!rich_) return;
   radius_[0][i] = bodies.radius_first;
