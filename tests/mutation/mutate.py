@@ -5,9 +5,9 @@
 
 Works on a copy of what is committed, in build/mutation, and takes one to three minutes per fault, after the
 tests have all passed once on the copy as it is: a test that fails anyway notices nothing. Ends with status 1
-if a fault goes unnoticed. The tests of the fault's own room come first; those that drive the command, and the
-kept velocities, only where the others notice nothing. A fault that the compiler refuses counts as noticed, and
-is told apart.
+if a fault goes unnoticed. The test that noticed a fault before (result.md) comes first, then those of the
+fault's own room; those that drive the command, and the kept velocities, only where the others notice nothing.
+A fault that the compiler refuses counts as noticed, and is told apart.
 """
 
 import argparse
@@ -26,6 +26,7 @@ COPY = HOME / "build/mutation/source"
 BUILD = HOME / "build/mutation/build"
 ROOMS = ["engine", "physics", "scenarios", "io", "properties"]  # tests_ROOM is the program, ROOM the label
 REST = ["reliability", "cli|fuzz|package", "regression"]  # labels, after the room's own programs
+RESULT = HOME / "tests/mutation/result.md"
 COMPILER = "the compiler, not a test"
 
 
@@ -37,19 +38,34 @@ def build(targets):
     return run("cmake", "--build", BUILD, "--target", *targets).returncode == 0
 
 
-def first_failure(labels):
+def first_failure(*selection):
     """The name of a test that fails, or None."""
-    tests = run("ctest", "--test-dir", BUILD, "-L", labels, "--stop-on-failure", "-j2",
-                "--timeout", "200")
+    tests = run("ctest", "--test-dir", BUILD, *selection, "--stop-on-failure", "-j2", "--timeout", "200")
     failed = re.findall(r"^\s*\d+ - (.*?) \((?:\S+\s?)+\)", tests.stdout, re.M)
     return failed[0] if failed else (None if tests.returncode == 0 else "?")
 
 
-def noticed_by(file):
+def noticed_before():
+    """{fault: beginning of the name of the test} by the kept tables"""
+    rows = re.findall(r"^\| (.+?) \| `.+?` \| (\w+/.+?)(?: \(since .*)? \|$", RESULT.read_text(), re.M)
+    return dict(rows)
+
+
+def stages(file, test):
+    """[(what to build, which tests to run)]; `test` has noticed the fault before, or is None."""
     own = file.split("/")[0]
-    stages = [([f"tests_{room}"], room) for room in sorted(ROOMS, key=lambda room: room != own)]
-    for targets, labels in [*stages, *((["all"], labels) for labels in REST)]:
-        name = first_failure(f"^({labels})$") if build(targets) else COMPILER
+    if test:
+        room = test.split("/")[0]
+        yield [f"tests_{room}" if room in ROOMS else "all"], ("-R", "^" + re.escape(test))
+    for room in sorted(ROOMS, key=lambda room: room != own):
+        yield [f"tests_{room}"], ("-L", f"^{room}$")
+    for labels in REST:
+        yield ["all"], ("-L", f"^({labels})$")
+
+
+def noticed_by(file, test=None):
+    for targets, selection in stages(file, test):
+        name = first_failure(*selection) if build(targets) else COMPILER
         if name:
             return name
     return None
@@ -112,13 +128,13 @@ def main():
         return 0
     prepare()
     require_passing_tests()
-    rows, unnoticed, refused = [], 0, 0
+    before, rows, unnoticed, refused = noticed_before(), [], 0, 0
     for what, file, text, replacement in FAULTS[options.first - 1:]:
         if options.only not in what:
             continue
         original = plant(COPY / file, text, replacement)
         try:
-            noticed = noticed_by(file)
+            noticed = noticed_by(file, before.get(what))
         finally:
             (COPY / file).write_text(original)
         unnoticed += noticed is None
