@@ -1,6 +1,6 @@
 """Fig. 6: where the slow branch ends, and what spacing, width and length of the tube have to do with it."""
 from results import print_table, save
-from tube import grouped, runs_of_all, seeds_text
+from tube import WINDOWS, grouped, runs_of_all, seeds_text
 
 TABLES = ("fig6_slow", "fig6_spacing", "fig6_narrow", "fig6_length", "fig6_choices", "fig6_clipped", "fig6_map")
 
@@ -40,6 +40,7 @@ def fig6_thresholds(tables, out, plt):
                 [(*place, threshold.text,
                   ", ".join(map(str, threshold.seeds))) for place, threshold in found])
     print_hysteresis(runs_of_all(tables, ["fig6_hysteresis"]))
+    print_lifetimes(runs_of_all(tables, ["fig6_lifetimes"]))
     save(draw_thresholds(plt, found), out / "fig6_thresholds.svg")
 
 
@@ -67,8 +68,6 @@ def draw_thresholds(plt, found):
 # --- The way there ---
 
 def print_hysteresis(runs):
-    if not runs:
-        return
     rows = []
     for (e_n,), at_this in sorted(grouped(runs, "e_n"), reverse=True):
         cells = []
@@ -79,3 +78,23 @@ def print_hysteresis(runs):
         rows.append((e_n, *cells))
     print_table("Fig. 6, the slow branch of 2000 N/m followed down and up",
                 ("e_N", "stay on the way down", "mean v_y (m/s)", "stay on the way up", "mean v_y (m/s)"), rows)
+
+
+# --- How long it lives ---
+
+def lost_by(run):
+    """s, the end of the first window in which the wall carries less than half of the weight, or None."""
+    shares = [getattr(run, f"share_{i}") for i in range(1, WINDOWS + 1)]
+    first = next((i for i, share in enumerate(shares, start=1) if share < 0.5), None)
+    return first and run.time * first / WINDOWS
+
+
+def print_lifetimes(runs):
+    rows = []
+    for (e_n,), of_this in grouped(runs, "e_n"):
+        stay = [run.velocity for run in of_this if run.stays]
+        ends = sorted(filter(None, map(lost_by, of_this)))
+        rows.append((e_n, f"{len(stay)} of {len(of_this)}", seeds_text(stay) if stay else "",
+                     ", ".join(f"{end:.3g}" for end in ends)))
+    print_table("Fig. 6, the slow branch of 2000 N/m near its end, for 12 s",
+                ("e_N", "stay", "mean v_y (m/s)", "the others are lost by (s)"), rows)

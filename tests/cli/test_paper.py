@@ -14,9 +14,9 @@ from tube import Run, plus_minus, seeds_text  # noqa: E402
 
 # file: number of its points
 POINTS = {
-    "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_slow": 54, "fig6_fast": 12,
-    "fig6_above": 5, "fig6_stiff": 4, "fig6_checks": 9, "fig6_clipped": 15, "fig6_spacing": 27, "fig6_narrow": 22,
-    "fig6_length": 12, "fig6_choices": 13, "fig6_hysteresis": 26, "fig6_map": 60, "fig6_curves": 4,
+    "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_slow": 54, "fig6_fast": 36,
+    "fig6_above": 5, "fig6_stiff": 26, "fig6_checks": 18, "fig6_clipped": 15, "fig6_spacing": 31, "fig6_narrow": 63,
+    "fig6_length": 12, "fig6_choices": 39, "fig6_hysteresis": 26, "fig6_lifetimes": 12, "fig6_map": 60, "fig6_curves": 4,
 }
 
 
