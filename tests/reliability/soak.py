@@ -15,7 +15,8 @@ run.h5. At the end it prints how memory and cost per step went over the time, an
 The first sixth does not count, nor the first 20 s of a life: profiles and histograms keep up to 128 samples
 apart, and then add them up in pairs. A soak that is too short for one of these judgements says so.
 Processor time tells less of what else the machine does than time on the clock, but threads that wait for each
-other use it too: on a machine that is busy otherwise, the cost of a step is told by --threads 1 only.
+other use it too: on a machine that is busy otherwise, the cost of a step is told by --threads 1 only, or with
+OMP_WAIT_POLICY=passive in the environment.
 The command is build/release/app/riesel, or what the variable RIESEL names.
 """
 
