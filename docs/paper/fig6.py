@@ -1,6 +1,6 @@
 """Fig. 6: the slow and the fast branch of three stiffnesses, seeds together."""
 from results import print_table, save
-from tube import WINDOWS, grouped, over_seeds, plus_minus, runs_of, runs_of_all, seeds_text
+from tube import grouped, over_seeds, plus_minus, runs_of, runs_of_all, seeds_text, stay_cells
 
 LONG_ENOUGH = 3.0  # s, for a fast run to settle
 COLORS = {200.0: "C2", 2000.0: "C0", 2e5: "C3"}
@@ -9,10 +9,9 @@ COLORS = {200.0: "C2", 2000.0: "C0", 2e5: "C3"}
 # --- The slow branch ---
 
 def slow_row(k_n, e_n, runs):
-    stay = [run for run in runs if run.stays]
-    return (k_n, e_n, f"{len(stay)} of {len(runs)}", f"{sum(run.lost for run in runs)} of {len(runs)}",
-            seeds_text([run.velocity for run in stay]) if stay else "",
-            f"{sum(run.state == 'steady' for run in stay)}", f"{max(run.brake_failure for run in runs):.1g}")
+    stay, velocity = stay_cells(runs)
+    return (k_n, e_n, stay, f"{sum(run.lost for run in runs)} of {len(runs)}", velocity,
+            f"{sum(run.state == 'steady' for run in runs if run.stays)}", f"{max(run.brake_failure for run in runs):.1g}")
 
 
 def fig6(tables, out, plt):
@@ -62,8 +61,8 @@ class FastState:
         fast = [run for run in runs if run.lost]
         self.settled = [run for run in fast if run.settled and run.time >= LONG_ENOUGH]
         starts = [of_this for _, of_this in grouped(fast, "start")]
-        below = [run.velocity_5 for of_this in starts for run in of_this if all(r.share_5 < 1 for r in of_this)]
-        above = [run.velocity_5 for of_this in starts for run in of_this if all(r.share_5 > 1 for r in of_this)]
+        below = [run.velocity_5 for start in starts if all(run.share_5 < 1 for run in start) for run in start]
+        above = [run.velocity_5 for start in starts if all(run.share_5 > 1 for run in start) for run in start]
         self.between = (max(below, default=0.0), min(above, default=float("inf")))
 
     @property
@@ -115,11 +114,9 @@ def draw_fast(plt, runs):
     there is a stable state."""
     figure, panels = plt.subplots(1, len(COLORS), figsize=(10, 3.5), sharey=True)
     colors = {e_n: f"C{i}" for i, e_n in enumerate(sorted({run.e_n for run in runs}))}
-    windows = range(1, WINDOWS + 1)
     for axes, k_n in zip(panels, COLORS):
         for run in (run for run in runs if run.k_n == k_n):
-            axes.plot([getattr(run, f"velocity_{i}") for i in windows], [getattr(run, f"share_{i}") for i in windows],
-                      "o-", markersize=3, color=colors[run.e_n])
+            axes.plot(run.windows("velocity"), run.windows("share"), "o-", markersize=3, color=colors[run.e_n])
         axes.axhline(1, color="0.5", linewidth=0.8)
         axes.set(xlabel="mean axial velocity (m/s)", title=f"k_N = {k_n:g} N/m", ylim=(0, 3))
     for e_n, color in colors.items():

@@ -1,6 +1,6 @@
 """Fig. 6: where the slow branch ends, and what spacing, width and length of the tube have to do with it."""
 from results import print_table, save
-from tube import WINDOWS, grouped, runs_of_all, seeds_text
+from tube import WINDOWS, grouped, runs_of_all, stay_cells
 
 TABLES = ("fig6_slow", "fig6_spacing", "fig6_narrow", "fig6_length", "fig6_choices", "fig6_clipped", "fig6_map")
 
@@ -73,8 +73,7 @@ def print_hysteresis(runs):
         cells = []
         for leg in ("forward", "backward"):
             of_leg = [run for run in at_this if run.leg == leg]
-            stay = [run.velocity for run in of_leg if run.stays]
-            cells += [f"{len(stay)} of {len(of_leg)}" if of_leg else "", seeds_text(stay) if stay else ""]
+            cells += stay_cells(of_leg) if of_leg else ("", "")
         rows.append((e_n, *cells))
     print_table("Fig. 6, the slow branch of 2000 N/m followed down and up",
                 ("e_N", "stay on the way down", "mean v_y (m/s)", "stay on the way up", "mean v_y (m/s)"), rows)
@@ -84,17 +83,14 @@ def print_hysteresis(runs):
 
 def lost_by(run):
     """s, the end of the first window in which the wall carries less than half of the weight, or None."""
-    shares = [getattr(run, f"share_{i}") for i in range(1, WINDOWS + 1)]
-    first = next((i for i, share in enumerate(shares, start=1) if share < 0.5), None)
-    return first and run.time * first / WINDOWS
+    ends = (run.time * i / WINDOWS for i, share in enumerate(run.windows("share"), start=1) if share < 0.5)
+    return next(ends, None)
 
 
 def print_lifetimes(runs):
     rows = []
     for (e_n,), of_this in grouped(runs, "e_n"):
-        stay = [run.velocity for run in of_this if run.stays]
         ends = sorted(filter(None, map(lost_by, of_this)))
-        rows.append((e_n, f"{len(stay)} of {len(of_this)}", seeds_text(stay) if stay else "",
-                     ", ".join(f"{end:.3g}" for end in ends)))
+        rows.append((e_n, *stay_cells(of_this), ", ".join(f"{end:.3g}" for end in ends)))
     print_table("Fig. 6, the slow branch of 2000 N/m near its end, for 12 s",
                 ("e_N", "stay", "mean v_y (m/s)", "the others are lost by (s)"), rows)

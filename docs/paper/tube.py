@@ -7,7 +7,8 @@ from results import rows_of
 
 WINDOWS = 5  # equal parts of a run, of which the table has means: velocity_1 to velocity_5, and so on
 WORDS = ("point", "branch", "leg", "state", "attraction", "verdict", "commit")
-STUDENT = {2: 1.84, 3: 1.32, 4: 1.20, 5: 1.14, 6: 1.11, 7: 1.09, 8: 1.08}  # 68 % points: errors of the mean of so many seeds, in standard errors
+# 68 % points: errors of the mean of so many seeds, in standard errors.
+STUDENT = {2: 1.84, 3: 1.32, 4: 1.20, 5: 1.14, 6: 1.11, 7: 1.09, 8: 1.08}
 
 
 class Run:
@@ -31,6 +32,10 @@ class Run:
     @property
     def stays(self):
         return self.settled and not self.lost
+
+    def windows(self, name):
+        """Its means in the parts of the run."""
+        return [getattr(self, f"{name}_{i}") for i in range(1, WINDOWS + 1)]
 
     def with_error(self, name):
         return plus_minus(getattr(self, name), getattr(self, f"{name}_error"))
@@ -68,6 +73,12 @@ def seeds_text(values):
     """The mean of several seeds with its error, of one seed the value."""
     value, error = over_seeds(values)
     return f"{value:.3g}" if np.isnan(error) else plus_minus(value, error)
+
+
+def stay_cells(runs):
+    """How many of them stay on the slow branch, and their velocity."""
+    stay = [run.velocity for run in runs if run.stays]
+    return f"{len(stay)} of {len(runs)}", seeds_text(stay) if stay else ""
 
 
 def plus_minus(value, error):

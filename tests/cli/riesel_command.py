@@ -50,6 +50,12 @@ def data_of(run_directory, part="/"):
     return data
 
 
+def saved_step(run_directory):
+    """Up to which a run is in its last checkpoint."""
+    with h5py.File(run_directory / "checkpoint.h5", "r") as file:
+        return file.attrs["step"].item()
+
+
 def final_time(run_directory):
     """s, of the state that run.h5 holds."""
     with h5py.File(run_directory / "run.h5", "r") as file:

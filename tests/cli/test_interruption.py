@@ -8,7 +8,7 @@ import time
 
 import h5py
 
-from riesel_command import PATIENCE, SMALL_TUBE, CommandTest, data_of, final_time
+from riesel_command import PATIENCE, SMALL_TUBE, CommandTest, data_of, final_time, saved_step
 
 # Rows of 1 ms hold about 1000 steps; the run ends long after the tests. After its first checkpoint none is due:
 # what is saved later has been saved because the run was told to stop.
@@ -52,10 +52,6 @@ class Interruption(CommandTest):
     def last_frame(self):
         """When it was written: a frame is, long before a checkpoint tells of it."""
         return (self.out / "trajectory.h5").stat().st_mtime_ns
-
-    def saved_step(self):
-        with h5py.File(self.out / "checkpoint.h5", "r") as file:
-            return file.attrs["step"].item()
 
     def start_and_get_on(self, arguments, progress):
         """Starts the command; returns it when it has made steps: `progress` is a number that grows with them."""
@@ -106,7 +102,7 @@ class Interruption(CommandTest):
         """A kill loses what has come since the last checkpoint, which is another one each time."""
         arguments = ["run", "long.yaml", "--out", "out", *SAVE_OFTEN]
         for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGKILL, signal.SIGINT):
-            status, stderr = self.start_and_stop(arguments, number, self.saved_step)
+            status, stderr = self.start_and_stop(arguments, number, lambda: saved_step(self.out))
             self.assertEqual(status, -number if number == signal.SIGKILL else 128 + number, stderr)
             arguments = ["resume", "out"]
         self.assert_goes_on_as_uninterrupted()

@@ -6,9 +6,7 @@ import random
 import signal
 import time
 
-import h5py
-
-from riesel_command import DONE, FAILED, PATIENCE
+from riesel_command import DONE, FAILED, PATIENCE, saved_step
 from test_sweep import SweepTest
 
 # Each run takes one second or two.
@@ -26,11 +24,6 @@ ENDLESS = LONG.replace("600 ms", "1000 s")
 def saved_by_its_end(text):
     """The sweep whose runs have no checkpoint due between the first and the end; frames tell that they get on."""
     return text.replace("interval: 0.02 s", "interval: 1 h, output.trajectory_interval: 1 ms")
-
-
-def saved_step(run_directory):
-    with h5py.File(run_directory / "checkpoint.h5", "r") as file:
-        return file.attrs["step"].item()
 
 
 def children_of(pid):

@@ -16,7 +16,7 @@ import time
 import h5py
 import numpy as np
 
-from riesel_command import PATIENCE, CommandTest, SMALL_TUBE, bytes_of_files
+from riesel_command import PATIENCE, CommandTest, SMALL_TUBE, bytes_of_files, saved_step
 
 SHIM = os.environ["RIESEL_SHIM"]
 KILLS = os.environ.get("RIESEL_KILLS", "24")
@@ -213,7 +213,7 @@ class Faults(FaultTest):
                               (signal.SIGTERM, signal.SIGINT)):
             self.start_again()
             self.assert_done(self.faulty("run", "tube.yaml", "--out", "out", "--set", "run.duration=3 ms"))
-            saved = self.saved_step()
+            saved = saved_step(self.out)
             (self.home / "log").unlink(missing_ok=True)
             # It saves twice that its settings are others now; each time the checkpoint before gets a second name.
             process = self.start_faulty("resume", "out", *ENDLESS, fault="link:3:held", log=True)
@@ -224,14 +224,10 @@ class Faults(FaultTest):
             process.send_signal(second)
             _, stderr = process.communicate(timeout=PATIENCE)
             self.assertEqual(process.returncode, 128 + second, stderr)
-            self.assertEqual(self.saved_step(), saved)
+            self.assertEqual(saved_step(self.out), saved)
             self.assertTrue((self.out / "checkpoint.h5.tmp").exists())
             self.assert_done(self.faulty("resume", "out", *AS_IN_TUBE))
             self.assert_came_to_the_same()
-
-    def saved_step(self):
-        with h5py.File(self.out / "checkpoint.h5", "r") as file:
-            return file.attrs["step"].item()
 
     # --- calls that fail ---
 
