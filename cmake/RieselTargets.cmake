@@ -13,6 +13,8 @@
 # the compiler cannot see.
 
 option(RIESEL_NATIVE "Compile for this machine only: the program may not run on others" OFF)
+set(RIESEL_TUNE icelake-server CACHE STRING
+  "GCC on x86-64: the processor (-mtune) for which instructions are chosen; it runs on all")
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release or RelWithDebInfo" FORCE)
@@ -35,6 +37,14 @@ set(riesel_language $<$<CXX_COMPILER_ID:Clang>:-fsized-deallocation>)
 # These two change no value. They let the compiler vectorise sqrt and branches: nothing here reads
 # errno after a math function, or the floating-point exception flags.
 set(riesel_arithmetic_private -fno-math-errno -fno-trapping-math)
+
+# Which machine the instructions are for; no choice changes a value. GCC's own takes no gathers and
+# no vectors of 512 bits for the kernels that are compiled for machines that have them.
+if(RIESEL_NATIVE)
+  set(riesel_machine -march=native)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(riesel_machine -mtune=${RIESEL_TUNE} -mprefer-vector-width=512)
+endif()
 
 # GCC 12 sees overlapping copies inside std::string where there are none (its bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -69,8 +79,7 @@ endfunction()
 
 # What every target of the house shares.
 function(riesel_house_rules target)
-  target_compile_options(${target} PRIVATE
-    ${riesel_arithmetic_private} $<$<BOOL:${RIESEL_NATIVE}>:-march=native>)
+  target_compile_options(${target} PRIVATE ${riesel_arithmetic_private} ${riesel_machine})
   # Only the preset lint makes units of several sources.
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD_CODE_BEFORE_INCLUDE "// NOLINTNEXTLINE(bugprone-suspicious-include)")

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 namespace riesel {
@@ -131,12 +132,15 @@ void Appointments::reconsider_exact(std::uint32_t slot) {
 
 void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   pairs_.clear();
-  near_walls_.clear();
-  for (std::uint32_t candidate = 0; candidate < due_.size(); ++candidate) {
-    reconsider_candidate(candidate);
-    if (candidate % appointments_at_a_time == 0) make(now, earliest, hold_until);
-  }
+  near_walls_.resize(slice_.near_walls.size());
+  std::iota(near_walls_.begin(), near_walls_.end(), 0U);
   make(now, earliest, hold_until);
+  const std::int64_t horizon = std::max(hold_until, earliest) - now;
+  for (std::size_t begin = 0; begin < pair_count(); begin += appointments_at_a_time) {
+    const std::size_t end = std::min<std::size_t>(begin + appointments_at_a_time, pair_count());
+    sift(slice_, {begin, end}, state_, horizon, tolerance_, pairs_);
+    make(now, earliest, hold_until);
+  }
 }
 
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
@@ -148,7 +152,8 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
     foresee(slice_, some, state_, courses_, now, tolerance_, forecast_);
     for (std::size_t k = 0; k < some.size(); ++k) {
       const std::uint32_t pair = some[k];
-      if (slice_.pairs.reach2[pair] < 0.0F) continue;  // in contact
+      const bool in_contact = slice_.pairs.reach2[pair] < 0.0F;
+      if (in_contact || due_[pair].is_for(Appointment::always)) continue;
       enter(pair, forecast_.free_steps[k], forecast_.exact[k] != 0, period);
     }
   }
@@ -158,6 +163,10 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
   }
   pairs_.clear();
   near_walls_.clear();
+}
+
+void Appointments::make_for_next_step(std::uint32_t pair, std::int64_t now, int strays) {
+  enter(pair, 1, strays < 2, {.now = now, .earliest = now + 1, .latest = now + 1});
 }
 
 /// A step farther away than the calendar knows is moved closer: then the candidate is looked at

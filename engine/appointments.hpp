@@ -24,8 +24,10 @@ namespace riesel {
 class Appointment {
 public:
   static constexpr std::int32_t never = -1;
+  static constexpr std::int32_t always = -2;
 
-  /// `step` is counted since the candidates were listed, less than 2^30, or `never`.
+  /// `step` is counted since the candidates were listed, less than 2^30, or `never`, or `always`:
+  /// somebody else looks at the candidate in every step.
   Appointment(std::int32_t step, bool exact) : word_(2 * step + (exact ? 1 : 0)) {}
 
   bool is_for(std::int32_t step) const { return word_ >> 1 == step; }
@@ -53,6 +55,11 @@ public:
   void reconsider_pair(std::uint32_t pair) { pairs_.push_back(pair); }
   void reconsider_near_wall(std::uint32_t near_wall) { near_walls_.push_back(near_wall); }
 
+  /// For a pair that is closer than the grains of it that may stray, 1 or 2, can go.
+  void make_for_next_step(std::uint32_t pair, std::int64_t now, int strays);
+  /// No appointments are made for a pair that is watched.
+  void begin_watch(std::uint32_t pair) { due_[pair] = {Appointment::always, false}; }
+  void end_watch(std::uint32_t pair) { due_[pair].cancel(); }
   /// Makes the appointments of all that are to be reconsidered, with the courses of step `now`: not
   /// before `earliest`, and none for after `hold_until` unless it is `earliest`.
   void make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);

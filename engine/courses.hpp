@@ -81,6 +81,7 @@ public:
   /// Where the deflected grain stands, or `flying`.
   std::int32_t place(std::uint32_t slot) const { return place_[slot]; }
   bool deflected(std::uint32_t slot) const { return place_[slot] != flying; }
+  const std::int32_t* places() const { return place_.data(); }  ///< by slot
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
 
 private:

@@ -12,7 +12,7 @@ namespace {
 
 /// How far a grain in contact may leave its course, as a part of the mean diameter: more means
 /// fewer new courses, but more neighbours to look at in every step.
-constexpr double tolerance_per_diameter = 0.001;
+constexpr double tolerance_per_diameter = 0.002;
 
 }  // namespace
 
@@ -37,7 +37,8 @@ FlightRegion::FlightRegion(Airspace& airspace, std::size_t index)
       border_(slice_, airspace.courses, airspace.announcements, index),
       deflected_(airspace.state.grains.inertia),
       skin_guard_(airspace.state, airspace.candidates, airspace.courses, airspace.tolerance),
-      appointments_(airspace.state, slice_, airspace.courses, border_, airspace.tolerance) {}
+      appointments_(airspace.state, slice_, airspace.courses, border_, airspace.tolerance),
+      close_watch_(airspace.courses) {}
 
 /// What a step is, in the order in which it happens. Between the barriers all may change their
 /// courses and what they announce, and nobody looks at those of others.
@@ -106,6 +107,7 @@ void FlightRegion::begin(std::int64_t step, std::int64_t earliest) {
   let_go_.clear();
   border_.list_foreign();
   appointments_.start_over();
+  close_watch_.clear();
   airspace_.barrier.arrive_and_wait();
 
   border_.list_border();
@@ -163,6 +165,10 @@ FlightRegion::Position FlightRegion::foreign_position(std::uint32_t slot, std::i
 
 /// Looks at the candidates that are due: which contacts begin?
 void FlightRegion::keep_appointments(std::int64_t step) {
+  for (const std::uint32_t pair : close_watch_.due_in(units_, deflected_)) {
+    appointments_.end_watch(pair);
+    look_at_pair(pair, step);
+  }
   appointments_.keep(
       step, [&](std::uint32_t pair) { look_at_pair(pair, step); },
       [&](std::uint32_t near_wall) { look_at_near_wall(near_wall, step); });
@@ -173,13 +179,33 @@ void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
   const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
   const Position a = position(i, step);
   const Position b = border_.owns(j) ? position(j, step) : foreign_position(j, step);
-  if (!overlapping(wrapped_difference(b.x, a.x), wrapped_difference(b.y, a.y),
-                   g.radius[i] + g.radius[j], units_)) {
-    appointments_.reconsider_pair(pair);
+  const Fixed x = wrapped_difference(b.x, a.x), y = wrapped_difference(b.y, a.y);
+  const double reach = g.radius[i] + g.radius[j];
+  if (!overlapping(x, y, reach, units_)) {
+    const int strays = strays_of_pair(slice_, airspace_.courses, pair);
+    // So close together there is nothing to be foreseen.
+    if (strays > 0 && overlapping(x, y, reach + strays * airspace_.tolerance, units_))
+      look_again(pair, step, reach, strays);
+    else
+      appointments_.reconsider_pair(pair);
     return;
   }
   begin_contact(slice_, slice_.pair_contacts, meeting_of_pair(slice_, g, pair));
   take_up(slice_.pair_contacts, slice_.pair_contacts.size() - 1, step);
+}
+
+/// A pair with a grain in contact, closer than it may stray, is looked at in every step.
+void FlightRegion::look_again(std::uint32_t pair, std::int64_t step, double reach, int strays) {
+  const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
+  if (!border_.owns(j)) {
+    appointments_.make_for_next_step(pair, step, strays);
+    return;
+  }
+  constexpr double far_per_stray = 3.0;  // else it would come and go
+  const double far = reach + far_per_stray * strays * airspace_.tolerance;
+  const bool first_deflected = airspace_.courses.deflected(i);
+  close_watch_.add(pair, first_deflected ? i : j, first_deflected ? j : i, reach, far, step);
+  appointments_.begin_watch(pair);
 }
 
 /// A grain that touches a wall is looked at in every step: it may touch a second wall grain.

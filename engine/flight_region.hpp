@@ -8,6 +8,7 @@
 #include "engine/appointments.hpp"
 #include "engine/border.hpp"
 #include "engine/candidates.hpp"
+#include "engine/close_watch.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/courses.hpp"
 #include "engine/deflected_grains.hpp"
@@ -54,6 +55,7 @@ private:
 
   void move(std::int64_t step);
   void keep_appointments(std::int64_t step);
+  void look_again(std::uint32_t pair, std::int64_t step, double reach, int strays);
   void look_at_pair(std::uint32_t pair, std::int64_t step);
   void look_at_near_wall(std::uint32_t near_wall, std::int64_t step);
   void step_contacts(std::int64_t step);
@@ -93,6 +95,7 @@ private:
   std::int64_t hold_until_ = 0;  // step until which the candidates of all slices hold for sure
   bool trouble_ = false;         // of any slice
   Appointments appointments_;
+  CloseWatch close_watch_;
   bool under_way_ = false;  // they are made
 };
 

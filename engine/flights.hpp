@@ -9,7 +9,8 @@
 //
 // A grain in contact leaves its course. Most appointments are made with a tolerance: they hold as
 // long as both grains stay that close to their courses, in contact or not. Those of pairs that are
-// too close for that are exact, and made anew when one of the two is deflected. A grain that goes
+// too close for that are exact, and made anew when one of the two is deflected; closer than a
+// deflected grain may stray, a pair is watched in every step (CloseWatch). A grain that goes
 // beyond the tolerance, or whose last contact ends, gets a new course and new appointments. So no
 // contact is missed, and the steps done here are the same, bit by bit, as those of plain stepping.
 //
@@ -35,7 +36,7 @@ class Flights {
 public:
   /// A skin that serves flights, as a part of the mean diameter: pairs far apart cost no more than
   /// an appointment.
-  static constexpr double skin_per_diameter = 0.6;
+  static constexpr double skin_per_diameter = 0.7;
 
   /// Nobody else uses the candidates afterwards. Keeps references.
   Flights(State& state, const ContactModel& model, Candidates& candidates)

@@ -36,6 +36,14 @@ struct Paths {
   const double* radius;
 };
 
+Paths paths_of(const Grains& g) {
+  return {.x = g.x.data(),
+          .y = g.y.data(),
+          .ux = g.ux.data(),
+          .uy = g.uy.data(),
+          .radius = g.radius.data()};
+}
+
 /// Some pairs: slots, steps since the courses were set, and how far the two may be from them
 /// together (m).
 struct Lanes {
@@ -81,7 +89,57 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const Lanes& pairs, Paths c, Kinematics 
   }
 }
 
+struct Horizon {
+  double metre_x, metre_y;
+  double steps;
+  double tolerance;
+};
+
+/// Sets flags[k] if pair k of these may touch.
+RIESEL_VECTOR_KERNEL void sift_lanes(const std::uint32_t* first, const std::uint32_t* second,
+                                     std::size_t count, Paths c, Horizon h, std::int64_t* flags) {
+#pragma omp simd
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int64_t i = first[k], j = second[k];
+    const double x = real(wrapped_difference(c.x[j], c.x[i])) * h.metre_x;
+    const double y = real(wrapped_difference(c.y[j], c.y[i])) * h.metre_y;
+    const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * h.metre_x;
+    const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * h.metre_y;
+    const double reach = (c.radius[i] + c.radius[j]) * generous + 2.0 * h.tolerance;
+    // The square of the distance after s steps is reach^2 + apart - 2 closing s + speed2 s^2.
+    const double apart = x * x + y * y - reach * reach;
+    const double closing = -(x * ux + y * uy);
+    const double speed2 = ux * ux + uy * uy;
+    const double at_horizon = apart - (2.0 * closing - speed2 * h.steps) * h.steps;
+    const bool passes = closing > 0.0 && closing * closing > speed2 * apart;
+    const bool in_time = closing < speed2 * h.steps || at_horizon < 0.0;
+    flags[k] = apart <= 0.0 || (passes && in_time) ? 1 : 0;
+  }
+}
+
 }  // namespace
+
+void sift(const Slice& slice, PairRange range, const State& state, std::int64_t steps,
+          double tolerance, std::vector<std::uint32_t>& may_touch) {
+  constexpr std::size_t at_a_time = 256;
+  alignas(cache_line) std::array<std::int64_t, at_a_time> flags;
+  const Horizon horizon{.metre_x = state.box.quantum_x(),
+                        .metre_y = state.box.quantum_y(),
+                        .steps = static_cast<double>(steps + 1) * generous,
+                        .tolerance = tolerance};
+  may_touch.resize(range.end - range.begin);
+  std::size_t found = 0;
+  for (std::size_t begin = range.begin; begin < range.end; begin += at_a_time) {
+    const std::size_t count = std::min(at_a_time, range.end - begin);
+    sift_lanes(&slice.pairs.first[begin], &slice.pairs.second[begin], count, paths_of(state.grains),
+               horizon, flags.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      may_touch[found] = static_cast<std::uint32_t>(begin + k);
+      found += static_cast<std::size_t>(flags[k]);
+    }
+  }
+  may_touch.resize(found);
+}
 
 void foresee(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result) {
@@ -90,20 +148,13 @@ void foresee(const Slice& slice, std::span<const std::uint32_t> which, const Sta
     result.free_steps.resize(2 * room);
     result.exact.resize(2 * room);
   }
-  const Grains& g = state.grains;
-  const Paths paths{.x = g.x.data(),
-                    .y = g.y.data(),
-                    .ux = g.ux.data(),
-                    .uy = g.uy.data(),
-                    .radius = g.radius.data()};
+  const Paths paths = paths_of(state.grains);
   const Kinematics kinematics{.metre_x = state.box.quantum_x(),
                               .metre_y = state.box.quantum_y(),
                               .fall = courses.fall(),
                               .now = now,
                               .tolerance = tolerance};
-  const std::array strays{0.0, tolerance, 2.0 * tolerance};
   const std::int64_t since_sorted = now - courses.sorted_at();
-  const std::size_t begin = slice.begin, own = slice.end - slice.begin;
   Lanes pairs{};
   for (std::size_t block = 0; block < which.size(); block += lanes) {
     for (std::size_t lane = 0; lane < std::min(lanes, which.size() - block); ++lane) {
@@ -113,9 +164,7 @@ void foresee(const Slice& slice, std::span<const std::uint32_t> which, const Sta
       pairs.second[lane] = j;
       pairs.steps_first[lane] = since_sorted - courses.since(i);
       pairs.steps_second[lane] = since_sorted - courses.since(j);
-      // Whether a foreign grain is deflected is for its own slice to know.
-      const bool second_may_stray = j - begin >= own || courses.deflected(j);
-      pairs.stray[lane] = strays[(courses.deflected(i) ? 1U : 0U) + (second_may_stray ? 1U : 0U)];
+      pairs.stray[lane] = strays_of_pair(slice, courses, pair) * tolerance;
     }
     foresee_lanes(pairs, paths, kinematics, &result.free_steps[block], &result.exact[block]);
   }

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace riesel {
 
@@ -34,11 +35,30 @@ struct Forecast {
   }
 };
 
+/// How many grains of a pair may be off their courses. Whether a second grain that is not in the
+/// slice is deflected is not known here.
+inline int strays_of_pair(const Slice& slice, const Courses& courses, std::uint32_t pair) {
+  const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
+  return (courses.deflected(i) ? 1 : 0) + (!slice.owns(j) || courses.deflected(j) ? 1 : 0);
+}
+
 /// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on.
 /// A deflected grain may be off its course by `tolerance` (m). Where there is time enough, all
 /// grains are granted as much, deflected or not, so that the answer outlives the beginning of
-/// contacts. A second grain that is not in the slice may be deflected without notice.
+/// contacts.
 void foresee(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result);
+
+/// Indices of candidate pairs.
+struct PairRange {
+  std::size_t begin, end;
+};
+
+/// Those of the pairs that may touch within `steps` replace those in `may_touch`; none is
+/// overlooked as long as no grain is farther than `tolerance` (m) from its course. All courses have
+/// just been set. Most pairs that have just been listed stay apart until they are listed again, and
+/// to know that takes less than to know when they touch.
+void sift(const Slice& slice, PairRange range, const State& state, std::int64_t steps,
+          double tolerance, std::vector<std::uint32_t>& may_touch);
 
 }  // namespace riesel

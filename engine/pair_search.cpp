@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace riesel {
 
@@ -39,21 +37,6 @@ struct PairBlock {
   return any != 0;
 }
 
-/// Calls visit(k) for the nonzero results k < count; most words of results are zero. What stands
-/// between count and the next multiple of 8 is read.
-template <class Visit>
-[[gnu::always_inline]] inline void for_each_set(const std::uint8_t* result, std::size_t count,
-                                                Visit visit) {
-  for (std::size_t word = 0; word < count; word += sizeof(std::uint64_t)) {
-    std::uint64_t bytes = 0;
-    std::memcpy(&bytes, result + word, sizeof bytes);
-    for (; bytes != 0; bytes &= bytes - 1) {
-      const std::size_t k = word + static_cast<std::size_t>(std::countr_zero(bytes)) / 8;
-      if (k < count) visit(k);
-    }
-  }
-}
-
 RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
                                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
   hits.clear();
@@ -71,14 +54,16 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
   }
 }
 
-/// Appends those of the slots that are close to grain i, a vector of slots at a time.
-[[gnu::always_inline]] inline void find_close_in(SlotRange range, std::size_t i,
-                                                 const CoarsePositions& positions,
-                                                 CoarseUnits units, float farthest2,
-                                                 std::vector<SlotPair>& close) {
+/// Writes the pairs of grain i with those of the slots that are close to it to `close`, where there
+/// must be room for one more than all; returns their number. A vector of slots is tested at a time.
+[[gnu::always_inline]] inline std::size_t find_close_in(SlotRange range, std::size_t i,
+                                                        const CoarsePositions& positions,
+                                                        CoarseUnits units, float farthest2,
+                                                        SlotPair* close) {
   constexpr std::size_t lanes = CoarsePositions::padding;
   const std::int32_t *x = positions.x.data(), *y = positions.y.data();
   const std::int32_t x_i = x[i], y_i = y[i];
+  std::size_t found = 0;
   alignas(cache_line) std::array<std::uint8_t, lanes> result{};
   for (std::size_t j = range.begin; j < range.end; j += lanes) {
 #pragma omp simd
@@ -88,19 +73,25 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
       result[lane] = dx * dx + dy * dy < farthest2;
     }
     const std::size_t count = std::min(lanes, range.end - j);
-    for_each_set(result.data(), count, [&](std::size_t lane) {
-      close.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j + lane)});
-    });
+    // Every pair is written, and the next one over it unless it counts: no branch to guess.
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      close[found] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j + lane)};
+      found += result[lane];
+    }
   }
+  return found;
 }
 
 RIESEL_VECTOR_KERNEL void find_close_pairs(const Cells& cells, SlotRange slots,
                                            const CoarsePositions& positions, CoarseUnits units,
                                            float farthest2, std::vector<SlotPair>& close) {
-  close.clear();
+  std::size_t found = 0;
   for (std::size_t i = slots.begin; i < slots.end; ++i)
-    cells.for_each_later_range(
-        i, [&](SlotRange range) { find_close_in(range, i, positions, units, farthest2, close); });
+    cells.for_each_later_range(i, [&](SlotRange range) {
+      if (close.size() <= found + range.size()) close.resize(2 * (found + range.size()) + 1);
+      found += find_close_in(range, i, positions, units, farthest2, &close[found]);
+    });
+  close.resize(found);
 }
 
 /// Those that touch the strip in which the wall is at any time.

@@ -1,0 +1,123 @@
+#include "engine/close_watch.hpp"
+
+#include "engine/vector_kernel.hpp"
+
+#include <algorithm>
+
+namespace riesel {
+
+namespace {
+
+struct Watched {
+  std::array<const std::int64_t*, 2> slot, place;
+  Fixed *x, *y;
+  const Fixed *ux, *uy;
+  const double *reach2, *far2;
+  std::int64_t *flags, *block_flags;
+};
+
+/// Sets the flags of the pairs that are due, and those of blocks that have such a pair. The second
+/// grains go on along their courses.
+template <std::size_t lanes>
+RIESEL_VECTOR_KERNEL void watch_lanes(std::size_t count, Watched w, const std::int32_t* place_now,
+                                      const Fixed* deflected_x, const Fixed* deflected_y,
+                                      Fall fallen, double metre_x, double metre_y) {
+  for (std::size_t block = 0; block < count; block += lanes) {
+    std::int64_t any = 0;
+#pragma omp simd reduction(| : any)
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::size_t k = block + lane;
+      const std::int64_t first = w.place[0][k], second = w.place[1][k];
+      const std::int64_t elsewhere =
+          (place_now[w.slot[0][k]] - first) | (place_now[w.slot[1][k]] - second);
+      w.x[k] = wrapped_sum(w.x[k], wrapped_sum(w.ux[k], fallen.x));
+      w.y[k] = wrapped_sum(w.y[k], wrapped_sum(w.uy[k], fallen.y));
+      const std::int64_t second_or_any = second < 0 ? 0 : second;
+      const Fixed x = second < 0 ? w.x[k] : deflected_x[second_or_any];
+      const Fixed y = second < 0 ? w.y[k] : deflected_y[second_or_any];
+      const double dx = real(wrapped_difference(x, deflected_x[first])) * metre_x;
+      const double dy = real(wrapped_difference(y, deflected_y[first])) * metre_y;
+      const double distance2 = dx * dx + dy * dy;
+      const bool due = distance2 < w.reach2[k] || distance2 > w.far2[k] || elsewhere != 0;
+      w.flags[k] = due ? 1 : 0;
+      any |= due ? 1 : 0;
+    }
+    w.block_flags[block / lanes] = any;
+  }
+}
+
+}  // namespace
+
+template <class Visit>
+void CloseWatch::for_each_column(Visit visit) {
+  Columns& c = columns_;
+  for (auto* both : {&c.slot, &c.place})
+    for (auto& column : *both) visit(column);
+  for (auto* column : {&c.x, &c.y, &c.ux, &c.uy, &c.flags}) visit(*column);
+  for (auto* column : {&c.reach2, &c.far2}) visit(*column);
+}
+
+void CloseWatch::clear() { pairs_.clear(); }
+
+void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach,
+                     double far, std::int64_t step) {
+  const std::size_t i = pairs_.size();
+  pairs_.push_back(pair);
+  const std::size_t room = (i / lanes + 1) * lanes;
+  if (columns_.x.size() < room) {
+    for_each_column([room](auto& column) { column.resize(2 * room); });
+    block_flags_.resize(2 * room / lanes);
+  }
+  columns_.slot[0][i] = first;
+  columns_.slot[1][i] = second;
+  columns_.place[0][i] = courses_.place(first);
+  columns_.place[1][i] = courses_.place(second);
+  const Motion on_course = courses_.motion(second, step);
+  columns_.x[i] = on_course.x;
+  columns_.y[i] = on_course.y;
+  columns_.ux[i] = on_course.ux;
+  columns_.uy[i] = on_course.uy;
+  columns_.reach2[i] = reach * reach;
+  columns_.far2[i] = far * far;
+}
+
+void CloseWatch::remove(std::size_t i) {
+  const std::size_t last = pairs_.size() - 1;
+  pairs_[i] = pairs_[last];
+  pairs_.pop_back();
+  for_each_column([i, last](auto& column) { column[i] = column[last]; });
+}
+
+const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
+                                                     const DeflectedGrains& deflected) {
+  due_.clear();
+  if (pairs_.empty()) return due_;
+  const std::size_t count = (pairs_.size() + lanes - 1) / lanes * lanes;
+  Columns& c = columns_;
+  const Bodies bodies = deflected.bodies();
+  watch_lanes<lanes>(count,
+                     {.slot = {c.slot[0].data(), c.slot[1].data()},
+                      .place = {c.place[0].data(), c.place[1].data()},
+                      .x = c.x.data(),
+                      .y = c.y.data(),
+                      .ux = c.ux.data(),
+                      .uy = c.uy.data(),
+                      .reach2 = c.reach2.data(),
+                      .far2 = c.far2.data(),
+                      .flags = c.flags.data(),
+                      .block_flags = block_flags_.data()},
+                     courses_.places(), bodies.x, bodies.y, units.fallen, units.metre_x,
+                     units.metre_y);
+  // From the end, as the last pair takes the place of the one that goes.
+  for (std::size_t block = count; block > 0; block -= lanes) {
+    if (block_flags_[block / lanes - 1] == 0) continue;
+    for (std::size_t i = std::min(block, pairs_.size()); i > block - lanes; --i) {
+      if (c.flags[i - 1] == 0) continue;
+      due_.push_back(pairs_[i - 1]);
+      remove(i - 1);
+    }
+  }
+  return due_;
+}
+
+}  // namespace riesel
