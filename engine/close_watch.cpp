@@ -57,7 +57,11 @@ void CloseWatch::for_each_column(Visit visit) {
   for (auto* column : {&c.reach2, &c.far2}) visit(*column);
 }
 
-void CloseWatch::clear() { pairs_.clear(); }
+void CloseWatch::start_over(std::uint32_t own_slot) {
+  pairs_.clear();
+  own_slot_ = own_slot;
+  for (auto& slots : columns_.slot) std::fill(slots.begin(), slots.end(), own_slot);
+}
 
 void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach,
                      double far, std::int64_t step) {
@@ -65,6 +69,7 @@ void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t seco
   pairs_.push_back(pair);
   const std::size_t room = (i / lanes + 1) * lanes;
   if (columns_.x.size() < room) {
+    for (auto& slots : columns_.slot) slots.resize(2 * room, own_slot_);
     for_each_column([room](auto& column) { column.resize(2 * room); });
     block_flags_.resize(2 * room / lanes);
   }

@@ -20,7 +20,8 @@ public:
   /// Keeps the reference.
   explicit CloseWatch(const Courses& courses) : courses_(courses) {}
 
-  void clear();
+  /// Watches no pairs any more. From now on those of a slice to which `own_slot` belongs.
+  void start_over(std::uint32_t own_slot);
 
   /// Watches a pair from the next step on. `first` is deflected, `second` may be; `reach` is the
   /// sum of the radii, and beyond a distance of `far` the pair is let go (m).
@@ -48,7 +49,8 @@ private:
 
   const Courses& courses_;
   std::vector<std::uint32_t> pairs_;
-  Columns columns_;  // padded to whole vectors
+  std::uint32_t own_slot_ = 0;  // for the padding: other slots others may be writing to
+  Columns columns_;             // padded to whole vectors
   AlignedVector<std::int64_t> block_flags_;
   std::vector<std::uint32_t> due_;
 };

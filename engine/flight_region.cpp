@@ -107,7 +107,7 @@ void FlightRegion::begin(std::int64_t step, std::int64_t earliest) {
   let_go_.clear();
   border_.list_foreign();
   appointments_.start_over();
-  close_watch_.clear();
+  close_watch_.start_over(static_cast<std::uint32_t>(slice_.begin));
   airspace_.barrier.arrive_and_wait();
 
   border_.list_border();

@@ -36,7 +36,7 @@ class Flights {
 public:
   /// A skin that serves flights, as a part of the mean diameter: pairs far apart cost no more than
   /// an appointment.
-  static constexpr double skin_per_diameter = 0.7;
+  static constexpr double skin_per_diameter = 0.65;
 
   /// Nobody else uses the candidates afterwards. Keeps references.
   Flights(State& state, const ContactModel& model, Candidates& candidates)
