@@ -3,12 +3,15 @@
 #include "bench/memory.hpp"
 #include "bench/timing.hpp"
 #include "engine/observables.hpp"
+#include "engine/team_barrier.hpp"
 #include "io/checkpoint.hpp"
 #include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace riesel::bench {
 
@@ -105,6 +108,25 @@ void start_up(const std::string& case_name, const std::string& size, int threads
     memory = memory_since(before, grains);
   });
   print({{"grains", grains}, {"threads", threads}, {"seconds", seconds}, {"memory", memory}});
+}
+
+void barrier(int threads) {
+  constexpr int spells = 200, rounds = 20'000;
+  TeamBarrier team(threads);
+  Timing timing;
+  for (int spell = 0; spell < spells; ++spell)
+    timing.seconds.push_back(seconds_of([&] {
+#pragma omp parallel num_threads(threads)
+      for (int round = 0; round < rounds; ++round) team.arrive_and_wait();
+    }));
+  std::sort(timing.seconds.begin(), timing.seconds.end());
+  const auto ns = [](double seconds) { return 1e9 * seconds / rounds; };
+  print({{"threads", threads},
+         {"spells", spells},
+         {"ns_per_barrier",
+          {{"least", ns(timing.least())},
+           {"median", ns(timing.median())},
+           {"most", ns(timing.seconds.back())}}}});
 }
 
 }  // namespace riesel::bench

@@ -27,4 +27,8 @@ void advance(const AdvanceOptions& options);
 /// From the settings of a fresh tube to its first step: what it took, and the memory.
 void start_up(const std::string& case_name, const std::string& size, int threads);
 
+/// Threads that do nothing but wait for each other, as they do twice in each step: ns per barrier,
+/// in many short spells, as it changes from one second to the next.
+void barrier(int threads);
+
 }  // namespace riesel::bench

@@ -32,12 +32,14 @@ struct Contender {
 /// machines can be compared. At least as many as lie between several sortings, but for the largest.
 struct Plan {
   std::int64_t warm_up, steps;
+  std::int64_t settling;  ///< in which `automatic` tries each way for 20 million particle-steps
   int repetitions;
 
   Plan(const FlowCase& one, const Effort& effort, double grains)
       : warm_up(std::llround(std::clamp(2e6 / grains, 20.0, 1000.0))),
         steps(
             std::llround(std::max(one.work * effort.work / grains, grains > 2e6 ? 100.0 : 200.0))),
+        settling(std::llround(1.6e8 / grains)),
         repetitions(std::min(effort.repetitions, grains > 2e6   ? 2
                                                  : grains > 5e5 ? 3
                                                                 : 5)) {}
@@ -62,7 +64,9 @@ public:
         grains_(start_.state.grains.size()),
         plan_(one, effort, static_cast<double>(grains_)),
         reference_(start_.state, model_) {
-    for (const Variant& variant : timed_variants()) contenders_.push_back(warmed_up(variant));
+    for (const Variant& variant : timed_variants())
+      contenders_.push_back(variant.stepping == Stepping::automatic ? chosen(variant)
+                                                                    : warmed_up(variant));
     reference_.advance(plan_.warm_up);
   }
 
@@ -84,9 +88,18 @@ public:
   }
 
 private:
+  /// What the choice by the clock comes to, measured over the same steps as all others.
+  Contender chosen(const Variant& variant) const {
+    Simulation trial(start_.state, model_, useful_threads(grains_), Stepping::automatic);
+    trial.advance(plan_.settling);
+    const Way way = trial.preferred_way();
+    return warmed_up({.name = variant.name,
+                      .stepping = way.by_flights ? Stepping::windows : Stepping::plain,
+                      .threads = way.threads});
+  }
+
   Contender warmed_up(const Variant& variant) const {
     Contender contender{.variant = variant, .simulation = {}};
-    if (variant.threads == 0) contender.variant.threads = useful_threads(grains_);
     contender.simulation = std::make_unique<Simulation>(
         start_.state, model_, contender.variant.threads, variant.stepping);
     contender.simulation->advance(plan_.warm_up);

@@ -160,6 +160,7 @@ public:
     add_state();
     add_advance();
     add_start_up();
+    add_barrier();
   }
 
   CLI::App& program() { return program_; }
@@ -208,6 +209,17 @@ private:
     command.callback([this] {
       command_ = [this] {
         start_up(case_, size_, threads_);
+        return 0;
+      };
+    });
+  }
+
+  void add_barrier() {
+    CLI::App& command = *program_.add_subcommand("barrier", "What waiting for each other takes");
+    command.add_option("--threads", threads_, "2 if not given")->check(CLI::PositiveNumber);
+    command.callback([this] {
+      command_ = [this] {
+        barrier(threads_ > 0 ? threads_ : 2);
         return 0;
       };
     });

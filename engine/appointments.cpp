@@ -143,19 +143,22 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
   }
 }
 
+/// Pairs that are in contact or watched have none.
+bool Appointments::needs_appointment(std::uint32_t pair) const {
+  const bool in_contact = slice_.pairs.reach2[pair] < 0.0F;
+  return !in_contact && !due_[pair].is_for(Appointment::always);
+}
+
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
   const Period period{.now = now, .earliest = earliest, .latest = std::max(hold_until, earliest)};
+  std::erase_if(pairs_, [this](std::uint32_t pair) { return !needs_appointment(pair); });
   for (std::size_t begin = 0; begin < pairs_.size(); begin += appointments_at_a_time) {
     const auto some = std::span(pairs_).subspan(
         begin, std::min<std::size_t>(appointments_at_a_time, pairs_.size() - begin));
     foresee(slice_, some, state_, courses_, now, tolerance_, forecast_);
-    for (std::size_t k = 0; k < some.size(); ++k) {
-      const std::uint32_t pair = some[k];
-      const bool in_contact = slice_.pairs.reach2[pair] < 0.0F;
-      if (in_contact || due_[pair].is_for(Appointment::always)) continue;
-      enter(pair, forecast_.free_steps[k], forecast_.exact[k] != 0, period);
-    }
+    for (std::size_t k = 0; k < some.size(); ++k)
+      enter(some[k], forecast_.free_steps[k], forecast_.exact[k] != 0, period);
   }
   for (const std::uint32_t near_wall : near_walls_) {
     const double steps = free_steps_at_wall(slice_.near_walls[near_wall], now);
@@ -166,7 +169,7 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
 }
 
 void Appointments::make_for_next_step(std::uint32_t pair, std::int64_t now, int strays) {
-  enter(pair, 1, strays < 2, {.now = now, .earliest = now + 1, .latest = now + 1});
+  enter(pair, 1, is_exact(strays), {.now = now, .earliest = now + 1, .latest = now + 1});
 }
 
 /// A step farther away than the calendar knows is moved closer: then the candidate is looked at

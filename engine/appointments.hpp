@@ -87,6 +87,7 @@ private:
   template <class Visit>
   void for_each_candidate_of(std::uint32_t slot, Visit visit) const;
   void reconsider_candidate(std::uint32_t candidate);
+  bool needs_appointment(std::uint32_t pair) const;
   struct Period {
     std::int64_t now, earliest, latest;  // steps
   };

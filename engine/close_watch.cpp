@@ -53,7 +53,7 @@ void CloseWatch::for_each_column(Visit visit) {
   Columns& c = columns_;
   for (auto* both : {&c.slot, &c.place})
     for (auto& column : *both) visit(column);
-  for (auto* column : {&c.x, &c.y, &c.ux, &c.uy, &c.flags}) visit(*column);
+  for (auto* column : {&c.x, &c.y, &c.ux, &c.uy}) visit(*column);
   for (auto* column : {&c.reach2, &c.far2}) visit(*column);
 }
 
@@ -67,11 +67,11 @@ void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t seco
                      double far, std::int64_t step) {
   const std::size_t i = pairs_.size();
   pairs_.push_back(pair);
-  const std::size_t room = (i / lanes + 1) * lanes;
+  const std::size_t room = LaneFlags::padded(pairs_.size());
   if (columns_.x.size() < room) {
     for (auto& slots : columns_.slot) slots.resize(2 * room, own_slot_);
     for_each_column([room](auto& column) { column.resize(2 * room); });
-    block_flags_.resize(2 * room / lanes);
+    are_due_.resize(2 * room);
   }
   columns_.slot[0][i] = first;
   columns_.slot[1][i] = second;
@@ -97,30 +97,29 @@ const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
                                                      const DeflectedGrains& deflected) {
   due_.clear();
   if (pairs_.empty()) return due_;
-  const std::size_t count = (pairs_.size() + lanes - 1) / lanes * lanes;
   Columns& c = columns_;
   const Bodies bodies = deflected.bodies();
-  watch_lanes<lanes>(count,
-                     {.slot = {c.slot[0].data(), c.slot[1].data()},
-                      .place = {c.place[0].data(), c.place[1].data()},
-                      .x = c.x.data(),
-                      .y = c.y.data(),
-                      .ux = c.ux.data(),
-                      .uy = c.uy.data(),
-                      .reach2 = c.reach2.data(),
-                      .far2 = c.far2.data(),
-                      .flags = c.flags.data(),
-                      .block_flags = block_flags_.data()},
-                     courses_.places(), bodies.x, bodies.y, units.fallen, units.metre_x,
-                     units.metre_y);
+  watch_lanes<LaneFlags::lanes>(LaneFlags::padded(pairs_.size()),
+                                {.slot = {c.slot[0].data(), c.slot[1].data()},
+                                 .place = {c.place[0].data(), c.place[1].data()},
+                                 .x = c.x.data(),
+                                 .y = c.y.data(),
+                                 .ux = c.ux.data(),
+                                 .uy = c.uy.data(),
+                                 .reach2 = c.reach2.data(),
+                                 .far2 = c.far2.data(),
+                                 .flags = are_due_.of_lanes.data(),
+                                 .block_flags = are_due_.of_blocks.data()},
+                                courses_.places(), bodies.x, bodies.y, units.fallen, units.metre_x,
+                                units.metre_y);
+  leaving_.clear();
+  are_due_.for_each_set(pairs_.size(),
+                        [this](std::size_t i, std::int64_t) { leaving_.push_back(i); });
   // From the end, as the last pair takes the place of the one that goes.
-  for (std::size_t block = count; block > 0; block -= lanes) {
-    if (block_flags_[block / lanes - 1] == 0) continue;
-    for (std::size_t i = std::min(block, pairs_.size()); i > block - lanes; --i) {
-      if (c.flags[i - 1] == 0) continue;
-      due_.push_back(pairs_[i - 1]);
-      remove(i - 1);
-    }
+  std::reverse(leaving_.begin(), leaving_.end());
+  for (const std::size_t i : leaving_) {
+    due_.push_back(pairs_[i]);
+    remove(i);
   }
   return due_;
 }

@@ -7,6 +7,7 @@
 #include "engine/deflected_grains.hpp"
 #include "engine/encounter.hpp"
 #include "engine/fixed_point.hpp"
+#include "engine/lane_flags.hpp"
 
 #include <array>
 #include <cstddef>
@@ -34,14 +35,11 @@ public:
                                            const DeflectedGrains& deflected);
 
 private:
-  static constexpr std::size_t lanes = 8;
-
   /// The grains of the pairs, and where the second is if it flies.
   struct Columns {
     std::array<AlignedVector<std::int64_t>, 2> slot, place;
     AlignedVector<Fixed> x, y, ux, uy;
     AlignedVector<double> reach2, far2;  // m^2
-    AlignedVector<std::int64_t> flags;   // of the last step
   };
   template <class Visit>
   void for_each_column(Visit visit);
@@ -50,8 +48,9 @@ private:
   const Courses& courses_;
   std::vector<std::uint32_t> pairs_;
   std::uint32_t own_slot_ = 0;  // for the padding: other slots others may be writing to
-  Columns columns_;             // padded to whole vectors
-  AlignedVector<std::int64_t> block_flags_;
+  Columns columns_;             // padded to whole blocks
+  LaneFlags are_due_;           // in the last step
+  std::vector<std::size_t> leaving_;
   std::vector<std::uint32_t> due_;
 };
 

@@ -59,12 +59,11 @@ DeflectedGrains::Place DeflectedGrains::take(std::uint32_t slot, const Motion& m
     free_.push_back(end());
     slots_.push_back(no_slot);
     contacts_.push_back(0);
-    if (strays_.size() < padded_size()) {
+    if (columns_[at_x].size() < padded_size()) {
       for (auto& column : columns_) column.resize(2 * padded_size());
       if (rotate())
         for (auto* column : {&spin_, &spin_kick_}) column->resize(2 * padded_size());
       strays_.resize(2 * padded_size());
-      stray_blocks_.resize(2 * padded_size() / lanes);
     }
   }
   const Place place = free_.back();
@@ -123,10 +122,10 @@ Bodies DeflectedGrains::bodies() const {
 
 void DeflectedGrains::move(const Fall& fallen) {
   auto& c = columns_;
-  move_lanes<lanes>(padded_size(), fallen.x, c[at_kick_x].data(), c[at_ux].data(), c[at_x].data(),
-                    c[off_ux].data(), c[off_x].data());
-  move_lanes<lanes>(padded_size(), fallen.y, c[at_kick_y].data(), c[at_uy].data(), c[at_y].data(),
-                    c[off_uy].data(), c[off_y].data());
+  move_lanes<LaneFlags::lanes>(padded_size(), fallen.x, c[at_kick_x].data(), c[at_ux].data(),
+                               c[at_x].data(), c[off_ux].data(), c[off_x].data());
+  move_lanes<LaneFlags::lanes>(padded_size(), fallen.y, c[at_kick_y].data(), c[at_uy].data(),
+                               c[at_y].data(), c[off_uy].data(), c[off_y].data());
   for (std::size_t i = 0; i < spin_.size(); ++i) spin_[i] = wrapped_sum(spin_[i], spin_kick_[i]);
 }
 
@@ -146,22 +145,20 @@ void DeflectedGrains::set_course(Place place) {
 const std::vector<DeflectedGrains::Place>& DeflectedGrains::straying(Fixed tolerance_x,
                                                                      Fixed tolerance_y) {
   const auto& c = columns_;
-  flag_strays<lanes>(padded_size(),
-                     {.kick = c[at_kick_x].data(),
-                      .off_u = c[off_ux].data(),
-                      .off = c[off_x].data(),
-                      .tolerance = tolerance_x},
-                     {.kick = c[at_kick_y].data(),
-                      .off_u = c[off_uy].data(),
-                      .off = c[off_y].data(),
-                      .tolerance = tolerance_y},
-                     strays_.data(), stray_blocks_.data());
+  flag_strays<LaneFlags::lanes>(padded_size(),
+                                {.kick = c[at_kick_x].data(),
+                                 .off_u = c[off_ux].data(),
+                                 .off = c[off_x].data(),
+                                 .tolerance = tolerance_x},
+                                {.kick = c[at_kick_y].data(),
+                                 .off_u = c[off_uy].data(),
+                                 .off = c[off_y].data(),
+                                 .tolerance = tolerance_y},
+                                strays_.of_lanes.data(), strays_.of_blocks.data());
   straying_.clear();
-  for (std::size_t block = 0; block < padded_size(); block += lanes) {
-    if (stray_blocks_[block / lanes] == 0) continue;
-    for (std::size_t place = block; place < block + lanes; ++place)
-      if (strays_[place] != 0) straying_.push_back(static_cast<Place>(place));
-  }
+  strays_.for_each_set(end(), [this](std::size_t place, std::int64_t) {
+    straying_.push_back(static_cast<Place>(place));
+  });
   return straying_;
 }
 

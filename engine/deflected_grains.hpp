@@ -8,6 +8,7 @@
 #include "engine/courses.hpp"
 #include "engine/encounter.hpp"
 #include "engine/fixed_point.hpp"
+#include "engine/lane_flags.hpp"
 
 #include <array>
 #include <cstddef>
@@ -60,7 +61,6 @@ public:
 
 private:
   static constexpr std::uint32_t no_slot = UINT32_MAX;
-  static constexpr std::size_t lanes = 8;
   /// off_...: actual minus course.
   enum Column {
     at_x,
@@ -77,12 +77,12 @@ private:
   };
 
   bool rotate() const { return inertia_ > 0.0; }
-  std::size_t padded_size() const { return (slots_.size() + lanes - 1) / lanes * lanes; }
+  std::size_t padded_size() const { return LaneFlags::padded(slots_.size()); }
 
   std::vector<std::uint32_t> slots_;
   std::vector<std::int32_t> contacts_;
   std::array<AlignedVector<Fixed>, column_count> columns_;  // free places and padding: motionless
-  AlignedVector<std::int64_t> strays_, stray_blocks_;  // flags, of places and of `lanes` places
+  LaneFlags strays_;                                        // of places
   std::vector<Place> free_, straying_;
   const double inertia_;
   AlignedVector<Fixed> spin_, spin_kick_;  // as columns_; empty if grains do not rotate

@@ -44,12 +44,12 @@ Paths paths_of(const Grains& g) {
           .radius = g.radius.data()};
 }
 
-/// Some pairs: slots, steps since the courses were set, and how far the two may be from them
-/// together (m).
+/// Some pairs: slots, steps since the courses were set, how far the two may be from them together
+/// (m), and whether they may go farther when one more is deflected.
 struct Lanes {
   using Integers = std::array<std::int64_t, lanes>;
 
-  alignas(cache_line) Integers first, second, steps_first, steps_second;
+  alignas(cache_line) Integers first, second, steps_first, steps_second, exact;
   std::array<double, lanes> stray;
 };
 
@@ -80,11 +80,10 @@ RIESEL_VECTOR_KERNEL void foresee_lanes(const Lanes& pairs, Paths c, Kinematics 
     const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * k.metre_x;
     const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * k.metre_y;
     const double reach = (c.radius[i] + c.radius[j]) * generous;
-    const double stray = pairs.stray[lane];
-    const double patient = first_touch(x, y, ux, uy, reach + 2.0 * k.tolerance);
-    const double closer = first_touch(x, y, ux, uy, reach + stray);
+    const double patient = first_touch(x, y, ux, uy, reach + most_strays * k.tolerance);
+    const double closer = first_touch(x, y, ux, uy, reach + pairs.stray[lane]);
     free_steps[lane] = Forecast::whole_steps((patient >= few_steps ? patient : closer) * cautious);
-    const std::int64_t is_exact = stray >= 2.0 * k.tolerance ? 0 : 1;
+    const std::int64_t is_exact = pairs.exact[lane];
     exact[lane] = patient >= few_steps ? 0 : is_exact;
   }
 }
@@ -105,7 +104,7 @@ RIESEL_VECTOR_KERNEL void sift_lanes(const std::uint32_t* first, const std::uint
     const double y = real(wrapped_difference(c.y[j], c.y[i])) * h.metre_y;
     const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * h.metre_x;
     const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * h.metre_y;
-    const double reach = (c.radius[i] + c.radius[j]) * generous + 2.0 * h.tolerance;
+    const double reach = (c.radius[i] + c.radius[j]) * generous + most_strays * h.tolerance;
     // The square of the distance after s steps is reach^2 + apart - 2 closing s + speed2 s^2.
     const double apart = x * x + y * y - reach * reach;
     const double closing = -(x * ux + y * uy);
@@ -164,7 +163,9 @@ void foresee(const Slice& slice, std::span<const std::uint32_t> which, const Sta
       pairs.second[lane] = j;
       pairs.steps_first[lane] = since_sorted - courses.since(i);
       pairs.steps_second[lane] = since_sorted - courses.since(j);
-      pairs.stray[lane] = strays_of_pair(slice, courses, pair) * tolerance;
+      const int strays = strays_of_pair(slice, courses, pair);
+      pairs.stray[lane] = strays * tolerance;
+      pairs.exact[lane] = is_exact(strays) ? 1 : 0;
     }
     foresee_lanes(pairs, paths, kinematics, &result.free_steps[block], &result.exact[block]);
   }

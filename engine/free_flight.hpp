@@ -35,12 +35,19 @@ struct Forecast {
   }
 };
 
+/// The most grains of a pair that may be off their courses.
+inline constexpr int most_strays = 2;
+
 /// How many grains of a pair may be off their courses. Whether a second grain that is not in the
 /// slice is deflected is not known here.
 inline int strays_of_pair(const Slice& slice, const Courses& courses, std::uint32_t pair) {
   const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
   return (courses.deflected(i) ? 1 : 0) + (!slice.owns(j) || courses.deflected(j) ? 1 : 0);
 }
+
+/// Whether what is foreseen for a pair with so many strays holds only as long as no other grain of
+/// it is deflected.
+inline bool is_exact(int strays) { return strays < most_strays; }
 
 /// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on.
 /// A deflected grain may be off its course by `tolerance` (m). Where there is time enough, all

@@ -245,8 +245,8 @@ LiveContacts::Columns LiveContacts::columns() {
             .kick = {},
             .radius = {radius_[0].data(), radius_[1].data()},
             .spin_kick = {spin_kick_[0].data(), spin_kick_[1].data()},
-            .flags = flags_.data(),
-            .block_flags = block_flags_.data()};
+            .flags = found_.of_lanes.data(),
+            .block_flags = found_.of_blocks.data()};
   const auto data = [](auto& a) { return a.data(); };
   std::transform(wall_point_.begin(), wall_point_.end(), c.wall.begin(), data);
   std::transform(life_.begin(), life_.end(), c.life.begin(), data);
@@ -274,7 +274,6 @@ void LiveContacts::for_each_array(Visit visit) {
   for (auto& a : per_mass_) visit(a);
   for (std::size_t m = 0; m < poor_life_members; ++m) visit(life_[m]);
   for (auto& a : kick_) visit(a);
-  visit(flags_);
   if (!rich_) return;
   for (std::size_t m = poor_life_members; m < life_members; ++m) visit(life_[m]);
   for (auto& a : radius_) visit(a);
@@ -311,12 +310,12 @@ void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
   }
 }
 
-/// Room for whole vectors; what is beyond size() is zero.
+/// Room for whole blocks; what is beyond size() is zero.
 void LiveContacts::pad() {
-  const std::size_t room = (size() / lanes + 1) * lanes;
+  const std::size_t room = LaneFlags::padded(size());
   if (reach_.size() >= room) return;
   for_each_array([&](auto& a) { a.resize(2 * room); });
-  block_flags_.resize(2 * room / lanes);
+  found_.resize(2 * room);
 }
 
 void LiveContacts::clear() {
@@ -374,8 +373,9 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
     c.life[RIESEL_LIFE(entry_slip)][i] = t.centre_slip;
   }
   beginning_ = 0;
-  step_lanes<partner, Turn, lanes>(c, (size() + lanes - 1) / lanes * lanes, bodies, units, normal,
-                                   slip, model.friction, model.rolling_friction, model.attraction);
+  step_lanes<partner, Turn, LaneFlags::lanes>(c, LaneFlags::padded(size()), bodies, units, normal,
+                                              slip, model.friction, model.rolling_friction,
+                                              model.attraction);
 }
 
 template <LiveContacts::Partner partner>
@@ -400,15 +400,12 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
     step<Partner::grain>(bodies, units, model);
   else
     step<Partner::wall>(bodies, units, model);
-  for (std::size_t block = 0; block < size(); block += lanes) {
-    if (block_flags_[block / lanes] == 0) continue;
-    for (std::size_t i = block; i < std::min(block + lanes, size()); ++i) {
-      if ((flags_[i] & apart) != 0) ended_.push_back(i);
-      if ((flags_[i] & unusable) == 0) continue;
-      trouble_ = first_by_name(trouble_, meetings_[i].name);
-      make_harmless(i);
-    }
-  }
+  found_.for_each_set(size(), [&](std::size_t i, std::int64_t found) {
+    if ((found & apart) != 0) ended_.push_back(i);
+    if ((found & unusable) == 0) return;
+    trouble_ = first_by_name(trouble_, meetings_[i].name);
+    make_harmless(i);
+  });
   std::reverse(ended_.begin(), ended_.end());
 }
 

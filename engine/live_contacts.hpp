@@ -9,6 +9,7 @@
 #include "engine/aligned.hpp"
 #include "engine/contact.hpp"
 #include "engine/contact_law.hpp"
+#include "engine/lane_flags.hpp"
 #include "engine/meeting.hpp"
 
 #include <array>
@@ -73,8 +74,6 @@ public:
   const std::optional<ContactName>& trouble() const { return trouble_; }
 
 private:
-  /// The arrays are padded with lanes of zero reach, which never touch, to whole vectors.
-  static constexpr std::size_t lanes = 8;
   /// The life of a contact without its name: one array for each member of Contact.
   static constexpr std::size_t life_members =
       (sizeof(Contact) - offsetof(Contact, begin)) / sizeof(double);
@@ -100,6 +99,7 @@ private:
   Partner partner_;
   std::size_t beginning_ = 0;  // contacts at the end of the arrays that begin in the next step
   std::vector<Meeting> meetings_;
+  // The arrays are padded with lanes of zero reach, which never touch, to whole blocks.
   std::array<AlignedVector<std::int64_t>, 2> body_;  // first and second
   std::array<AlignedVector<Fixed>, 6> wall_point_;   // members of its BodyMotion
   AlignedVector<double> reach_, reduced_mass_;
@@ -110,8 +110,7 @@ private:
   bool rich_ = false;       // there are springs or torques; else the arrays for them are empty
   std::array<AlignedVector<double>, 2> radius_;    // m, of first and second
   std::array<AlignedVector<Fixed>, 2> spin_kick_;  // likewise
-  AlignedVector<std::int64_t> flags_,
-      block_flags_;  // of the last step: contacts, and `lanes` of them
+  LaneFlags found_;                                // in the last step, of each contact
   std::vector<std::size_t> ended_;
   std::optional<ContactName> trouble_;
 };

@@ -50,6 +50,8 @@ public:
   const State& state() const { return state_; }
   const ContactModel& model() const { return model_; }
   int threads() const { return threads_; }
+  /// The fastest way found so far.
+  Way preferred_way() const { return choice_.preferred(); }
 
   /// From now on the time that stepping takes is measured, by phase: that of the first thread.
   void start_profile();

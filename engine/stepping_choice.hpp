@@ -1,9 +1,9 @@
 // Plain stepping or flights, on one thread or on all: what is fastest here and now?
 //
 // It depends on the state, the size of the system, the machine and what else runs on it. The bits
-// do not depend on the choice, so the clock may decide: now and then another way is tried for one
-// piece of the run. Trials take a few per cent of the time at most, less and less as long as they
-// find nothing.
+// do not depend on the choice, so the clock may decide: each way is tried for one piece of the run
+// at its beginning, and now and then later. These later trials take a few per cent of the time at
+// most, less and less as long as they find nothing.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +25,12 @@ struct Way {
 class SteppingChoice {
 public:
   /// At least one; the first is what to begin with.
-  explicit SteppingChoice(std::vector<Way> ways) : ways_(std::move(ways)) {}
+  explicit SteppingChoice(std::vector<Way> ways)
+      : ways_(std::move(ways)), untried_(ways_.size() - 1) {}
 
   /// How the next piece is to be done.
   Way way() const { return ways_[trying_ ? tried_ : preferred_]; }
+  Way preferred() const { return ways_[preferred_]; }
   /// Whether there is anything to choose.
   bool open() const { return ways_.size() > 1; }
 
@@ -51,7 +53,7 @@ private:
   void go_on(double pace, double seconds) {
     pace_ = pace;
     since_trial_ += seconds;
-    trying_ = open() && since_trial_ >= patience_;
+    trying_ = untried_ > 0 || (open() && since_trial_ >= patience_);
     if (trying_) tried_ = next_to_try();
   }
 
@@ -64,6 +66,7 @@ private:
   void conclude(double pace, double cost) {
     trying_ = false;
     since_trial_ = 0.0;
+    if (untried_ > 0) --untried_;
     if (pace < worthwhile * pace_) {
       preferred_ = tried_;
       patience_ = std::max(shortest_patience, patience_per_cost * cost);
@@ -74,6 +77,7 @@ private:
 
   std::vector<Way> ways_;
   std::size_t preferred_ = 0, tried_ = 0;  // indices of ways
+  std::size_t untried_;                    // ways
   bool trying_ = false;
   double pace_ = 0.0;                    // s per step, of the last piece done the preferred way
   double since_trial_ = 0.0;             // s

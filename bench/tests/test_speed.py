@@ -96,7 +96,13 @@ class Suite(unittest.TestCase):
 
 
 class Subcommands(unittest.TestCase):
-    """What the comparison with other codes calls."""
+    """What the comparison with other codes calls, and what tells how long threads wait."""
+
+    def test_what_waiting_takes(self):
+        done = speed("barrier", "--threads", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        took = json.loads(done.stdout)["ns_per_barrier"]
+        self.assertTrue(0 < took["least"] <= took["median"] <= took["most"])
 
     def test_a_state_is_made_once_and_stepped_to_the_same_bits(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -57,6 +57,17 @@ TEST_CASE("the fastest way is found, whatever was tried first") {
   CHECK(account.spent < 1.05 * account.best);
 }
 
+TEST_CASE("each way is tried at the beginning, between two pieces of the preferred one") {
+  SteppingChoice choice(all);
+  std::vector<Way> done;
+  for (int piece = 0; piece < 6; ++piece) {
+    done.push_back(choice.way());
+    choice.note(steps, choice.way() == flights ? 0.01 : 0.02, 0.0);
+  }
+  CHECK(done == std::vector{flights, plain_on_two, flights, plain, flights, flights});
+  CHECK(choice.preferred() == flights);
+}
+
 TEST_CASE("where there is one way, no other is tried") {
   SteppingChoice choice({plain_on_two});
   CHECK_FALSE(choice.open());
