@@ -290,6 +290,17 @@ int fail(int status, const char* message) noexcept {
   return status;
 }
 
+int fail_to_print() noexcept {
+  return fail(app::exit_failed,
+              "what was to be printed could not be written; free some space there");
+}
+
+/// What is printed goes to the disk when it likes, and may not get there.
+int tell_if_not_printed(int status) {
+  const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return printed || status != app::exit_done ? status : fail_to_print();
+}
+
 /// Reads the command line and does what it says.
 int run_program(int argc, char** argv) {
   app::end_on_interrupts();
@@ -308,7 +319,7 @@ int run_program(int argc, char** argv) {
 
 int riesel::app::command(int argc, char** argv) {
   try {
-    return run_program(argc, argv);
+    return tell_if_not_printed(run_program(argc, argv));
   } catch (const io::SettingsError& error) {
     return fail(app::exit_bad_input, error.what());
   } catch (const app::UnusableInput& error) {
@@ -316,6 +327,6 @@ int riesel::app::command(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail(app::exit_failed, "out of memory; choose fewer grains");
   } catch (const std::exception& error) {
-    return fail(app::exit_failed, error.what());
+    return std::ferror(stdout) != 0 ? fail_to_print() : fail(app::exit_failed, error.what());
   }
 }

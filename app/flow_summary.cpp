@@ -97,15 +97,6 @@ io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const Vi
 
 constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
 
-/// Of the shortest twentieth of the contacts of a kind, since the start.
-double steps_per_contact(const State& state) {
-  double fewest = std::numeric_limits<double>::infinity();
-  for (const ContactTally* kind : {&state.tally.grains, &state.tally.walls})
-    if (static_cast<double>(kind->durations.total()) >= enough_contacts)
-      fewest = std::min(fewest, kind->durations.quantile(0.05) / state.time_step);
-  return std::isfinite(fewest) ? fewest : unknown;
-}
-
 /// What walls do is looked at after the transient, the rest since the start.
 Evidence evidence(const CumulativeSeries& series, const State& state, const Energies& energies,
                   double v_crit) {
@@ -125,6 +116,14 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
 }
 
 }  // namespace
+
+double steps_per_contact(const State& state) {
+  double fewest = std::numeric_limits<double>::infinity();
+  for (const ContactTally* kind : {&state.tally.grains, &state.tally.walls})
+    if (static_cast<double>(kind->durations.total()) >= enough_contacts)
+      fewest = std::min(fewest, kind->durations.quantile(0.05) / state.time_step);
+  return std::isfinite(fewest) ? fewest : unknown;
+}
 
 Judged judged_by(const State& state, double interval) {
   const bool agitated =

@@ -27,6 +27,10 @@ struct Judged {
 };
 Judged judged_by(const State& state, double interval);
 
+/// Steps that the shortest twentieth of the contacts of a kind has lasted at most, since the start;
+/// not a number while there are too few.
+double steps_per_contact(const State& state);
+
 /// All but `run`. `last` are the observables of `state`.
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
                           const Observables& last);

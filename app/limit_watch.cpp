@@ -1,27 +1,30 @@
 #include "app/limit_watch.hpp"
 
+#include "app/flow_summary.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdint>
+#include <cmath>
 #include <optional>
 
 namespace riesel::app {
 
 namespace {
 
-/// The contact that had it, if it lasts.
+/// The contact that had it, and when.
 std::string contact_with(const LargestOverlap& largest, const State& state) {
-  const auto deepest =
-      std::find_if(state.contacts.begin(), state.contacts.end(), [&](const Contact& contact) {
-        return (contact.name.wall != no_wall) == largest.at_wall
-               && contact.max_overlap >= largest.overlap;
-      });
-  if (deepest == state.contacts.end()) return "in a contact that has ended";
-  const auto& [wall, grain, partner] = deepest->name;
-  return wall == no_wall
-             ? fmt::format("between grains {} and {}", grain, partner)
-             : fmt::format("of grain {} with grain {} of wall {}", grain, partner, wall);
+  if (!largest.contact)
+    return fmt::format("in a contact {} that ended before the run went on",
+                       largest.at_wall ? "with a wall" : "between grains");
+  const Contact& contact = *largest.contact;
+  const auto& [wall, grain, partner] = contact.name;
+  const std::string partners =
+      wall == no_wall ? fmt::format("between grains {} and {}", grain, partner)
+                      : fmt::format("of grain {} with grain {} of wall {}", grain, partner, wall);
+  const bool lasts = contact.end > state.time();
+  return lasts ? fmt::format("{} since t = {:.8g} s", partners, contact.begin)
+               : fmt::format("{} from t = {:.8g} s to {:.8g} s", partners, contact.begin,
+                             contact.end);
 }
 
 std::string overlap_exceeded(const State& state, const LargestOverlap& largest) {
@@ -36,6 +39,13 @@ std::string energy_error_exceeded(double ratio) {
                      ratio);
 }
 
+std::string steps_too_few(double steps) {
+  return fmt::format("the shortest twentieth of the contacts lasts {:.3g} steps or less, which "
+                     "does not resolve them; raise run.steps_per_collision, or contact.stiffness "
+                     "where grains run through the walls",
+                     steps);
+}
+
 std::string speed_exceeded(const FastestGrain& fastest) {
   return fmt::format("grain {} moves with {:.4g} m/s: the brake of the walls has failed; lower the "
                      "velocity at the start, or raise contact.stiffness",
@@ -46,21 +56,30 @@ std::string speed_exceeded(const FastestGrain& fastest) {
 
 std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Observables& seen) {
   std::vector<std::string> messages;
-  const auto look = [&](std::optional<double>& limit, const char* key, double value,
+  const auto look = [&](std::optional<double>& limit, const char* key, const auto& is_kept,
                         const auto& message) {
-    if (!limit || !(value > *limit)) return;
+    if (!limit || is_kept(*limit)) return;
     limit.reset();
     messages.push_back(fmt::format("at t = {:.6g} s (step {}) {} is exceeded: {}", seen.time,
                                    state.step, key, message()));
   };
   const LargestOverlap largest = limits_.overlap ? largest_overlap(state) : LargestOverlap{};
-  look(limits_.overlap, "limits.overlap", largest.ratio,
-       [&] { return overlap_exceeded(state, largest); });
+  look(
+      limits_.overlap, "limits.overlap", [&](double limit) { return largest.ratio <= limit; },
+      [&] { return overlap_exceeded(state, largest); });
   const double error = energy_error_ratio(state, seen.energies);
-  look(limits_.energy_error, "limits.energy_error", error,
-       [&] { return energy_error_exceeded(error); });
+  look(
+      limits_.energy_error, "limits.energy_error", [&](double limit) { return error <= limit; },
+      [&] { return energy_error_exceeded(error); });
+  const double steps = steps_per_contact(state);
+  look(
+      limits_.steps_per_contact, "limits.steps_per_contact",
+      [&](double limit) { return std::isnan(steps) || steps >= limit; },
+      [&] { return steps_too_few(steps); });
   const FastestGrain fastest = limits_.speed ? fastest_grain(state) : FastestGrain{};
-  look(limits_.speed, "limits.speed", fastest.speed, [&] { return speed_exceeded(fastest); });
+  look(
+      limits_.speed, "limits.speed", [&](double limit) { return fastest.speed <= limit; },
+      [&] { return speed_exceeded(fastest); });
   return messages;
 }
 

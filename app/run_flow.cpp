@@ -1,6 +1,7 @@
 #include "app/run_flow.hpp"
 
 #include "app/exit_status.hpp"
+#include "app/flow_failures.hpp"
 #include "app/flow_summary.hpp"
 #include "app/interrupt.hpp"
 #include "app/limit_watch.hpp"
@@ -205,21 +206,9 @@ private:
     times_.output += seconds_since(start);
   }
 
-  /// Beyond that nothing can be told of the grains, nor of how they went on.
-  void fail_if_too_fast() const {
-    const State& state = simulation_.state();
-    const double fastest = fastest_grain(state).speed;
-    const double largest = largest_speed(state.box, state.time_step, state.grains.size());
-    if (fastest >= largest)
-      throw RunFailure(
-          fmt::format("grains move with {:.3g} m/s at t = {:.6g} s (step {}), too fast "
-                      "for this tube and time step, which hold {:.3g} m/s",
-                      fastest, state.time(), state.step, largest));
-  }
-
   void add_row() {
     const auto start = Clock::now();
-    fail_if_too_fast();
+    fail_if_too_fast(simulation_.state());
     last_ = observe(simulation_.state());
     profiles_.add(
         sum_over_strips(strips_, simulation_.state(), simulation_.model(), last_.mean_vy));
@@ -227,11 +216,7 @@ private:
     times_.measuring += seconds_since(start);
     file_.append(series_row(last_, simulation_.state().tally));
     note_precision();
-    if (last_.outside > 0.0)
-      throw RunFailure(fmt::format(
-          "{:.0f} grains have gone through a wall at t = {:.6g} s: the contacts are too soft for "
-          "these velocities; raise contact.stiffness",
-          last_.outside, last_.time));
+    fail_if_through_a_wall(simulation_.state(), last_);
     heed_limits();
   }
 

@@ -22,6 +22,8 @@ struct GrainSums {
 struct Gap {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
+
+  bool is_beyond(double x) const { return x < low || x > high; }
 };
 
 Gap between_walls(const State& state) {
@@ -45,7 +47,7 @@ RIESEL_VECTOR_KERNEL GrainSums sum_over_grains(const State& state) {
       const double vx2 = g.vx * g.vx, vy2 = g.vy * g.vy;
       terms[i] = {g.vx,        g.vy, vx2, vy2, g.mass, g.mass * g.vy, 0.5 * g.mass * (vx2 + vy2),
                   g.mass * g.x};
-      if (g.x < room.low || g.x > room.high) ++outside;
+      if (room.is_beyond(g.x)) ++outside;
     }
     for (std::size_t i = 0; i < count; ++i) sums.add(terms[i]);
   }
@@ -125,6 +127,16 @@ Origin origin_of(const State& state) {
           .moment_x = sums.moment_x};
 }
 
+std::optional<std::int32_t> grain_outside(const State& state) {
+  const Gap room = between_walls(state);
+  const GrainView grains(state);
+  std::optional<std::int32_t> first;
+  for (std::size_t slot = 0; slot < state.grains.size(); ++slot)
+    if (room.is_beyond(grains[slot].x))
+      first = std::min(first.value_or(INT32_MAX), state.grains.id[slot]);
+  return first;
+}
+
 FastestGrain fastest_grain(const State& state) {
   FastestGrain fastest;
   const GrainView grains(state);
@@ -187,10 +199,12 @@ LargestOverlap largest_overlap(const State& state) {
   double smallest_at_wall = smallest;
   for (const WallLattice& wall : state.walls)
     smallest_at_wall = wall.smaller_radius(smallest_at_wall);
-  const double among_grains = all_contacts(state, false).max_overlap;
-  const double at_walls = all_contacts(state, true).max_overlap;
-  const LargestOverlap of_grains{among_grains, among_grains / smallest, false};
-  const LargestOverlap of_walls{at_walls, at_walls / smallest_at_wall, true};
+  const auto largest = [&](bool at_wall, double radius) {
+    const ContactTally all = all_contacts(state, at_wall);
+    return LargestOverlap{all.max_overlap, all.max_overlap / radius, at_wall, all.deepest};
+  };
+  const LargestOverlap of_grains = largest(false, smallest);
+  const LargestOverlap of_walls = largest(true, smallest_at_wall);
   return of_walls.ratio > of_grains.ratio ? of_walls : of_grains;
 }
 

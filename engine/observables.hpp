@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace riesel {
 
@@ -43,6 +44,9 @@ struct Observables {
 /// What the balances of a run start from: to be kept in State::origin at step 0.
 Origin origin_of(const State& state);
 
+/// The smallest id of a grain that has gone through a wall (Observables::outside).
+std::optional<std::int32_t> grain_outside(const State& state);
+
 struct FastestGrain {
   double speed = 0.0;   ///< m/s
   std::int32_t id = 0;  ///< the smallest one of those that are as fast
@@ -61,6 +65,7 @@ struct LargestOverlap {
   double overlap;  ///< m
   double ratio;
   bool at_wall;
+  std::optional<Contact> contact;  ///< that had it, unless it had ended before the state was read
 };
 LargestOverlap largest_overlap(const State& state);
 

@@ -1,11 +1,29 @@
 #include "engine/tally.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace riesel {
 
+namespace {
+
+/// The deeper one; of equals the first by name, then the earlier.
+bool comes_before(const Contact& a, const Contact& b) {
+  return a.max_overlap != b.max_overlap ? a.max_overlap > b.max_overlap
+                                        : std::tie(a.name, a.begin) < std::tie(b.name, b.begin);
+}
+
+/// If it is deeper than all of the tally, or another one as deep.
+void note_deepest(ContactTally& tally, const Contact& contact) {
+  if (contact.max_overlap < tally.max_overlap) return;
+  if (!tally.deepest || comes_before(contact, *tally.deepest)) tally.deepest = contact;
+  tally.max_overlap = contact.max_overlap;
+}
+
+}  // namespace
+
 void ContactTally::add(const Contact& contact) {
-  max_overlap = std::max(max_overlap, contact.max_overlap);
+  note_deepest(*this, contact);
   duration.add(contact.duration());
   slip_path.add(contact.slip_path);
   normal_loss.add(contact.normal_loss);
@@ -18,6 +36,7 @@ void ContactTally::add(const Contact& contact) {
 void ContactTally::merge(const ContactTally& other) {
   begun += other.begun;
   ended += other.ended;
+  if (other.deepest) note_deepest(*this, *other.deepest);
   max_overlap = std::max(max_overlap, other.max_overlap);
   duration.add(other.duration);
   slip_path.add(other.slip_path);

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace riesel {
@@ -34,6 +35,9 @@ struct ContactTally {
   ExactSum impulse_y_times_step;
   DurationHistogram durations;  ///< of ended contacts
   OverlapHistogram overlaps;    ///< of ended contacts, the largest
+  /// One that had max_overlap, if it ended since the state was made or read: checkpoints do not
+  /// keep it.
+  std::optional<Contact> deepest;
 
   /// Adds to the sums and to the maximum.
   void add(const Contact& contact);

@@ -39,11 +39,23 @@ void write_aside(const fs::path& aside, std::string_view content, const fs::path
   file.close();
 }
 
-/// Gives the present generation, if there is one, a second name.
+/// File systems such as FAT, and some in user space, give files no second name.
+bool means_no_links(int error_number) {
+  return error_number == EPERM || error_number == EOPNOTSUPP || error_number == ENOSYS
+         || error_number == EMLINK;
+}
+
+/// Gives the present generation, if there is one, a second name, which is to become that of the
+/// generation before. Where files have one name only it gets that at once: until the next
+/// generation is in place it is the only one, and found by those who look for both.
 bool link_present(const fs::path& path, const fs::path& second) {
   if (link(path.c_str(), second.c_str()) == 0) return true;
   if (errno == ENOENT) return false;
-  throw system_failure(path, "the generation before cannot be kept", errno);
+  if (!means_no_links(errno))
+    throw system_failure(path, "the generation before cannot be kept", errno);
+  if (rename(path.c_str(), previous_generation(path).c_str()) != 0 && errno != ENOENT)
+    throw system_failure(path, "the generation before cannot be kept", errno);
+  return false;
 }
 
 void rename_to(const fs::path& from, const fs::path& to, const fs::path& path) {

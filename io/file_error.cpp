@@ -21,9 +21,10 @@ std::string remedy_for(int error_number) {
     return "choose a directory on a disk that is not read-only";
   case ENOENT:
     return "check the path";
+  case ELOOP:
+    return "remove the link that stands there, or choose another path";
   case ENOTDIR:
   case EISDIR:
-  case ELOOP:
   case ENAMETOOLONG:
     return "choose another path";
   case EMFILE:

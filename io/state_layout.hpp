@@ -131,11 +131,11 @@ template <class Any, class T>
 concept MaybeConst = std::same_as<std::remove_const_t<Any>, T>;
 
 /// Calls visit(name, value) for each number, exact sum and array of counts of a tally (const or
-/// not), in SI units.
+/// not), in SI units. `deepest` is for those who watch a run.
 template <MaybeConst<ContactTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
   auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, energy_won,
-         impulse_y, impulse_y_times_step, durations, overlaps] = tally;
+         impulse_y, impulse_y_times_step, durations, overlaps, deepest] = tally;
   visit("begun", begun);
   visit("ended", ended);
   visit("max_overlap", max_overlap);

@@ -21,6 +21,12 @@ io::SettingsTable run_limits_settings() {
        .example = "50 m/s",
        .range = io::positive(),
        .doc = "Limit of the speed of any grain. By default there is none."},
+      {.key = "limits.steps_per_contact",
+       .unit = "1",
+       .example = "10",
+       .range = io::positive(),
+       .doc = "Time steps that the shortest twentieth of the contacts must last, or the time step "
+              "does not resolve them (docs/validity.md). By default there is no limit."},
       {.key = "limits.action",
        .kind = io::Kind::choice,
        .fallback = "stop",
@@ -38,6 +44,7 @@ RunLimits run_limits(const io::Settings& settings) {
   return {.overlap = limit("limits.overlap"),
           .energy_error = limit("limits.energy_error"),
           .speed = limit("limits.speed"),
+          .steps_per_contact = limit("limits.steps_per_contact"),
           .stop = settings.text("limits.action") == "stop"};
 }
 

@@ -8,10 +8,11 @@
 namespace riesel::scenarios {
 
 struct RunLimits {
-  std::optional<double> overlap;       ///< see max_overlap_ratio()
-  std::optional<double> energy_error;  ///< see energy_error_ratio()
-  std::optional<double> speed;         ///< m/s, of any grain
-  bool stop;                           ///< or warn
+  std::optional<double> overlap;            ///< see max_overlap_ratio()
+  std::optional<double> energy_error;       ///< see energy_error_ratio()
+  std::optional<double> speed;              ///< m/s, of any grain
+  std::optional<double> steps_per_contact;  ///< at least, of the shortest twentieth of the contacts
+  bool stop;                                ///< or warn
 };
 
 io::SettingsTable run_limits_settings();

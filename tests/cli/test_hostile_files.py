@@ -7,7 +7,7 @@ import subprocess
 
 import h5py
 
-from riesel_command import COMMAND, CommandTest, bytes_of_files
+from riesel_command import COMMAND, SMALL_TUBE, CommandTest, bytes_of_files
 
 PROCESSOR_TIME, MEMORY = 2, 1 << 30  # s, bytes
 SIZE = 100_000_000
@@ -109,6 +109,39 @@ class HostileFiles(CommandTest):
                 self.assert_one_message(result.stderr, str(run))
                 (run / name).unlink()
         self.assertEqual(bytes_of_files(victim), before)
+
+    def move_elsewhere(self, path):
+        """Leaves a link. Returns where it leads."""
+        elsewhere = self.home / "elsewhere" / path.name
+        elsewhere.parent.mkdir(exist_ok=True)
+        path.rename(elsewhere)
+        path.symlink_to(elsewhere)
+        return elsewhere
+
+    def test_a_run_does_not_go_on_in_a_trajectory_that_is_a_link(self):
+        run = self.run_small_tube("run", "--set", "output.trajectory_interval=1 ms")
+        frames = self.move_elsewhere(run / "trajectory.h5")
+        before = frames.read_bytes()
+        result = self.riesel("resume", run, "--set", "run.duration=6 ms")
+        self.assertEqual(result.returncode, 1)
+        self.assert_one_message(result.stderr, "trajectory.h5", "remove the link")
+        self.assertEqual(frames.read_bytes(), before)
+
+    def test_a_run_of_a_sweep_does_not_write_into_a_log_that_is_a_link(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        sweep = self.write("sweep.yaml", "base: tube.yaml\nseeds: [1]\n")
+        self.assertEqual(self.riesel("sweep", sweep, "--out", "sweep").returncode, 0)
+        log, = (self.home / "sweep").rglob("log.txt")
+        elsewhere = self.move_elsewhere(log)
+        before = elsewhere.read_bytes()
+        for name in ("checkpoint.h5", "summary.json"):
+            (log.parent / name).unlink()
+        manifest = self.home / "sweep" / "manifest.json"
+        manifest.write_text(manifest.read_text(encoding="utf-8").replace('"done"', '"waiting"'), encoding="utf-8")
+        result = self.riesel("sweep", sweep, "--out", "sweep")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertIn("remove the link", result.stderr)
+        self.assertEqual(elsewhere.read_bytes(), before)
 
     def test_deep_nesting_in_json(self):
         for name, command in (("run/summary.json", "report"), ("run/manifest.json", "status")):

@@ -48,7 +48,23 @@ class Limits(CommandTest):
     def test_grains_too_fast_for_the_numbers_of_the_state_stop_it(self):
         """An eighth of the tube in a step; a few more, and they would seem slow again."""
         result = self.tube("fast", "gravity=8e6 m/s^2", "wall.spacing=4 mm")
-        self.assert_stopped("fast", result, "too fast for this tube and time step")
+        self.assert_stopped("fast", result, "too fast for this tube and time step", "may help")
+        self.assertRegex(result.stderr, r"grain \d+ moves with \S+ m/s at")
+
+    def test_a_grain_that_goes_through_a_wall_stops_it(self):
+        result = self.tube("through", "contact.stiffness=20", "start.random_velocity=3 m/s")
+        self.assert_stopped("through", result, "through a wall", "raise contact.stiffness")
+        grain = int(re.search(r"grain (\d+)", result.stderr)[1])
+        with h5py.File(self.home / "through" / "run.h5", "r") as file:
+            x = dict(zip(file["final/id"][:], file["final/position"][:, 0]))[grain]
+        self.assertFalse(0.0 <= x <= 10e-3, x)
+
+    def test_contacts_that_are_not_resolved_stop_it(self):
+        """Grains that run through the wall grains, so fast that they touch them for a step or two."""
+        result = self.tube("steps", "start.axial_velocity=30 m/s", "limits.steps_per_contact=5")
+        self.assert_stopped("steps", result, "limits.steps_per_contact", "run.steps_per_collision")
+        told = float(re.search(r"lasts (\S+) steps or less", result.stderr)[1])
+        self.assertLess(told, 5.0)
 
     def test_a_run_that_was_stopped_goes_on_with_another_limit_to_the_same_end(self):
         result = self.tube("again", "limits.overlap=0.02", "output.checkpoint_interval=1e-6 s")
@@ -63,9 +79,12 @@ class Limits(CommandTest):
 
     def overlap_told(self, interval):
         """(m, part of a radius, where), as a run says that is stopped by its limit after this interval"""
+        shutil.rmtree(self.home / "overlap", ignore_errors=True)
         result = self.tube("overlap", "limits.overlap=0.02", f"output.interval={interval}")
         self.assert_stopped("overlap", result, "limits.overlap", "contact.stiffness")
-        told = re.search(r"an overlap of (\S+) m, (\S+) of the radius of the smaller body, ([^;]+);", result.stderr)
+        told = re.search(r"an overlap of (\S+) m, (\S+) of the radius of the smaller body, ([^;]+) (since|from) t = ([^;]+) s;",
+                         result.stderr)
+        self.when = told[5]
         return float(told[1]), float(told[2]), told[3]
 
     def deepest_contact(self):
@@ -91,10 +110,12 @@ class Limits(CommandTest):
         smallest = self.post_mortem("overlap")["grains/radius"][:].min()
         self.assertAlmostEqual(ratio * smallest / overlap, 1.0, delta=0.01)
 
-    def test_of_an_overlap_in_a_contact_that_has_ended_no_grains_are_named(self):
+    def test_an_overlap_in_a_contact_that_has_ended_is_told_with_its_grains_and_its_time(self):
         overlap, _, where = self.overlap_told("2 ms")
         self.assertGreater(overlap, 1.5 * self.deepest_contact()["max_overlap"])
-        self.assertEqual(where, "in a contact that has ended")
+        begin, end = map(float, self.when.split(" s to "))
+        # Of rows so close that one falls into that contact, the same is told.
+        self.assertEqual(self.overlap_told(f"{0.5 * (begin + end)} s")[2], where)
 
     def test_energy_from_nowhere_stops_it(self):
         # A damping so strong that a step overshoots.

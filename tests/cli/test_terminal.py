@@ -43,6 +43,16 @@ class Terminal(CommandTest):
         self.assertIn(summary["state"], result.stdout)
         self.assertIn("out/summary.json", result.stdout)
 
+    def test_what_cannot_be_printed_is_told(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        for arguments in (["scenarios"], ["settings"], ["check", "tube.yaml"], ["run", "tube.yaml", "--out", "out"]):
+            with self.subTest(arguments), open("/dev/full", "wb") as full:
+                process = self.start(*arguments, stdout=full)
+                _, stderr = process.communicate(timeout=PATIENCE)
+                self.assertEqual(process.returncode, 1)
+                self.assert_one_message(stderr)
+        self.assertTrue((self.home / "out" / "summary.json").exists())
+
     def open_terminal(self, columns=0):
         """The side of the user, and that of the program."""
         try:

@@ -3,7 +3,8 @@
 //
 //   properties set-ups FIRST COUNT     complains of those that are not as they must be
 //   properties impacts FIRST COUNT     prints the largest gains of energy
-//   properties hashes FIRST COUNT      prints the state hash of each set-up: to compare two builds
+//   properties hashes FIRST COUNT      prints the state hashes of each set-up, of plain stepping on
+//                                      one thread and of windows on two: to compare two builds
 #include "engine/state.hpp"
 #include "tests/properties/properties.hpp"
 
@@ -73,12 +74,13 @@ int print_gains(std::uint64_t first, std::uint64_t count) {
 int print_hashes(std::uint64_t first, std::uint64_t count) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const SetUp set_up = random_set_up(seed);
-    const Outcome outcome = reference(set_up);
-    std::printf("%llu %016llx %zu\n", static_cast<unsigned long long>(seed),
-                outcome.failure.empty()
-                    ? static_cast<unsigned long long>(riesel::state_hash(outcome.end))
-                    : 0ULL,
-                set_up.model.normal.index());
+    const auto hash = [](const Outcome& outcome) {
+      return outcome.failure.empty()
+                 ? static_cast<unsigned long long>(riesel::state_hash(outcome.end))
+                 : 0ULL;
+    };
+    std::printf("%llu %016llx %016llx %zu\n", static_cast<unsigned long long>(seed),
+                hash(reference(set_up)), hash(by_windows(set_up)), set_up.model.normal.index());
   }
   return 0;
 }

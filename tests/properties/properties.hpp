@@ -21,6 +21,8 @@ struct Outcome {
 
 /// Plainly, on one thread, in one go.
 Outcome reference(const SetUp& set_up);
+/// By windows on two threads, in one go.
+Outcome by_windows(const SetUp& set_up);
 
 /// Goes there again by several journeys, which change the way of stepping, the number of threads,
 /// the order of the slots and the length of the advances on the way, look at the state, measure a
@@ -28,8 +30,9 @@ Outcome reference(const SetUp& set_up);
 Complaints same_bits(const SetUp& set_up, const Outcome& expected, std::uint64_t seed,
                      const std::filesystem::path& scratch);
 
-/// Contacts that began have ended or last; damping never wins energy; without walls, grains of
-/// equal mass keep their momentum to the last bit.
+/// Contacts that began have ended or last; damping and friction never win energy, nor does the
+/// whole but by the error of the time step; the walls gave the momentum along the tube; without
+/// walls, grains of equal mass keep theirs to the last bit.
 Complaints balances(const SetUp& set_up, const Outcome& outcome);
 
 /// One impact of two grains, or of a grain on a corrugated wall, at any angle and of any law.

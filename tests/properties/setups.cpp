@@ -91,7 +91,8 @@ SetUp random_set_up(std::uint64_t seed) {
   SetUp set_up{.start = empty_box(width, length),
                .model = random_model(dice),
                .steps = 100 + dice.below(600),
-               .equal_masses = dice.below(2) == 0};
+               .equal_masses = dice.below(2) == 0,
+               .steps_per_collision = 0.0};
   State& state = set_up.start;
   state.gravity.y = dice.below(3) == 0 ? 0.0 : dice.between(-20.0, 20.0);
   if (dice.below(4) != 0) add_walls(state, 1 + dice.below(30));
@@ -101,6 +102,7 @@ SetUp random_set_up(std::uint64_t seed) {
   // which it might leave where there are no walls.
   state.time_step = std::min(t_col / power_of_ten(dice, 0.9, 2.0),
                              0.5 * width / (speed * static_cast<double>(set_up.steps)));
+  set_up.steps_per_collision = t_col / state.time_step;
   add_rotation(seed, t_col, set_up.model, state);
   add_slopes(seed, state);
   const Throw where{.left = 0.0,

@@ -16,6 +16,7 @@ struct SetUp {
   riesel::ContactModel model;
   std::int64_t steps;  ///< how far to go
   bool equal_masses;
+  double steps_per_collision;  ///< of two mean grains that meet with the typical speed
 };
 
 SetUp random_set_up(std::uint64_t seed);

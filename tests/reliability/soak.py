@@ -3,16 +3,18 @@
 
     /usr/bin/python3 tests/reliability/soak.py [--hours 1] [--threads 2] [--seed 1] [--out DIRECTORY]
 
-10,000 grains, a checkpoint every three seconds. Looked at ten times a second: the memory of the process, its
-processor time, and what its checkpoint counts. After each kill, rows that are missing or out of step in
-run.h5. At the end it prints how memory and cost per step went over the time, and ends with status 1
+10,000 grains, a checkpoint every three seconds. The first quarter of the time is of lives of one second to ten
+minutes, then comes one life that takes half of it, then short ones again. Looked at ten times a second: the memory of
+the process, its processor time, and what its checkpoint counts. After each kill, the checkpoint and the rows of run.h5.
+At the end it prints how memory and cost per step went over the time, and over the long life, and ends with status 1
 
-- if rows were lost, or a resume failed;
-- if memory grew by more than rows take, from the second sixth of the time to the last;
-- if a step got dearer from the second sixth to the last: if the median of its processor time, from one
-  checkpoint to the next, grew by more than 10 % and three standard errors of the difference of the medians.
+- if a checkpoint that had been seen was gone, or replaced by an older one;
+- if rows were lost or out of step, or a resume failed;
+- if memory grew by more than rows take, over the time or over the long life, from the second sixth to the last;
+- if a step got dearer, likewise: if the median of its processor time, from one checkpoint to the next, grew by more
+  than 10 % and three standard errors of the difference of the medians.
 
-The first sixth does not count, nor the first 20 s of a life: profiles and histograms keep up to 128 samples
+The first 20 s of a life do not count, nor what has fewer than 128 rows: profiles and histograms keep up to 128 samples
 apart, and then add them up in pairs. A soak that is too short for one of these judgements says so.
 Processor time tells less of what else the machine does than time on the clock, but threads that wait for each
 other use it too: on a machine that is busy otherwise, the cost of a step is told by --threads 1 only, or with
@@ -107,6 +109,7 @@ class Soak:
         self.begin = time.monotonic()
         self.looks, self.complaints = [], []
         self.lives = 0
+        self.long_life = None
         self.seen, self.saved = None, None  # the last checkpoint: when it was written, and what it counts
 
     def start(self):
@@ -143,10 +146,17 @@ class Soak:
         self.look_at_rows()
 
     def look_at_rows(self):
-        if not (self.out / "checkpoint.h5").exists():  # killed before the first: to be started again
-            shutil.rmtree(self.out, ignore_errors=True)
+        """After the end of a life: what had been saved before must be there, and its rows."""
+        if not (self.out / "checkpoint.h5").exists():
+            if self.saved is not None:
+                self.complaints.append(f"life {self.lives}: the checkpoint of step {self.saved['step']} is gone")
+            shutil.rmtree(self.out, ignore_errors=True)  # killed before the first: to be started again
             return
         now = counted(self.out / "checkpoint.h5")
+        for what in ("step", "rows"):
+            if self.saved is not None and now[what] < self.saved[what]:
+                self.complaints.append(f"life {self.lives}: back from {what} {self.saved[what]} to {now[what]}")
+        self.saved = now
         with h5py.File(self.out / "run.h5", "r") as file:
             steps = np.rint(file["series/time"][:] / now["time_step"]).astype(np.int64)
         if len(steps) < now["rows"]:
@@ -154,36 +164,41 @@ class Soak:
         if len(set(np.diff(steps))) > 1:
             self.complaints.append(f"life {self.lives}: rows are not in step")
 
-    def go_on_for(self, hours):
-        while (left := 3600 * hours - (time.monotonic() - self.begin)) > 0:
+    def short_lives_until(self, hour):
+        while (left := 3600 * hour - (time.monotonic() - self.begin)) > 0 and not self.complaints:
             # From a second to ten minutes, each decade as often as the next.
             self.live(min(left, 10 ** self.random.uniform(0.0, 2.78)))
-            if self.complaints:
-                return
+
+    def go_on_for(self, hours):
+        self.short_lives_until(0.25 * hours)
+        self.long_life = self.lives + 1
+        if not self.complaints:
+            self.live(0.5 * 3600 * hours)
+        self.short_lives_until(hours)
 
     # --- what came of it ---
 
     def costs(self):
-        """[(hour, microseconds of processor time per step)] between the checkpoints of one life."""
+        """[(look, microseconds of processor time per step)] between the checkpoints of one life."""
         costs, looks = [], [look for look in self.looks if look.is_first]
         for before, after in zip(looks, looks[1:]):
             if before.life == after.life and before.age > WARM and after.step > before.step:
-                cost = 1e6 * (after.processor - before.processor) / (after.step - before.step)
-                costs.append((after.hour, cost))
+                costs.append((after, 1e6 * (after.processor - before.processor) / (after.step - before.step)))
         return costs
 
-    def parts(self, hours):
-        """[(looks, costs of a step in microseconds)] of each part of the time."""
-        costs, parts = self.costs(), []
+    def parts(self, hours, hour_of, counts=lambda look: True):
+        """[(looks, costs of a step in microseconds)] of each part of the time that hour_of(look) tells."""
+        looks = [look for look in self.looks if look.age > WARM and look.rows >= SAMPLES and counts(look)]
+        costs, parts = [(look, cost) for look, cost in self.costs() if counts(look)], []
         for part in range(PARTS):
             low, high = (hours * k / PARTS for k in (part, part + 1))
-            parts.append(([look for look in self.looks if low <= look.hour < high and look.age > WARM],
-                          [cost for hour, cost in costs if low <= hour < high]))
+            parts.append(([look for look in looks if low <= hour_of(look) < high],
+                          [cost for look, cost in costs if low <= hour_of(look) < high]))
         return parts
 
     @staticmethod
-    def print_parts(parts, hours):
-        print("| part of the time | memory, MB: median | largest | processor time of a step, us | checkpoints |")
+    def print_parts(parts, hours, what):
+        print(f"| part of {what} | memory, MB: median | largest | processor time of a step, us | checkpoints |")
         print("|---|--:|--:|--:|--:|")
         for part, (looks, costs) in enumerate(parts):
             if not looks or len(costs) < 2:
@@ -194,29 +209,39 @@ class Soak:
             print(f"| {low:.3g} to {high:.3g} min | {statistics.median(memory):.1f} | {max(memory):.1f} "
                   f"| {cost:.1f} +- {error:.1f} | {len(costs)} |")
 
-    def judge_memory(self, early, late):
-        if not early or not late or early[0].rows < SAMPLES:
-            print("too short to judge the memory")
+    def judge_memory(self, early, late, what):
+        if not early or not late:
+            print(f"{what}: too short to judge the memory")
             return
         before, after = (max(look.memory for look in looks) for looks in (early, late))
-        if after - before > GROWTH + ROW * late[-1].rows:
-            self.complaints.append(f"memory grew from {before:.1f} MB to {after:.1f} MB")
+        borne = GROWTH + ROW * (late[-1].rows - early[0].rows)
+        print(f"{what}: at most {after:.1f} MB after {before:.1f} MB, {after - before:+.1f} MB of which {borne:.1f} MB are borne")
+        if after - before > borne:
+            self.complaints.append(f"memory grew over {what}")
 
-    def judge_costs(self, early, late):
+    def judge_costs(self, early, late, what):
         if min(len(early), len(late)) < FEWEST:
-            print("too short to judge the cost of a step")
+            print(f"{what}: too short to judge the cost of a step")
             return
         dearer, words = gets_dearer(early, late)
-        print(words)
+        print(f"{what}: {words}")
         if dearer:
-            self.complaints.append("steps got dearer; was the machine as free as before?")
+            self.complaints.append(f"steps got dearer over {what}; was the machine as free as before?")
+
+    def judge(self, parts, hours, what):
+        self.print_parts(parts, hours, what)
+        (early, early_costs), (late, late_costs) = parts[EARLY], parts[LATE]
+        self.judge_memory(early, late, what)
+        self.judge_costs(early_costs, late_costs, what)
+
+    def judge_all(self, hours):
+        self.judge(self.parts(hours, lambda look: look.hour), hours, "the time")
+        self.judge(self.parts(0.5 * hours, lambda look: look.age / 3600, lambda look: look.life == self.long_life),
+                   0.5 * hours, "the long life")
 
     def report(self, hours):
-        parts, now = self.parts(hours), counted(self.out / "checkpoint.h5")
-        self.print_parts(parts, hours)
-        (early, early_costs), (late, late_costs) = parts[EARLY], parts[LATE]
-        self.judge_memory(early, late)
-        self.judge_costs(early_costs, late_costs)
+        self.judge_all(hours)
+        now = counted(self.out / "checkpoint.h5")
         print(f"{self.lives} lives, {now['step']} steps ({now['step'] * now['time_step']:.3g} s of flow), "
               f"{now['rows']} rows, {len(self.complaints)} complaints")
         for complaint in self.complaints:

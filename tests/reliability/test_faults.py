@@ -251,6 +251,15 @@ class Faults(FaultTest):
     def test_a_write_that_is_interrupted_by_a_signal_is_made_to_its_end(self):
         self.assert_goes_on_as_if_nothing_had_been("write")
 
+    def test_where_a_file_can_have_one_name_only_the_generation_before_is_kept_all_the_same(self):
+        for error in (errno.EPERM, errno.EOPNOTSUPP):
+            with self.subTest(error=error):
+                self.start_again()
+                self.assert_done(self.faulty("run", "tube.yaml", "--out", "out", fault=f"link:1:{error}+"))
+                self.assert_came_to_the_same()
+                with h5py.File(self.out / "checkpoint.h5.previous", "r") as before:
+                    self.assertGreater(before.attrs["step"], 0)
+
     def test_a_resume_that_fails_loses_nothing(self):
         for kind in KINDS:
             with self.subTest(kind=kind):

@@ -1,0 +1,42 @@
+#include "app/flow_failures.hpp"
+
+#include "engine/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace riesel::app {
+
+namespace {
+
+std::string when(const State& state) {
+  return fmt::format("at t = {:.6g} s (step {})", state.time(), state.step);
+}
+
+}  // namespace
+
+void fail_if_too_fast(const State& state) {
+  const FastestGrain fastest = fastest_grain(state);
+  const double largest = largest_speed(state.box, state.time_step, state.grains.size());
+  if (fastest.speed < largest) return;
+  throw RunFailure(fmt::format(
+      "grain {} moves with {:.3g} m/s {}, too fast for this tube and time step, which hold {:.3g} "
+      "m/s; stiffer contacts, a shorter time step or a slower start may help",
+      fastest.id, fastest.speed, when(state), largest));
+}
+
+void fail_if_through_a_wall(const State& state, const Observables& seen) {
+  const auto grain = seen.outside > 0.0 ? grain_outside(state) : std::nullopt;
+  if (!grain) return;
+  const std::string who =
+      seen.outside == 1.0
+          ? fmt::format("grain {} has", *grain)
+          : fmt::format("{:.0f} grains, grain {} among them, have", seen.outside, *grain);
+  throw RunFailure(fmt::format(
+      "{} gone through a wall {}: the contacts are too soft for these velocities; raise "
+      "contact.stiffness",
+      who, when(state)));
+}
+
+}  // namespace riesel::app

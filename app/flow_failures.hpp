@@ -1,0 +1,16 @@
+// What a flow cannot go on with, looked at with each row of its series.
+#pragma once
+
+#include "engine/observables.hpp"
+#include "engine/state.hpp"
+
+namespace riesel::app {
+
+/// Throws RunFailure, with grain, time and remedy, if grains move so fast that nothing can be told
+/// of them, nor of how they went on (largest_speed).
+void fail_if_too_fast(const State& state);
+
+/// Likewise if grains have gone through a wall. `seen` is of `state`.
+void fail_if_through_a_wall(const State& state, const Observables& seen);
+
+}  // namespace riesel::app
