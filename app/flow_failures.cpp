@@ -4,17 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <string>
-
 namespace riesel::app {
-
-namespace {
 
 std::string when(const State& state) {
   return fmt::format("at t = {:.6g} s (step {})", state.time(), state.step);
 }
-
-}  // namespace
 
 void fail_if_too_fast(const State& state) {
   const FastestGrain fastest = fastest_grain(state);

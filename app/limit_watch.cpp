@@ -1,10 +1,10 @@
 #include "app/limit_watch.hpp"
 
+#include "app/flow_failures.hpp"
 #include "app/flow_summary.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <optional>
 
 namespace riesel::app {
@@ -56,30 +56,26 @@ std::string speed_exceeded(const FastestGrain& fastest) {
 
 std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Observables& seen) {
   std::vector<std::string> messages;
-  const auto look = [&](std::optional<double>& limit, const char* key, const auto& is_kept,
+  const auto look = [&](std::optional<double>& limit, const char* key, bool exceeded,
                         const auto& message) {
-    if (!limit || is_kept(*limit)) return;
+    if (!limit || !exceeded) return;
     limit.reset();
-    messages.push_back(fmt::format("at t = {:.6g} s (step {}) {} is exceeded: {}", seen.time,
-                                   state.step, key, message()));
+    messages.push_back(fmt::format("{} {} is exceeded: {}", when(state), key, message()));
   };
+  // What is not a number keeps no limit.
   const LargestOverlap largest = limits_.overlap ? largest_overlap(state) : LargestOverlap{};
-  look(
-      limits_.overlap, "limits.overlap", [&](double limit) { return largest.ratio <= limit; },
-      [&] { return overlap_exceeded(state, largest); });
+  look(limits_.overlap, "limits.overlap", !(largest.ratio <= limits_.overlap),
+       [&] { return overlap_exceeded(state, largest); });
   const double error = energy_error_ratio(state, seen.energies);
-  look(
-      limits_.energy_error, "limits.energy_error", [&](double limit) { return error <= limit; },
-      [&] { return energy_error_exceeded(error); });
-  const double steps = steps_per_contact(state);
-  look(
-      limits_.steps_per_contact, "limits.steps_per_contact",
-      [&](double limit) { return std::isnan(steps) || steps >= limit; },
-      [&] { return steps_too_few(steps); });
+  look(limits_.energy_error, "limits.energy_error", !(error <= limits_.energy_error),
+       [&] { return energy_error_exceeded(error); });
+  // But too few contacts to tell are no offence.
+  const double steps = limits_.steps_per_contact ? steps_per_contact(state) : 0.0;
+  look(limits_.steps_per_contact, "limits.steps_per_contact", steps < limits_.steps_per_contact,
+       [&] { return steps_too_few(steps); });
   const FastestGrain fastest = limits_.speed ? fastest_grain(state) : FastestGrain{};
-  look(
-      limits_.speed, "limits.speed", [&](double limit) { return fastest.speed <= limit; },
-      [&] { return speed_exceeded(fastest); });
+  look(limits_.speed, "limits.speed", !(fastest.speed <= limits_.speed),
+       [&] { return speed_exceeded(fastest); });
   return messages;
 }
 

@@ -51,11 +51,11 @@ bool means_no_links(int error_number) {
 bool link_present(const fs::path& path, const fs::path& second) {
   if (link(path.c_str(), second.c_str()) == 0) return true;
   if (errno == ENOENT) return false;
-  if (!means_no_links(errno))
-    throw system_failure(path, "the generation before cannot be kept", errno);
-  if (rename(path.c_str(), previous_generation(path).c_str()) != 0 && errno != ENOENT)
-    throw system_failure(path, "the generation before cannot be kept", errno);
-  return false;
+  if (means_no_links(errno)) {
+    if (rename(path.c_str(), previous_generation(path).c_str()) == 0) return false;
+    if (errno == ENOENT) return false;
+  }
+  throw system_failure(path, "the generation before cannot be kept", errno);
 }
 
 void rename_to(const fs::path& from, const fs::path& to, const fs::path& path) {

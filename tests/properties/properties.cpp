@@ -102,11 +102,6 @@ Outcome outcome(const SetUp& set_up, int threads, Stepping stepping) {
   }
 }
 
-/// J, what the grains had at first and got from gravity and walls, or gave them.
-double turned_over(const State& state, const Energies& e) {
-  return state.origin.energy + std::abs(e.gravity_work) + std::abs(e.wall_work);
-}
-
 /// One that the plain run has not found yet.
 bool has_lost_grain(const State& state) {
   return std::ranges::any_of(state.grains.x, [&](Fixed x) {
@@ -156,13 +151,14 @@ Complaints balances(const SetUp& set_up, const Outcome& outcome) {
                         - end.tally.walls.ended;
   if (going_on != static_cast<std::int64_t>(end.contacts.size()))
     complaints.emplace_back("contacts that neither last nor have ended");
-  const Energies energies = observe(end).energies;
+  const Observables seen = observe(end);
+  const Energies& energies = seen.energies;
   // A force cut off at zero gives back what the damping had taken too much.
   if (set_up.model.attraction == Attraction::keep && energies.normal_loss < 0.0)
     complaints.emplace_back("the damping has won energy");
   // Second order, as of single impacts: J.
-  const double borne =
-      3.0 / (set_up.steps_per_collision * set_up.steps_per_collision) * turned_over(end, energies);
+  const double borne = 3.0 / (set_up.steps_per_collision * set_up.steps_per_collision)
+                       * energy_turned_over(end, energies);
   const SlipLaw& slip = set_up.model.slip;
   // Springs give back what they store; only friction that is capped never overshoots.
   const double borne_of_friction = std::holds_alternative<CappedSlip>(slip) ? 0.0 : borne;
@@ -176,7 +172,7 @@ Complaints balances(const SetUp& set_up, const Outcome& outcome) {
     complaints.push_back("energy has come from nowhere: " + std::to_string(won / borne)
                          + " times what the time step explains");
   const double gained = momentum_along(end) - momentum_along(set_up.start);
-  const double given = observe(end).wall_impulse_y;
+  const double given = seen.wall_impulse_y;
   if (std::abs(gained - given) > rounding_of_momentum(end) + 1e-9 * std::abs(given))
     complaints.push_back("the walls gave " + std::to_string(given) + " kg m/s and the grains got "
                          + std::to_string(gained));

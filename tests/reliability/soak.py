@@ -129,9 +129,18 @@ class Soak:
         processor, written = processor_time_of(process), checkpoint.stat().st_mtime_ns
         is_first = written != self.seen
         if is_first:
-            self.seen, self.saved = written, counted(checkpoint)
+            self.seen = written
+            self.note_checkpoint()
         self.looks.append(Look(self.lives, (time.monotonic() - self.begin) / 3600, time.monotonic() - born, memory,
                                processor, self.saved["step"], self.saved["rows"], is_first))
+
+    def note_checkpoint(self):
+        """It must not be older than any that was seen before."""
+        now = counted(self.out / "checkpoint.h5")
+        for what in ("step", "rows"):
+            if self.saved is not None and now[what] < self.saved[what]:
+                self.complaints.append(f"life {self.lives}: back from {what} {self.saved[what]} to {now[what]}")
+        self.saved = now
 
     def live(self, seconds):
         """One life: from a start or resume to a kill."""
@@ -150,13 +159,11 @@ class Soak:
         if not (self.out / "checkpoint.h5").exists():
             if self.saved is not None:
                 self.complaints.append(f"life {self.lives}: the checkpoint of step {self.saved['step']} is gone")
-            shutil.rmtree(self.out, ignore_errors=True)  # killed before the first: to be started again
+            else:  # killed before the first: to be started again
+                shutil.rmtree(self.out, ignore_errors=True)
             return
-        now = counted(self.out / "checkpoint.h5")
-        for what in ("step", "rows"):
-            if self.saved is not None and now[what] < self.saved[what]:
-                self.complaints.append(f"life {self.lives}: back from {what} {self.saved[what]} to {now[what]}")
-        self.saved = now
+        self.note_checkpoint()
+        now = self.saved
         with h5py.File(self.out / "run.h5", "r") as file:
             steps = np.rint(file["series/time"][:] / now["time_step"]).astype(np.int64)
         if len(steps) < now["rows"]:
@@ -241,7 +248,7 @@ class Soak:
 
     def report(self, hours):
         self.judge_all(hours)
-        now = counted(self.out / "checkpoint.h5")
+        now = self.saved or {"step": 0, "time_step": 0.0, "rows": 0}
         print(f"{self.lives} lives, {now['step']} steps ({now['step'] * now['time_step']:.3g} s of flow), "
               f"{now['rows']} rows, {len(self.complaints)} complaints")
         for complaint in self.complaints:

@@ -1,11 +1,14 @@
 """What the soak would complain of: leaks, steps that get dearer and lost work, in looks that are made up. It runs for an
 hour by hand only (docs/reliability.md)."""
 
+import argparse
 import contextlib
 import io
+import os
 import pathlib
 import random
 import tempfile
+import time
 import unittest
 
 import h5py
@@ -78,11 +81,21 @@ class LostWork(unittest.TestCase):
         self.write(1000, 2)
         self.assertEqual(len(self.soak.complaints), 2)
 
+    def test_an_older_checkpoint_while_a_life_goes_on(self):
+        self.write(5000, 6)
+        self.soak.saved = {"step": 9000, "rows": 6, "time_step": TIME_STEP}
+        self.soak.look(argparse.Namespace(pid=os.getpid()), time.monotonic())
+        self.assertEqual(len(self.soak.complaints), 1)
+
     def test_no_checkpoint(self):
         self.write(5000, 6)
         (self.out / "checkpoint.h5").unlink()
         self.soak.look_at_rows()
         self.assertEqual(len(self.soak.complaints), 1)
+        told = io.StringIO()
+        with contextlib.redirect_stdout(told):
+            self.soak.report(HOURS)
+        self.assertIn("the checkpoint of step 5000 is gone", told.getvalue())
 
     def test_rows_that_are_missing(self):
         self.write(5000, 6, written=5)
