@@ -251,6 +251,11 @@ TEST_CASE("A checkpoint of a wrong shape is refused") {
          root.group("contacts").remove("end");
          root.group("contacts").create_data<double>("end", {.rows = 3});
        },
+       [](Hdf5Group& root) {
+         root.group("open_visits").remove("impulse_x");
+         root.group("open_visits")
+             .create_data<std::int64_t>("impulse_x", {.rows = 3, .columns = 3});
+       },
        [](Hdf5Group& root) { root.remove("profiles"); },
        [](Hdf5Group& root) { root.remove("histograms"); },
        [](Hdf5Group& root) { root.group("profiles").set_attribute("samples", std::int64_t{7}); },

@@ -168,6 +168,8 @@ TEST_CASE("the name of a point depends on what stands in a file, not on where th
   const auto expected = name_with("a.csv", "1\n");
   CHECK(name_with("b.csv", "1\n") == expected);
   CHECK(name_with("a.csv", "2\n") != expected);
+  // That it cannot be read is for the run to say.
+  CHECK(name("set: {start.kind: file, start.from: none.csv}\n") != expected);
 }
 
 TEST_CASE("a continuation goes forward and back, each point from the one before") {
