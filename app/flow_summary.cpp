@@ -99,7 +99,7 @@ constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
 
 /// What walls do is looked at after the transient, the rest since the start.
 Evidence evidence(const CumulativeSeries& series, const State& state, const Energies& energies,
-                  double v_crit) {
+                  double v_crit, std::size_t warnings) {
   const bool enough = series.total("wall_contacts_ended") >= enough_contacts;
   const auto of_walls = [&](const char* part, const char* whole) {
     return enough ? series.ratio(part, whole).value : unknown;
@@ -112,6 +112,7 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
       .pulling_fraction = of_walls("wall_pulling_time", "wall_contact_time"),
       .steps_per_contact = steps_per_contact(state),
       .energy_error_ratio = energy_error_ratio(state, energies),
+      .limits_exceeded = static_cast<double>(warnings),
   };
 }
 
@@ -137,7 +138,7 @@ Judged judged_by(const State& state, double interval) {
 
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
                           const Observables& last) {
-  const auto& [file, strips, profiles, interval] = records;
+  const auto& [file, strips, profiles, interval, warnings] = records;
   const Judged judged = judged_by(state, interval);
   const std::vector<double> samples = file.series(judged.series);
   const SteadyState steady = assess_steady_state(samples, judged.free_fall_gain);
@@ -169,7 +170,9 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
   s.braking_force = braking_force(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
-  s.validity.verdict = judge(evidence(series, state, last.energies, s.validity.v_crit));
+  s.validity.warnings = warnings;
+  s.validity.verdict =
+      judge(evidence(series, state, last.energies, s.validity.v_crit, warnings.size()));
   s.validity.friction_failure_fraction =
       series.ratio("wall_friction_loss_cut_short", "wall_friction_loss").value;
   const Energies& e = last.energies;

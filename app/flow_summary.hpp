@@ -8,6 +8,8 @@
 #include "scenarios/scenario.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace riesel::app {
 
@@ -15,8 +17,9 @@ namespace riesel::app {
 struct FlowRecords {
   const io::RunFile& file;
   const Strips& strips;
-  const TimeBlocks& profiles;  ///< a sample of the strips with each row of the series
-  double interval;             ///< s, between two rows
+  const TimeBlocks& profiles;                ///< a sample of the strips with each row of the series
+  double interval;                           ///< s, between two rows
+  const std::vector<std::string>& warnings;  ///< that were given of limits
 };
 
 /// By which of the series a flow is judged steady: its mean velocity, or how hot it is where

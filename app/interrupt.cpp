@@ -25,19 +25,31 @@ void remember(int signal) {
   received = signal;
 }
 
+void on(int signal, void (*act)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = act;
+  sigaction(signal, &action, nullptr);
+}
+
+/// As nohup asks for.
+bool is_ignored(int signal) {
+  struct sigaction action = {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 void on_interrupts(void (*act)(int)) {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    struct sigaction action = {};
-    action.sa_handler = act;
-    sigaction(signal, &action, nullptr);
-  }
+  for (const int signal : {SIGINT, SIGTERM}) on(signal, act);
+  if (!is_ignored(SIGHUP)) on(SIGHUP, act);
 }
 
 }  // namespace
 
 void end_on_interrupts() { on_interrupts(end); }
 
-void catch_interrupts() { on_interrupts(remember); }
+void catch_interrupts() {
+  on_interrupts(remember);
+  on(SIGPIPE, SIG_IGN);
+}
 
 int interrupting_signal() { return received; }
 

@@ -1,5 +1,6 @@
-// SIGINT and SIGTERM as a polite request: what has something to save stops at the next occasion,
-// after a checkpoint, and a second signal ends it at once. What has nothing to save ends at once.
+// SIGINT, SIGTERM and SIGHUP as a polite request: what has something to save stops at the next
+// occasion, after a checkpoint, and a second signal ends it at once. What has nothing to save ends
+// at once.
 #pragma once
 
 namespace riesel::app {
@@ -8,7 +9,8 @@ namespace riesel::app {
 /// has no results that could be lost: files are replaced as a whole.
 void end_on_interrupts();
 
-/// From now on the first signal only asks for the end.
+/// From now on the first signal only asks for the end, and whoever has read its messages may go
+/// (SIGPIPE).
 void catch_interrupts();
 
 /// The signal that has asked for the end, or 0.

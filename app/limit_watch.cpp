@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace riesel::app {
 
@@ -47,20 +49,28 @@ std::string steps_too_few(double steps) {
 }
 
 std::string speed_exceeded(const FastestGrain& fastest) {
-  return fmt::format("grain {} moves with {:.4g} m/s: the brake of the walls has failed; lower the "
-                     "velocity at the start, or raise contact.stiffness",
-                     fastest.id, fastest.speed);
+  return fmt::format(
+      "grain {} moves with {:.4g} m/s, which no wall brakes enough; lower the velocity "
+      "at the start, or raise contact.stiffness",
+      fastest.id, fastest.speed);
 }
 
 }  // namespace
 
+LimitWatch::LimitWatch(const scenarios::RunLimits& limits, std::vector<std::string> warnings)
+    : limits_(limits), warnings_(std::move(warnings)) {}
+
+bool LimitWatch::has_warned_of(std::string_view key) const {
+  return std::ranges::any_of(warnings_,
+                             [&](const std::string& warning) { return warning.starts_with(key); });
+}
+
 std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Observables& seen) {
   std::vector<std::string> messages;
-  const auto look = [&](std::optional<double>& limit, const char* key, bool exceeded,
+  const auto look = [&](const std::optional<double>& limit, std::string_view key, bool exceeded,
                         const auto& message) {
-    if (!limit || !exceeded) return;
-    limit.reset();
-    messages.push_back(fmt::format("{} {} is exceeded: {}", when(state), key, message()));
+    if (!limit || !exceeded || (!limits_.stop && has_warned_of(key))) return;
+    messages.push_back(fmt::format("{} is exceeded {}: {}", key, when(state), message()));
   };
   // What is not a number keeps no limit.
   const LargestOverlap largest = limits_.overlap ? largest_overlap(state) : LargestOverlap{};
@@ -76,6 +86,7 @@ std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Ob
   const FastestGrain fastest = limits_.speed ? fastest_grain(state) : FastestGrain{};
   look(limits_.speed, "limits.speed", !(fastest.speed <= limits_.speed),
        [&] { return speed_exceeded(fastest); });
+  if (!limits_.stop) warnings_.insert(warnings_.end(), messages.begin(), messages.end());
   return messages;
 }
 

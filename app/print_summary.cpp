@@ -91,8 +91,10 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   print_balance(s.balance);
   print_braking(s.braking_force);
   print_visits(s.wall_visits);
-  fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
-             s.energy.residual / (s.energy.initial + s.energy.gravity_work + s.energy.wall_work));
+  const double came_in = s.energy.initial + s.energy.gravity_work + s.energy.wall_work;
+  if (came_in != 0.0)
+    fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
+               s.energy.residual / came_in);
   print_validity(s.validity.verdict);
   print_common(s.run, directory);
 }

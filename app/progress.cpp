@@ -22,7 +22,7 @@ constexpr auto between_lines = 10s;
 /// Over what stood in the line before. A line that reached the edge would go on in the next one.
 void show_in_place(const std::string& line) {
   const std::size_t room = terminal_width() - 1;
-  fmt::print(stderr, "\r{:<{}}", std::string_view(line).substr(0, room), room);
+  tell("\r{:<{}}", std::string_view(line).substr(0, room), room);
 }
 
 }  // namespace
@@ -54,13 +54,13 @@ void Progress::show(double done, const std::string& text) {
   if (terminal_)
     show_in_place(line);
   else
-    fmt::print(stderr, "{}\n", line);
+    tell("{}\n", line);
   std::fflush(stderr);
   line_open_ = terminal_;
 }
 
 void Progress::finish() {
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) tell("\n");
   line_open_ = false;
 }
 

@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/run_flow.hpp"
+#include "app/terminal.hpp"
 #include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
@@ -38,10 +39,14 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
 }
 
 io::FoundCheckpoint find(const std::filesystem::path& path) {
+  const auto post_mortem = path / post_mortem_name;
   if (stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "
-                          "again");
+                          "again"
+                        + (std::filesystem::exists(post_mortem)
+                               ? ", or go on from " + post_mortem.string() + " with another limit"
+                               : ""));
   if (std::filesystem::exists(path / io::manifest_name))
     throw UnusableInput(path.string()
                         + ": holds a sweep; go on with it by 'riesel sweep' and its file");
@@ -64,8 +69,7 @@ io::FoundCheckpoint find(const std::filesystem::path& path) {
 int resume(const ResumeOptions& options, const Arguments& arguments) {
   reject_overrides_of_the_physics(options.overrides);
   io::FoundCheckpoint found = find(options.checkpoint);
-  if (!found.note.empty())
-    fmt::print(stderr, "riesel: {}; going on from {}\n", found.note, found.path.string());
+  if (!found.note.empty()) tell("riesel: {}; going on from {}\n", found.note, found.path.string());
 
   const auto settings = io::Settings::from_text(found.checkpoint.settings, found.path.string(),
                                                 scenarios::settings_tables(), options.overrides);

@@ -11,7 +11,9 @@
 #include "app/schedule.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
+#include "app/terminal.hpp"
 #include "app/walltime.hpp"
+#include "engine/hash.hpp"
 #include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
 #include "engine/steady_state.hpp"
@@ -29,9 +31,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace riesel::app {
 
@@ -48,9 +52,19 @@ struct LimitExceeded : RunFailure {
   using RunFailure::RunFailure;
 };
 
+/// See Checkpoint::run.
+std::uint64_t identity_of(const io::Settings& settings, const State& start) {
+  Hash hash;
+  for (const char c : settings.effective_yaml()) hash.add(c);
+  hash.add(state_hash(start));
+  return hash.value();
+}
+
 /// What a run that goes on has behind it.
 struct Past {
-  std::string source;               // the user's settings file, verbatim
+  std::string source;  // the user's settings file, verbatim
+  std::uint64_t run = 0;
+  std::vector<std::string> warnings = {};
   bool had_other_settings = false;  // a shorter duration, for instance
   std::int64_t rows = 0;
   double wall_seconds = 0.0;
@@ -69,7 +83,8 @@ public:
         schedule_(settings_, state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
-        limits_(scenarios::run_limits(settings_)),
+        run_(past_.rows == 0 ? identity_of(settings_, simulation_.state()) : past_.run),
+        limits_(scenarios::run_limits(settings_), past_.warnings),
         file_(open(arguments)),
         trajectory_(open_trajectory()),
         strips_(Strips::of(simulation_.state())),
@@ -85,12 +100,16 @@ public:
     if (past_.rows > 0) directory_.go_on(settings_);
     tell_beginning();
     try {
-      if (file_.rows() == 0) begin();
+      if (file_.rows() == 0)
+        begin();
+      else
+        look();
       if (past_.had_other_settings) keep_settings();
       if (max_walltime_ && longest_save_ == 0.0) save();  // to know how long it takes
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
-      return fail(failure, "; with another limit it goes on from there, see 'riesel resume'");
+      return fail(failure, fmt::format("; 'riesel resume {}' goes on from there with another limit",
+                                       directory_.file(post_mortem_name).string()));
     } catch (const RunFailure& failure) {
       return fail(failure, "");
     }
@@ -106,7 +125,8 @@ private:
                                 .seed = settings_.integer("seed"),
                                 .threads = threads_,
                                 .source = past_.source,
-                                .settings = settings_.effective_yaml()});
+                                .settings = settings_.effective_yaml(),
+                                .run = run_});
     const auto path = directory_.file(io::run_file_name);
     return past_.rows == 0 ? io::RunFile::create(path, provenance, series_columns())
                            : io::RunFile::reopen(path, provenance, series_columns(), past_.rows);
@@ -115,7 +135,7 @@ private:
   std::optional<io::TrajectoryFile> open_trajectory() const {
     if (schedule_.steps_per_frame == 0) return {};
     const auto open = past_.rows == 0 ? io::TrajectoryFile::create : io::TrajectoryFile::reopen;
-    return open(directory_.file(io::trajectory_name), simulation_.state(),
+    return open(directory_.file(io::trajectory_name), run_, simulation_.state(),
                 schedule_.steps_per_frame, settings_.effective_yaml());
   }
 
@@ -157,7 +177,7 @@ private:
     precision_so_far_ =
         fmt::format("  error {:.2g} % of {:.2g} %", 100.0 * so_far.error / std::abs(so_far.mean),
                     100.0 * *schedule_.relative_error);
-    tell("t = {:.6g} s:{}", simulation_.state().time(), precision_so_far_);
+    tell_more("t = {:.6g} s:{}", simulation_.state().time(), precision_so_far_);
   }
 
   /// s, between two rows.
@@ -192,7 +212,10 @@ private:
     times_.stepping += seconds_since(start);
     longest_piece_ = std::max(longest_piece_, seconds_since(start));
     if (schedule_.is_frame(state.step)) add_frame();
-    if (schedule_.is_row(state.step)) add_row();
+    if (schedule_.is_row(state.step))
+      add_row();
+    else if (schedule_.is_look(state.step))
+      look();
     if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
                    fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s{}", state.time(), last_.mean_vy,
@@ -208,23 +231,32 @@ private:
 
   void add_row() {
     const auto start = Clock::now();
-    fail_if_too_fast(simulation_.state());
-    last_ = observe(simulation_.state());
+    observe_all();
     profiles_.add(
         sum_over_strips(strips_, simulation_.state(), simulation_.model(), last_.mean_vy));
     histograms_.add(simulation_.state().tally);
     times_.measuring += seconds_since(start);
     file_.append(series_row(last_, simulation_.state().tally));
     note_precision();
-    fail_if_through_a_wall(simulation_.state(), last_);
     heed_limits();
   }
 
+  void look() {
+    observe_all();
+    heed_limits();
+  }
+
+  void observe_all() {
+    fail_if_too_fast(simulation_.state());
+    last_ = observe(simulation_.state());
+  }
+
   void heed_limits() {
+    fail_if_through_a_wall(simulation_.state(), last_);
     for (const std::string& message : limits_.newly_exceeded(simulation_.state(), last_)) {
       if (limits_.stops()) throw LimitExceeded(message);
       progress_.finish();
-      fmt::print(stderr, "riesel: {}\n", message);
+      tell("riesel: {}\n", message);
     }
   }
 
@@ -232,6 +264,8 @@ private:
     return {.state = simulation_.state(),
             .settings = settings_.effective_yaml(),
             .source = past_.source,
+            .run = run_,
+            .warnings = limits_.warnings(),
             .rows = file_.rows(),
             .wall_seconds = wall_seconds(),
             .profiles = profiles_,
@@ -249,26 +283,26 @@ private:
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
     longest_save_ = std::max(longest_save_, seconds_since(start));
-    tell("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
-         file_.rows(), seconds_since(start));
+    tell_more("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
+              file_.rows(), seconds_since(start));
   }
 
   /// For those who want to know more.
   template <class... Parts>
-  void tell(fmt::format_string<Parts...> format, Parts&&... parts) {
+  void tell_more(fmt::format_string<Parts...> format, Parts&&... parts) {
     if (verbosity_ != Verbosity::verbose) return;
     progress_.finish();
-    fmt::print(stderr, "{}\n", fmt::format(format, std::forward<Parts>(parts)...));
+    tell("{}\n", fmt::format(format, std::forward<Parts>(parts)...));
   }
 
   void tell_beginning() {
     const State& state = simulation_.state();
     if (past_.rows > 0 && verbosity_ != Verbosity::quiet)
-      fmt::print(stderr, "{}: goes on from t = {:.6g} s, step {} of {}\n",
-                 directory_.path().string(), state.time(), state.step, schedule_.last_step);
-    tell("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}", directory_.path().string(),
-         state.grains.size(), state.step, schedule_.last_step, state.time_step, threads_,
-         threads_ == 1 ? "" : "s");
+      tell("{}: goes on from t = {:.6g} s, step {} of {}\n", directory_.path().string(),
+           state.time(), state.step, schedule_.last_step);
+    tell_more("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}",
+              directory_.path().string(), state.grains.size(), state.step, schedule_.last_step,
+              state.time_step, threads_, threads_ == 1 ? "" : "s");
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -287,9 +321,8 @@ private:
 
   int tell_result() {
     directory_.require_in_place();
-    last_ = observe(simulation_.state());
-    io::FlowSummary s = summarise({file_, strips_, profiles_, interval()}, simulation_.state(),
-                                  simulation_.model(), last_);
+    io::FlowSummary s = summarise({file_, strips_, profiles_, interval(), limits_.warnings()},
+                                  simulation_.state(), simulation_.model(), last_);
     s.run = run_summary();
     s.ended_by = ended_by();
     file_.write_validity(s.validity.verdict);
@@ -309,23 +342,23 @@ private:
 
   int tell_interruption() const {
     const bool by_signal = interrupting_signal() != 0;
-    fmt::print(stderr, "{} at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
-               by_signal ? "interrupted" : "out of time (--max-walltime)",
-               simulation_.state().time(), directory_.path().string());
+    tell("{} at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
+         by_signal ? "interrupted" : "out of time (--max-walltime)", simulation_.state().time(),
+         directory_.path().string());
     return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
   }
 
   /// Keeps what there is: the state may tell why.
-  int fail(const RunFailure& failure, const char* way_on) {
+  int fail(const RunFailure& failure, const std::string& way_on) {
     progress_.finish();
-    fmt::print(stderr, "riesel: the run failed: {}\n", failure.what());  // whatever the disk does
+    tell("riesel: the run failed: {}\n", failure.what());  // whatever the disk does
     directory_.require_in_place();
     file_.write_final_state(simulation_.state());
     file_.flush();
     if (trajectory_) trajectory_->commit();
     const auto post_mortem = directory_.file(post_mortem_name);
     io::write_checkpoint(post_mortem, checkpoint());
-    fmt::print(stderr, "the state of that moment is in {}{}\n", post_mortem.string(), way_on);
+    tell("the state of that moment is in {}{}\n", post_mortem.string(), way_on);
     return exit_failed;
   }
 
@@ -337,6 +370,7 @@ private:
   const Schedule schedule_;
   const int threads_;
   Simulation simulation_;
+  const std::uint64_t run_;  // see Checkpoint::run
   LimitWatch limits_;
   io::RunFile file_;
   std::optional<io::TrajectoryFile> trajectory_;
@@ -368,6 +402,8 @@ int resume_flow(const io::Settings& settings, io::Checkpoint checkpoint, RunDire
                 const Arguments& arguments, const FlowOptions& options) {
   catch_interrupts();
   const Past past{.source = checkpoint.source,
+                  .run = checkpoint.run,
+                  .warnings = std::move(checkpoint.warnings),
                   .had_other_settings = checkpoint.settings != settings.effective_yaml(),
                   .rows = checkpoint.rows,
                   .wall_seconds = checkpoint.wall_seconds,

@@ -20,8 +20,8 @@ Schedule::Schedule(const io::Settings& settings, double time_step)
 
 std::int64_t Schedule::next(std::int64_t step) const {
   const auto after = [step](std::int64_t steps) { return (step / steps + 1) * steps; };
-  const std::int64_t row = std::min(after(steps_per_row), last_step);
-  return steps_per_frame > 0 ? std::min(row, after(steps_per_frame)) : row;
+  const std::int64_t look = std::min({after(steps_per_row), after(steps_per_look), last_step});
+  return steps_per_frame > 0 ? std::min(look, after(steps_per_frame)) : look;
 }
 
 }  // namespace riesel::app

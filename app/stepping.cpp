@@ -1,5 +1,8 @@
 #include "app/stepping.hpp"
 
+#include <omp.h>
+
+#include <algorithm>
 #include <string>
 
 namespace riesel::app {
@@ -13,7 +16,8 @@ Stepping stepping_of(const io::Settings& settings) {
 
 int threads_for(const io::Settings& settings, std::size_t grains) {
   const auto wanted = settings.integer_or_auto("run.threads");
-  return wanted ? static_cast<int>(*wanted) : useful_threads(grains);
+  const int threads = wanted ? static_cast<int>(*wanted) : useful_threads(grains);
+  return std::min(threads, omp_get_thread_limit());
 }
 
 }  // namespace riesel::app

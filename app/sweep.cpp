@@ -9,6 +9,7 @@
 #include "app/sweep_parts.hpp"
 #include "app/sweep_plan.hpp"
 #include "app/sweep_runner.hpp"
+#include "app/terminal.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
@@ -152,8 +153,7 @@ int sweep(const SweepOptions& options) {
                                  .on_change = write_manifest});
   write_table(plan.manifest, directory);
   print_status(plan.manifest, directory);
-  if (status > exit_bad_input)
-    fmt::print(stderr, "interrupted; the same command goes on from there\n");
+  if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
   return status;
 }
 

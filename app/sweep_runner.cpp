@@ -4,6 +4,7 @@
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/terminal.hpp"
 #include "app/walltime.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_record.hpp"
@@ -63,7 +64,7 @@ std::string complaint_in(const fs::path& log, std::uintmax_t begin) {
 
 bool was_stopped(const ProcessEnd& end) {
   const int by_signal = end.signal != 0 ? end.signal : end.status - 128;
-  return by_signal == SIGINT || by_signal == SIGTERM || by_signal == SIGKILL;
+  return by_signal == SIGINT || by_signal == SIGTERM || by_signal == SIGHUP || by_signal == SIGKILL;
 }
 
 class Runner {
@@ -195,7 +196,7 @@ private:
     if (was_stopped(*end)) {
       job.status = RunStatus::interrupted;
       if (job.starts == most_starts && ending_signal() == 0)
-        tell("point {} was stopped {} times; 'riesel sweep' goes on with it", job, most_starts);
+        tell_of("point {} was stopped {} times; 'riesel sweep' goes on with it", job, most_starts);
       return;
     }
     fail(job, *end);
@@ -209,14 +210,14 @@ private:
     record.failure = reason;
     io::write_run_record(job.directory, record);
     job.status = RunStatus::failed;
-    tell("point {} failed: {}", job, reason);
+    tell_of("point {} failed: {}", job, reason);
   }
 
   template <class What>
-  void tell(fmt::format_string<const std::string&, const What&> format, const Job& job,
-            const What& what) {
+  void tell_of(fmt::format_string<const std::string&, const What&> format, const Job& job,
+               const What& what) {
     progress_.finish();
-    fmt::print(stderr, "riesel: {}\n", fmt::format(format, job.name, what));
+    tell("riesel: {}\n", fmt::format(format, job.name, what));
   }
 
   /// What the runs are to be stopped by, or 0. They need some time to write their checkpoints.

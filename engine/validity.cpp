@@ -44,7 +44,7 @@ constexpr Criterion detachment_criterion = {
     0.5,          false,   "contacts last so long that beads touch several others at once",
     stiffer};
 
-constexpr std::array<Criterion, 7> criteria = {{
+constexpr std::array<Criterion, 8> criteria = {{
     overlap_criterion,
     brake_criterion,
     {"passages_per_wall_visit", &Evidence::passages_per_visit, 0.5, 2.0, false,
@@ -57,6 +57,8 @@ constexpr std::array<Criterion, 7> criteria = {{
      "the time step does not resolve the shortest contacts", finer},
     {"energy_error_ratio", &Evidence::energy_error_ratio, 0.01, 0.1, false,
      "energy comes or goes by errors of the time step, which is too long for the forces", finer},
+    {"limits_exceeded", &Evidence::limits_exceeded, 0.0, none, false,
+     "limits of the settings were exceeded", "see validity.warnings in summary.json"},
 }};
 
 /// In dense flows grains jostle at a wall, and their visits have no end: short contacts that brake

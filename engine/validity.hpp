@@ -28,6 +28,7 @@ struct Evidence {
   double pulling_fraction;        ///< of the time of wall contacts, with F_N < 0
   double steps_per_contact;       ///< time steps of the shortest twentieth of contacts, at most
   double energy_error_ratio;      ///< see energy_error_ratio()
+  double limits_exceeded;         ///< how many of the user's limits, which were to warn only
 };
 
 inline constexpr double suspect_overlap_ratio = 0.2;  ///< of Evidence::max_overlap_ratio

@@ -10,13 +10,16 @@
 #include "io/state_layout.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -27,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 8;
+constexpr std::int64_t format_version = 9;
 constexpr auto kind = "checkpoint";
 
 // --- one part of the checkpoint after the other, written and read ---
@@ -152,15 +155,26 @@ void write(Hdf5Group root, const Checkpoint& checkpoint) {
   root.set_attribute("wall_seconds", checkpoint.wall_seconds);
   root.write_text("settings", checkpoint.settings);
   root.write_text("source", checkpoint.source);
+  root.set_attribute("run", checkpoint.run);
+  root.write_text("warnings", fmt::format("{}", fmt::join(checkpoint.warnings, "\n")));
   write(root.create_group("profiles"), checkpoint.profiles);
   write(root.create_group("histograms"), checkpoint.histograms);
   write(std::move(root), checkpoint.state);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream rest(text);
+  for (std::string line; std::getline(rest, line);) lines.push_back(line);
+  return lines;
 }
 
 Checkpoint read_contents(const StoredGroup& root) {
   return {.state = read_state(root),
           .settings = root.text("settings"),
           .source = root.text("source"),
+          .run = root.attribute<std::uint64_t>("run"),
+          .warnings = lines_of(root.text("warnings")),
           .rows = root.attribute<std::int64_t>("rows"),
           .wall_seconds = root.attribute<double>("wall_seconds"),
           .profiles = read_blocks(root.group("profiles")),

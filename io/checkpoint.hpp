@@ -15,13 +15,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace riesel::io {
 
 struct Checkpoint {
   State state;
-  std::string settings;        ///< the effective settings, YAML
-  std::string source;          ///< the user's settings file, verbatim
+  std::string settings;  ///< the effective settings, YAML
+  std::string source;    ///< the user's settings file, verbatim
+  /// Which run it is, so that files of another are not taken for its own: equal for equal settings
+  /// and starts, and kept through resumes.
+  std::uint64_t run = 0;
+  std::vector<std::string> warnings = {};  ///< that were given of limits, a line each
   std::int64_t rows = 0;       ///< rows that the series of the run file had at that moment
   double wall_seconds = 0.0;   ///< s, what the run has taken so far
   TimeBlocks profiles = {};    ///< what the profiles across the tube are made of, so far

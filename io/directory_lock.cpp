@@ -12,10 +12,9 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
-#include <tuple>
-#include <utility>
 
 namespace riesel::io {
 namespace {
@@ -56,12 +55,11 @@ bool lock_patiently(int descriptor) {
   }
 }
 
-/// Device and inode. Throws FileError if there is no such directory.
-std::pair<std::uint64_t, std::uint64_t> identity_of(const std::filesystem::path& directory) {
+/// Of no file: nothing, and errno tells why.
+std::optional<FileIdentity> identity_of(const std::filesystem::path& path) {
   struct stat about = {};
-  if (stat(directory.c_str(), &about) != 0)
-    throw system_failure(directory, "cannot be written any more", errno);
-  return {about.st_dev, about.st_ino};
+  if (stat(path.c_str(), &about) != 0) return std::nullopt;
+  return FileIdentity{about.st_dev, about.st_ino};
 }
 
 }  // namespace
@@ -73,7 +71,8 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
   if (lock_patiently(descriptor_)) {
     describe_holder(descriptor_);
-    std::tie(device_, inode_) = identity_of(directory);
+    directory_identity_ = identity_of(directory);
+    lock_identity_ = identity_of(directory / lock_name);
     return;
   }
   const int error_number = errno;
@@ -87,9 +86,15 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
 }
 
 void DirectoryLock::require_in_place() const {
-  if (identity_of(directory_) == std::pair(device_, inode_)) return;
-  throw FileError(directory_, "is another directory than that in which the run was started",
-                  "go on with 'riesel resume' where that is now");
+  const auto found = identity_of(directory_);
+  if (!found) throw system_failure(directory_, "cannot be written any more", errno);
+  if (found != directory_identity_)
+    throw FileError(directory_, "is another directory than that in which the run was started",
+                    "go on with 'riesel resume' where that is now");
+  const auto lock = directory_ / lock_name;
+  if (identity_of(lock) != lock_identity_)
+    throw FileError(lock, "has been removed or replaced, so that another process may work here",
+                    "go on with 'riesel resume' when none does");
 }
 
 bool DirectoryLock::is_held(const std::filesystem::path& directory) {

@@ -7,8 +7,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace riesel::io {
+
+/// Which file it is, whatever its name: equal for no two of them.
+struct FileIdentity {
+  std::uint64_t device = 0, inode = 0;
+  bool operator==(const FileIdentity&) const = default;
+};
 
 /// Holds the lock of a directory as long as it lives.
 class DirectoryLock {
@@ -19,7 +26,8 @@ public:
   ~DirectoryLock();
 
   /// Throws FileError if the directory is not where it was: gone, moved, or another one stands in
-  /// its place, which this lock does not protect.
+  /// its place, which this lock does not protect; or if the file .lock is gone or another, so that
+  /// another process may have taken that.
   void require_in_place() const;
 
   /// Whether another process works in the directory at the moment. Writes nothing.
@@ -32,8 +40,8 @@ public:
 
 private:
   std::filesystem::path directory_;
-  std::uint64_t device_ = 0, inode_ = 0;  ///< of the directory: which one it is
   int descriptor_;
+  std::optional<FileIdentity> directory_identity_, lock_identity_;
 };
 
 }  // namespace riesel::io

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,9 +18,13 @@ struct RunOrigin {
   std::vector<std::string> arguments;  ///< argv
   std::int64_t seed = 0;
   int threads = 1;
-  std::string source;    ///< the user's settings file, verbatim
-  std::string settings;  ///< the effective settings, YAML
+  std::string source;                     ///< the user's settings file, verbatim
+  std::string settings;                   ///< the effective settings, YAML
+  std::optional<std::uint64_t> run = {};  ///< see Checkpoint::run; of what can be resumed
 };
+
+/// The name of RunOrigin::run in there, as 16 hexadecimal digits.
+inline constexpr auto run_key = "run";
 
 /// The origin, the build, the libraries, the machine, the batch job if any, and the present time
 /// (ISO 8601, UTC). What the system does not tell is "unknown".

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
@@ -135,6 +136,16 @@ void write_walls(Hdf5Group group, const State& state) {
 
 }  // namespace
 
+/// Which run they are of: a text that is the same in a resume.
+std::string run_of(const Provenance& provenance) {
+  const auto found = std::ranges::find(provenance, run_key, &Provenance::value_type::first);
+  return found == provenance.end() ? "" : found->second;
+}
+
+void require_same_run(const StoredGroup& old, const Provenance& provenance) {
+  if (old.text(run_key) != run_of(provenance)) throw Hdf5Error("it is of another run");
+}
+
 /// The file in memory, and the rows that are not yet in there.
 class RunFile::Contents {
 public:
@@ -229,7 +240,8 @@ RunFile RunFile::create(const fs::path& path, const Provenance& provenance,
 RunFile RunFile::reopen(const fs::path& path, const Provenance& provenance,
                         const std::vector<Column>& series, std::int64_t rows) {
   try {
-    const auto old = open_sealed_hdf5(path, run_file_kind, Unsealed::allowed);
+    const auto old = open_sealed_hdf5(path, run_file_kind, Unsealed::refused);
+    require_same_run(old.group("provenance"), provenance);
     RunFile file(path, series);
     file.contents_->take_rows(old.group("series"), rows);
     auto root = file.contents_->root();

@@ -47,7 +47,7 @@ public:
   /// Goes on with the file of a run that is resumed from a checkpoint: takes over its first `rows`
   /// rows and its provenance, and adds the new provenance in /provenance/resume_1, resume_2, ...
   /// The file on the disk is not replaced before the next flush. Throws FileError; in particular if
-  /// it has fewer rows, or other columns.
+  /// it has fewer rows, other columns, or is of another run than `provenance` tells (run_key).
   static RunFile reopen(const std::filesystem::path& path, const Provenance& provenance,
                         const std::vector<Column>& series, std::int64_t rows);
 

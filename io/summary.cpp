@@ -104,7 +104,8 @@ Json validity(const FlowSummary& s) {
           {"contacts_per_wall_visit", s.wall_visits.contacts.value},
           {"v_crit", s.validity.v_crit},
           {"t_col", {{"grains", s.validity.t_col_grains}, {"walls", s.validity.t_col_walls}}},
-          {"findings", findings(v.findings)}};
+          {"findings", findings(v.findings)},
+          {"warnings", s.validity.warnings}};
 }
 
 std::string text_of(const Json& json) { return json.dump(2) + "\n"; }

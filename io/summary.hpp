@@ -103,6 +103,7 @@ struct FlowSummary {
     double v_crit = 0.0;  ///< m/s, above which a typical wall contact is cut short
     double t_col_grains = unknown, t_col_walls = unknown;  ///< s, of typical contacts
     double friction_failure_fraction = 0.0;  ///< of the friction loss at walls, by those cut short
+    std::vector<std::string> warnings;       ///< that were given of limits
   } validity;
 };
 

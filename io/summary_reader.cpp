@@ -121,7 +121,7 @@ Validity validity(const Json& json) {
 Finding read_finding(const Json& json) {
   const std::string name = json.at("name");
   const double value = number(json, "value");
-  const auto known = judge({value, value, value, value, value, value, value}).findings;
+  const auto known = judge({value, value, value, value, value, value, value, value}).findings;
   const auto found = std::ranges::find(known, name, &Finding::name);
   if (found == known.end()) throw std::runtime_error("there is no finding " + name);
   return {.name = found->name,
@@ -208,7 +208,8 @@ FlowSummary read_flow(const Json& json) {
                        .v_crit = number(validity, "v_crit"),
                        .t_col_grains = read_t_col(validity, "grains"),
                        .t_col_walls = read_t_col(validity, "walls"),
-                       .friction_failure_fraction = number(validity, "friction_failure_fraction")}};
+                       .friction_failure_fraction = number(validity, "friction_failure_fraction"),
+                       .warnings = validity.value("warnings", std::vector<std::string>{})}};
 }
 
 /// Throws FileError for the summary of another program or of another time.

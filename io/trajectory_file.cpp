@@ -151,9 +151,10 @@ struct Frame {
 class TrajectoryFile::Contents {
 public:
   /// A new file.
-  Contents(fs::path path, const State& state, std::int64_t steps_per_frame,
+  Contents(fs::path path, std::uint64_t run, const State& state, std::int64_t steps_per_frame,
            const std::string& settings)
       : Contents(std::move(path), facts_of(state, settings), state.time_step) {
+    head_.run = run;
     head_.steps_per_frame = static_cast<std::uint64_t>(steps_per_frame);
     head_.frames_per_block = layout_.frames_per_block;
     head_.end = fixed_.wall_end;
@@ -179,6 +180,7 @@ public:
     read_blocks();
   }
 
+  std::uint64_t run() const { return head_.run; }
   std::uint64_t steps_per_frame() const { return head_.steps_per_frame; }
   std::uint64_t frames() const { return head_.frames; }
   const fs::path& path() const { return path_; }
@@ -310,7 +312,7 @@ TrajectoryFile::~TrajectoryFile() = default;
 TrajectoryFile::TrajectoryFile(TrajectoryFile&&) noexcept = default;
 TrajectoryFile& TrajectoryFile::operator=(TrajectoryFile&&) noexcept = default;
 
-TrajectoryFile TrajectoryFile::create(const fs::path& path, const State& state,
+TrajectoryFile TrajectoryFile::create(const fs::path& path, std::uint64_t run, const State& state,
                                       std::int64_t steps_per_frame, const std::string& settings) {
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(path, ignored)))
@@ -318,14 +320,18 @@ TrajectoryFile TrajectoryFile::create(const fs::path& path, const State& state,
   if (most_places(facts_of(state, {})) > most_grains)
     throw FileError(path, fmt::format("cannot hold frames of more than {} grains", most_grains),
                     "run without a trajectory");
-  return TrajectoryFile(std::make_unique<Contents>(path, state, steps_per_frame, settings));
+  return TrajectoryFile(std::make_unique<Contents>(path, run, state, steps_per_frame, settings));
 }
 
-TrajectoryFile TrajectoryFile::reopen(const fs::path& path, const State& state,
+TrajectoryFile TrajectoryFile::reopen(const fs::path& path, std::uint64_t run, const State& state,
                                       std::int64_t steps_per_frame, const std::string& settings) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+    throw FileError(path, "is missing", "restore the file, or start the run again elsewhere");
   const auto wanted = static_cast<std::uint64_t>(state.step / steps_per_frame + 1);
   try {
     auto contents = std::make_unique<Contents>(path, state, settings);
+    require(contents->run() == run, "it is of another run");
     require(contents->steps_per_frame() == static_cast<std::uint64_t>(steps_per_frame),
             "its frames are of other steps");
     require(

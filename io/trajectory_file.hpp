@@ -32,17 +32,19 @@ inline constexpr auto trajectory_index_name = "trajectory.xdmf2";
 
 class TrajectoryFile {
 public:
-  /// A new file without frames, on the disk at once. `settings`: the effective ones. Frames will
-  /// come every `steps_per_frame` steps from step 0 on. Throws FileError, as all members do; in
-  /// particular if the file exists.
-  static TrajectoryFile create(const std::filesystem::path& path, const State& state,
-                               std::int64_t steps_per_frame, const std::string& settings);
+  /// A new file without frames, on the disk at once, of the run that Checkpoint::run tells.
+  /// `settings`: the effective ones. Frames will come every `steps_per_frame` steps from step 0 on.
+  /// Throws FileError, as all members do; in particular if the file exists.
+  static TrajectoryFile create(const std::filesystem::path& path, std::uint64_t run,
+                               const State& state, std::int64_t steps_per_frame,
+                               const std::string& settings);
 
   /// Goes on with the file of a run that is resumed: of its frames those remain that were due up to
   /// the step of `state`. Until the next commit the file on the disk stays as it is. Throws
   /// FileError; in particular if it has fewer, is damaged, or is of another run.
-  static TrajectoryFile reopen(const std::filesystem::path& path, const State& state,
-                               std::int64_t steps_per_frame, const std::string& settings);
+  static TrajectoryFile reopen(const std::filesystem::path& path, std::uint64_t run,
+                               const State& state, std::int64_t steps_per_frame,
+                               const std::string& settings);
 
   ~TrajectoryFile();
   TrajectoryFile(TrajectoryFile&&) noexcept;

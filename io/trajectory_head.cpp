@@ -11,17 +11,17 @@ namespace riesel::io {
 namespace {
 
 constexpr std::size_t title_place = 128;  // behind the superblock
-constexpr std::string_view title = "riesel trajectory 2\n";
+constexpr std::string_view title = "riesel trajectory 3\n";
 constexpr std::size_t numbers_place = title_place + 32;
 constexpr std::size_t checksum_place = trajectory_head_size - 8;
 
 /// Calls visit(number) for each number of the head, in the order of the file.
 template <class AnyHead, class Visit>
 void for_each_number(AnyHead& head, Visit visit) {
-  auto& [grains, wall_grains, steps_per_frame, frames_per_block, frames, blocks, end, places,
+  auto& [run, grains, wall_grains, steps_per_frame, frames_per_block, frames, blocks, end, places,
          in_use, outline_size, outline_checksum] = head;
   for (auto* number :
-       {&grains, &wall_grains, &steps_per_frame, &frames_per_block, &frames, &blocks, &end})
+       {&run, &grains, &wall_grains, &steps_per_frame, &frames_per_block, &frames, &blocks, &end})
     visit(*number);
   for (auto& [address, capacity] : places) visit(address), visit(capacity);
   for (auto* number : {&in_use, &outline_size, &outline_checksum}) visit(*number);

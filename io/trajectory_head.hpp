@@ -19,6 +19,7 @@ struct OutlinePlace {
 };
 
 struct TrajectoryHead {
+  std::uint64_t run = 0;  ///< see Checkpoint::run
   std::uint64_t grains = 0, wall_grains = 0;
   std::uint64_t steps_per_frame = 0, frames_per_block = 0;
   std::uint64_t frames = 0;

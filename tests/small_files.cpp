@@ -5,8 +5,10 @@
 #include "engine/tube_profiles.hpp"
 #include "io/checkpoint.hpp"
 #include "io/settings.hpp"
+#include "io/trajectory_file.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -20,6 +22,9 @@ namespace riesel {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint64_t run_of_trajectory = 0x1f;
+constexpr std::int64_t steps_per_frame = 10;
 
 State state_of_a_small_tube() {
   const auto settings = io::Settings::from_text("scenario: periodic_tube\n"
@@ -52,7 +57,8 @@ void write_small_checkpoint(const fs::path& path) {
 }
 
 void write_small_run_file(const fs::path& path) {
-  auto file = io::RunFile::create(path, {{"date", "today"}, {"settings", "a: 1"}}, small_columns);
+  auto file = io::RunFile::create(path, {{"date", "today"}, {"settings", "a: 1"}, {"run", "1f"}},
+                                  small_columns);
   for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0});
   file.write_final_state(state_of_a_small_tube());
   std::vector<TubeProfile> profiles;
@@ -71,6 +77,23 @@ void write_small_run_file(const fs::path& path) {
                           .rates = {{}, {}}});
   file.write_histograms(histograms, 0.1);
   file.flush();
+}
+
+void write_small_trajectory(const fs::path& path) {
+  State state = state_of_a_small_tube();
+  state.step = 0;
+  auto file = io::TrajectoryFile::create(path, run_of_trajectory, state, steps_per_frame, "a: 1\n");
+  for (int i = 0; i < 3; ++i) file.append(state);
+  file.commit();
+}
+
+void reopen_small_trajectory(const fs::path& path) {
+  static const State after_a_frame = [] {
+    State state = state_of_a_small_tube();
+    state.step = steps_per_frame;
+    return state;
+  }();
+  io::TrajectoryFile::reopen(path, run_of_trajectory, after_a_frame, steps_per_frame, "a: 1\n");
 }
 
 std::vector<char> small_file(void (*write)(const fs::path&)) {

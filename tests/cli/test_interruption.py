@@ -3,6 +3,7 @@
 import pathlib
 import random
 import re
+import shutil
 import signal
 import time
 
@@ -90,13 +91,29 @@ class Interruption(CommandTest):
 
     def test_by_polite_signals(self):
         arguments, step = ["run", "long.yaml", "--out", "out"], 0
-        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             status, stderr = self.start_and_stop(arguments, number)
             self.assertEqual(status, 128 + number, stderr)
             self.assertIn("interrupted at t = ", stderr)
             step = self.assert_saved_where_it_stopped(stderr, step)
             arguments = ["resume", "out"]
         self.assert_goes_on_as_uninterrupted()
+
+    def test_a_terminal_that_goes_is_nothing_to_a_run_that_was_told_so(self):
+        """As nohup tells it."""
+        process = self.start("run", "long.yaml", "--out", "out", "--threads", 1,
+                             preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        self.wait_until((self.out / "checkpoint.h5").exists, "the first checkpoint")
+        self.assertTrue(catches(process.pid, signal.SIGTERM))
+        self.assertFalse(catches(process.pid, signal.SIGHUP))
+
+    def test_whoever_reads_the_messages_may_go(self):
+        process = self.start("run", "long.yaml", "--out", "out", "--threads", 1, "--verbose", *SAVE_OFTEN)
+        self.wait_until((self.out / "checkpoint.h5").exists, "the first checkpoint")
+        process.stderr.close()
+        before = saved_step(self.out)
+        self.wait_until(lambda: saved_step(self.out) > before or process.poll() is not None, "another checkpoint")
+        self.assertIsNone(process.poll())
 
     def test_by_kills_and_polite_signals(self):
         """A kill loses what has come since the last checkpoint, which is another one each time."""
@@ -162,6 +179,32 @@ class Interruption(CommandTest):
                     self.assertEqual(process.returncode, 128 + number, stderr)
                     self.assertRegex(stderr, r"riesel: interrupted, [^\n]+; [^\n]+\n\Z")
                     self.assertFalse(self.out.exists())
+
+    def test_a_run_whose_lock_is_removed_ends_and_can_go_on(self):
+        process = self.start("run", "long.yaml", "--out", "out", "--threads", 1, *SAVE_OFTEN)
+        self.wait_until((self.out / "checkpoint.h5").exists, "the first checkpoint")
+        (self.out / ".lock").unlink()
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 1, stderr)
+        self.assertIn("out/.lock: has been removed or replaced", stderr)
+        self.assert_goes_on_as_uninterrupted(rows=1)
+
+    def test_files_of_another_run_are_not_taken_for_its_own(self):
+        short = ["--set", "run.duration=21 ms"]
+        mine = self.run_to_end("long.yaml", "mine", *short)
+        for change in ("seed=7", "contact.friction=0.1"):
+            other = self.run_to_end("long.yaml", change, *short, "--set", change)
+            for name in ("run.h5", "checkpoint.h5", "trajectory.h5"):
+                with self.subTest(change=change, name=name):
+                    shutil.rmtree(self.home / "mixed", ignore_errors=True)
+                    mixed = pathlib.Path(shutil.copytree(mine, self.home / "mixed"))
+                    shutil.copy(other / name, mixed / name)
+                    before = data_of(mixed)
+                    result = self.riesel("resume", "mixed", "--set", "run.duration=25 ms")
+                    self.assert_failed(result, "it is of another run", "restore the file that belongs to it")
+                    self.assertEqual(data_of(mixed), before)
+                    self.assertEqual((mixed / name).read_bytes(), (other / name).read_bytes())
+        self.resume_to_end(mine, "--set", "run.duration=25 ms")
 
     def test_the_directory_of_a_run_that_goes_on_is_nobody_elses(self):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1)

@@ -59,6 +59,30 @@ class Limits(CommandTest):
             x = dict(zip(file["final/id"][:], file["final/position"][:, 0]))[grain]
         self.assertFalse(0.0 <= x <= 10e-3, x)
 
+    def test_limits_are_looked_at_between_rows_and_at_the_end(self):
+        """Every 10,000 steps: no row comes before the end but the first."""
+        for duration, is_due in (("60 ms", lambda step: step % 10_000 == 0), ("5 ms", lambda step: step < 10_000)):
+            with self.subTest(duration=duration):
+                result = self.tube(duration, "limits.overlap=0.02", "output.interval=1 s", f"run.duration={duration}")
+                self.assert_stopped(duration, result, "limits.overlap is exceeded")
+                self.assertTrue(is_due(self.post_mortem(duration).attrs["step"]))
+        result = self.tube("through", "contact.stiffness=20", "start.random_velocity=3 m/s", "output.interval=1 s",
+                           "run.duration=1.4 ms")
+        self.assert_stopped("through", result, "through a wall")
+
+    def test_a_run_that_was_stopped_is_stopped_again_by_the_same_limit(self):
+        self.tube("same", "limits.overlap=0.02", "run.duration=5 ms", "output.interval=5 ms")
+        result = self.riesel("resume", "same/post_mortem.h5", "--threads", 1)
+        self.assert_stopped("same", result, "limits.overlap is exceeded")
+
+    def test_a_start_beyond_a_limit_is_told_and_can_go_on_with_another(self):
+        result = self.tube("start", "limits.speed=2.5 m/s", "run.duration=1 ms")
+        self.assert_stopped("start", result, "limits.speed", "t = 0 s",
+                            "'riesel resume start/post_mortem.h5' goes on from there with another limit")
+        self.assert_refused(self.riesel("resume", "start"), "go on from start/post_mortem.h5")
+        result = self.riesel("resume", "start/post_mortem.h5", "--set", "limits=", "--threads", 1)
+        self.assertEqual(result.returncode, DONE, result)
+
     def test_contacts_that_are_not_resolved_stop_it(self):
         """Grains that run through the wall grains, so fast that they touch them for a step or two."""
         result = self.tube("steps", "start.axial_velocity=30 m/s", "limits.steps_per_contact=5")
@@ -141,8 +165,24 @@ class Limits(CommandTest):
         result = self.tube("warned", "limits.speed=3.5 m/s", "limits.action=warn")
         self.assertEqual(result.returncode, DONE, result)
         self.assertEqual(result.stderr.count("limits.speed is exceeded"), 1)
-        self.assertEqual(self.summary(self.home / "warned")["state_hash"],
-                         self.summary(self.unlimited())["state_hash"])
+        unlimited = self.summary(self.unlimited())
+        self.assertEqual(self.summary(self.home / "warned")["state_hash"], unlimited["state_hash"])
+        self.assertEqual(unlimited["validity"]["findings"][-1]["verdict"], "valid")
+        self.assertEqual(unlimited["validity"]["warnings"], [])
+
+    def test_a_warning_stands_in_the_result_after_a_resume_too(self):
+        self.tube("warned", "limits.speed=3.5 m/s", "limits.overlap=0.02", "limits.action=warn")
+        before = self.summary(self.home / "warned")["validity"]
+        self.assertEqual({warning.split()[0] for warning in before["warnings"]}, {"limits.overlap", "limits.speed"})
+        result = self.riesel("resume", "warned", "--set", "run.duration=62 ms", "--threads", 1)
+        self.assertEqual(result.returncode, DONE, result)
+        self.assertNotIn("is exceeded", result.stderr)
+        after = self.summary(self.home / "warned")["validity"]
+        self.assertEqual(after["warnings"], before["warnings"])
+        self.assertEqual(after["findings"][-1]["name"], "limits_exceeded")
+        self.assertEqual((after["findings"][-1]["value"], after["findings"][-1]["verdict"]), (2, "suspect"))
+        self.assertNotEqual(after["verdict"], "valid")
+        self.assertIn("limits_exceeded", result.stdout)
 
     def unlimited(self):
         self.assertEqual(self.tube("unlimited").returncode, DONE)

@@ -229,7 +229,7 @@ class Trajectory(TrajectoryTest):
             self.assert_failed(self.riesel("resume", out, *longer), "out/trajectory.h5",
                                "does not fit the checkpoint", "restore the file")
         file.unlink()
-        self.assert_failed(self.riesel("resume", out, *longer), "out/trajectory.h5", "No such file")
+        self.assert_failed(self.riesel("resume", out, *longer), "out/trajectory.h5", "is missing", "restore")
         file.write_bytes(whole)
         self.resume_to_end(out, *longer)
 

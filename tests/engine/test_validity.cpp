@@ -17,7 +17,8 @@ constexpr Evidence hard = {.max_overlap_ratio = 0.01,
                            .wall_speed_ratio = 0.1,
                            .pulling_fraction = 0.05,
                            .steps_per_contact = 50.0,
-                           .energy_error_ratio = 1e-4};
+                           .energy_error_ratio = 1e-4,
+                           .limits_exceeded = 0.0};
 
 Validity verdict_with(double Evidence::*member, double value) {
   Evidence evidence = hard;
@@ -30,7 +31,7 @@ Validity verdict_with(double Evidence::*member, double value) {
 TEST_CASE("hard grains are valid, with all findings told") {
   const ValidityVerdict v = judge(hard);
   CHECK(v.verdict == Validity::valid);
-  REQUIRE(v.findings.size() == 7);
+  REQUIRE(v.findings.size() == 8);
   for (const Finding& finding : v.findings) CHECK(finding.verdict == Validity::valid);
   CHECK(v.findings[1].name == "brake_failure_fraction");
   CHECK(v.findings[1].value == hard.brake_failure_fraction);
@@ -82,6 +83,11 @@ TEST_CASE("contacts that pull are never more than suspect") {
   CHECK(verdict_with(&Evidence::pulling_fraction, 0.19) == Validity::valid);
   CHECK(verdict_with(&Evidence::pulling_fraction, 0.21) == Validity::suspect);
   CHECK(verdict_with(&Evidence::pulling_fraction, 1.0) == Validity::suspect);
+}
+
+TEST_CASE("limits that were exceeded are suspect, however many") {
+  CHECK(verdict_with(&Evidence::limits_exceeded, 1.0) == Validity::suspect);
+  CHECK(verdict_with(&Evidence::limits_exceeded, 4.0) == Validity::suspect);
 }
 
 TEST_CASE("few steps are suspect and no proof") {

@@ -1,4 +1,4 @@
-// Any bytes as checkpoint.h5 and as run.h5: read, or refused with a FileError.
+// Any bytes as checkpoint.h5, run.h5 and trajectory.h5: read, or refused with a FileError.
 //
 // The first byte of the input says what the rest is: the content of a file, or changes to that of a
 // good one, each a place (2 bytes), what to do there (1 byte) and a word (8 bytes). So a fuzzer
@@ -15,9 +15,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -103,6 +106,23 @@ Content changed(const Good& good, Input changes) {
   return content;
 }
 
+/// A name on the disk, and nothing there in the end.
+class ScratchFile {
+public:
+  ScratchFile() {
+    if (mkdtemp(directory_.data()) == nullptr) throw std::runtime_error("no temporary directory");
+  }
+  ~ScratchFile() { fs::remove_all(directory_); }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ScratchFile(ScratchFile&&) = delete;
+  ScratchFile& operator=(ScratchFile&&) = delete;
+  fs::path path() const { return fs::path(directory_) / "file.h5"; }
+
+private:
+  std::string directory_ = (fs::temp_directory_path() / "riesel-fuzz-XXXXXX").string();
+};
+
 /// Behind a seal. The length that HDF5 wants is made right, too.
 Content sealed(const Content& content, const std::string& kind) {
   constexpr std::size_t place_of_length = 40;
@@ -113,15 +133,20 @@ Content sealed(const Content& content, const std::string& kind) {
   return image;
 }
 
-enum class Kind { anything, checkpoint, run };
+enum class Kind { anything, checkpoint, run, trajectory };
 
 Kind kind_of(Input input) {
-  switch (input.empty() ? 0U : input[0] % 4U) {
+  switch (input.empty() ? 0U : input[0] % 8U) {
   case 1:
+  case 5:
     return Kind::checkpoint;
   case 2:
   case 3:
+  case 6:
+  case 7:
     return Kind::run;
+  case 4:
+    return Kind::trajectory;
   default:
     return Kind::anything;
   }
@@ -129,16 +154,26 @@ Kind kind_of(Input input) {
 
 Content content_from(Input input) {
   static const Good checkpoint(content_of(write_small_checkpoint)),
-      run(content_of(write_small_run_file));
+      run(content_of(write_small_run_file)), trajectory(small_file(write_small_trajectory));
   const Input rest = input.subspan(input.empty() ? 0 : 1);
   switch (kind_of(input)) {
   case Kind::checkpoint:
     return changed(checkpoint, rest);
   case Kind::run:
     return changed(run, rest);
+  case Kind::trajectory:
+    return changed(trajectory, rest);
   default:
     return {rest.begin(), rest.end()};
   }
+}
+
+/// It is opened to be written, which files in memory refuse by their names.
+void go_on_with_trajectory(const Content& content) {
+  static const ScratchFile file;
+  std::ofstream(file.path(), std::ios::binary)
+      .write(content.data(), static_cast<std::streamsize>(content.size()));
+  attempt([&] { reopen_small_trajectory(file.path()); });
 }
 
 }  // namespace
@@ -147,14 +182,17 @@ Content content_from(Input input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto content = content_from({data, size});
   const auto kind = kind_of({data, size});
-  if (kind != Kind::run) {
+  if (kind == Kind::trajectory || kind == Kind::anything) go_on_with_trajectory(content);
+  if (kind == Kind::checkpoint || kind == Kind::anything) {
     const MemoryFile file(sealed(content, "checkpoint"));
     attempt([&] { io::read_checkpoint(file.path()); });
   }
-  if (kind != Kind::checkpoint) {
+  if (kind == Kind::run || kind == Kind::anything) {
     const MemoryFile file(sealed(content, io::run_file_kind));
     attempt([&] { io::read_run_file(file.path()); });
-    attempt([&] { io::RunFile::reopen(file.path(), {{"date", "later"}}, small_columns, 2); });
+    attempt([&] {
+      io::RunFile::reopen(file.path(), {{"date", "later"}, {"run", "1f"}}, small_columns, 2);
+    });
   }
   return 0;
 }

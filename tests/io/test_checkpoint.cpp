@@ -20,6 +20,8 @@ Checkpoint special_checkpoint(std::size_t grains = 4, double inertia = 0.0) {
   return {.state = special_state(grains, inertia),
           .settings = "scenario: periodic_tube\ntitle: \"Rüttelsieb\"\n",
           .source = "# mine\nscenario: periodic_tube\n",
+          .run = 0xfedcba9876543210U,
+          .warnings = {"limits.speed is exceeded", "limits.overlap is exceeded"},
           .rows = 12345,
           .wall_seconds = 0.1,
           .profiles = TimeBlocks(3, 5, 2, {1.0 / 3.0, -0.0, 1e300, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0}),
@@ -28,6 +30,7 @@ Checkpoint special_checkpoint(std::size_t grains = 4, double inertia = 0.0) {
 
 std::string bits_of(const Checkpoint& checkpoint) {
   Bits bits;
+  bits.add(checkpoint.run);
   bits.add(checkpoint.rows);
   bits.add(checkpoint.wall_seconds);
   for (const TimeBlocks* blocks : {&checkpoint.profiles, &checkpoint.histograms}) {
@@ -36,8 +39,10 @@ std::string bits_of(const Checkpoint& checkpoint) {
     bits.add(blocks->samples_per_block());
     bits.add_all(blocks->sums());
   }
-  return file_fixture::bits_of(checkpoint.state) + bits.value() + checkpoint.settings + '\n'
-         + checkpoint.source;
+  auto all = file_fixture::bits_of(checkpoint.state) + bits.value() + checkpoint.settings + '\n'
+             + checkpoint.source;
+  for (const auto& warning : checkpoint.warnings) all += '\n' + warning;
+  return all;
 }
 
 std::string error_of_reading(const fs::path& path) {
@@ -63,7 +68,7 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
     const auto old = Hdf5File::open(path).root();
     auto root = file.root();
     for (const auto* name : {"grains", "walls", "contacts", "open_visits", "tally", "profiles",
-                             "histograms", "settings", "source"}) {
+                             "histograms", "settings", "source", "warnings"}) {
       root.copy(old, name);
     }
     const auto copy_attribute = [&](const char* name, auto value) {
@@ -72,6 +77,7 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
     const State state;
     for_each_scalar(state, copy_attribute);
     copy_attribute("format_version", std::int64_t{});
+    copy_attribute("run", std::uint64_t{});
     copy_attribute("rows", std::int64_t{});
     copy_attribute("wall_seconds", double{});
     change(root);

@@ -35,6 +35,17 @@ TEST_CASE("A second lock of a directory in the same process is refused, too") {
   CHECK_FALSE(error_of_locking(directory.path()).empty());
 }
 
+TEST_CASE("A lock whose file was removed or replaced holds no longer") {
+  const ScratchDirectory directory;
+  const DirectoryLock lock(directory.path());
+  const auto complaint = [&] { return message_of<FileError>([&] { lock.require_in_place(); }); };
+  CHECK(complaint().empty());
+  fs::remove(directory / ".lock");
+  CHECK(contains(complaint(), "has been removed or replaced"));
+  overwrite(directory / ".lock", "");
+  CHECK(contains(complaint(), "has been removed or replaced"));
+}
+
 TEST_CASE("A lock that is a link to another file is refused, and that file is left alone") {
   const ScratchDirectory directory;
   overwrite(directory / "precious", "mine");

@@ -3,6 +3,7 @@
 
 #include "io/file_error.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/seal.hpp"
 #include "tests/io/file_fixture.hpp"
 
 #include <csignal>
@@ -14,7 +15,8 @@ using namespace file_fixture;
 
 namespace {
 
-const Provenance provenance = {{"host", "here"}, {"source", std::string(100'000, 'y')}};
+const Provenance provenance = {
+    {"host", "here"}, {"source", std::string(100'000, 'y')}, {"run", "1f"}};
 
 /// Rows first ... last - 1 of a series with two columns.
 void append_rows(RunFile& file, int first, int last) {
@@ -128,7 +130,7 @@ TEST_CASE("A run file goes on from the rows that the checkpoint counts") {
     file.write_final_state(special_state());
     file.flush();
   }
-  auto file = RunFile::reopen(path, {{"host", "there"}}, columns, rows);
+  auto file = RunFile::reopen(path, {{"host", "there"}, {"run", "1f"}}, columns, rows);
   check_rows(path, 2000);  // not changed before the next flush
   append_rows(file, rows, 2100);
   file.flush();
@@ -155,8 +157,8 @@ TEST_CASE("Each resume of a run file is recorded") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;
   RunFile::create(path, provenance, columns);
-  RunFile::reopen(path, {{"host", "b"}}, columns, 0).flush();
-  RunFile::reopen(path, {{"host", "c"}}, columns, 0).flush();
+  RunFile::reopen(path, {{"host", "b"}, {"run", "1f"}}, columns, 0).flush();
+  RunFile::reopen(path, {{"host", "c"}, {"run", "1f"}}, columns, 0).flush();
   const auto origin = Hdf5File::open(path).root().group("provenance");
   CHECK(origin.group("resume_1").read_text("host", 100) == "b");
   CHECK(origin.group("resume_2").read_text("host", 100) == "c");
@@ -176,8 +178,21 @@ TEST_CASE("A run file that does not fit is refused") {
         != std::string::npos);
   CHECK(error_of_reopening({columns[0]}, 3).find("its series are time,velocity instead of time")
         != std::string::npos);
+  CHECK(message_of<FileError>([&] {
+          RunFile::reopen(path, {{"run", "2f"}}, columns, 3);
+        }).find("it is of another run")
+        != std::string::npos);
   fs::resize_file(path, 500);
   CHECK(error_of_reopening(columns, 3).starts_with(path.string() + ": does not fit"));
+}
+
+TEST_CASE("A run does not go on with a file without a seal") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  RunFile::create(path, provenance, columns);
+  overwrite(path, contents(path).substr(seal_size));
+  CHECK_FALSE(
+      message_of<FileError>([&] { RunFile::reopen(path, provenance, columns, 0); }).empty());
 }
 
 TEST_CASE("A run file does not replace another") {
@@ -243,7 +258,8 @@ TEST_CASE("A run file holds the last verdict of validity") {
                     .wall_speed_ratio = 0.3,
                     .pulling_fraction = 0.05,
                     .steps_per_contact = 50.0,
-                    .energy_error_ratio = 1e-4};
+                    .energy_error_ratio = 1e-4,
+                    .limits_exceeded = 0.0};
   file.write_validity(judge(evidence));
   evidence.max_overlap_ratio = 0.7;
   file.write_validity(judge(evidence));
@@ -327,7 +343,8 @@ TEST_CASE("Provenance tells the origin, the build, the machine and the time") {
                                              .seed = 7,
                                              .threads = 3,
                                              .source = "source",
-                                             .settings = "settings"});
+                                             .settings = "settings",
+                                             .run = 0x1f});
   unsetenv("SLURM_JOB_ID");
   const std::map<std::string, std::string> values(collected.begin(), collected.end());
   CHECK(values.size() == collected.size());
@@ -336,6 +353,7 @@ TEST_CASE("Provenance tells the origin, the build, the machine and the time") {
   CHECK(values.at("threads") == "3");
   CHECK(values.at("source") == "source");
   CHECK(values.at("settings") == "settings");
+  CHECK(values.at("run") == "000000000000001f");
   CHECK(values.at("slurm_job_id") == "4711");
   CHECK(shape_of(values.at("date")) == "0000-00-00T00:00:00Z");
   for (const auto* name : {"riesel_version", "hdf5_version", "yaml_cpp_version", "eigen_version"}) {

@@ -48,7 +48,8 @@ std::vector<HistogramTable> histograms() {
 
 RunFile write_run(const fs::path& path, const State& state) {
   auto file = RunFile::create(
-      path, {{"date", "today"}, {"command", "riesel run"}, {"settings", "a: 1"}}, columns);
+      path, {{"date", "today"}, {"command", "riesel run"}, {"settings", "a: 1"}, {"run", "1f"}},
+      columns);
   for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0 / (i + 1)});
   file.write_final_state(state);
   file.write_profiles(strips, profiles(), 0.1);
@@ -118,7 +119,7 @@ TEST_CASE("Each resume of a run is told of") {
   const auto path = directory / run_file_name;
   write_run(path, special_state());
   for (const std::string day : {"tomorrow", "later"}) {
-    auto file = RunFile::reopen(path, {{"date", day}}, columns, 3);
+    auto file = RunFile::reopen(path, {{"date", day}, {"run", "1f"}}, columns, 3);
     file.write_final_state(special_state());
     file.write_profiles(strips, profiles(), 0.1);
     file.write_histograms(histograms(), 0.1);

@@ -69,11 +69,13 @@ FlowSummary special_summary() {
                                   .wall_speed_ratio = 0.7,
                                   .pulling_fraction = std::nan(""),
                                   .steps_per_contact = 12.0,
-                                  .energy_error_ratio = 1e-4}),
+                                  .energy_error_ratio = 1e-4,
+                                  .limits_exceeded = 0.0}),
                 .v_crit = 2.2,
                 .t_col_grains = 5e-5 / 3.0,
                 .t_col_walls = std::nan(""),
-                .friction_failure_fraction = 0.125};
+                .friction_failure_fraction = 0.125,
+                .warnings = {"limits.speed is exceeded"}};
   return s;
 }
 
@@ -97,6 +99,7 @@ TEST_CASE("A summary that is read back and written again is the same text") {
   const auto summary = std::get<FlowSummary>(read_summary(path));
   CHECK(to_json(summary) == text);
   CHECK(std::isnan(summary.mean_axial_velocity.error));
+  CHECK(summary.validity.warnings == std::vector<std::string>{"limits.speed is exceeded"});
   CHECK(summary.validity.verdict.findings.at(2).verdict == Validity::unphysical);
   CHECK(summary.validity.verdict.findings.at(0).meaning == "grains sink deep into each other");
 }

@@ -15,6 +15,7 @@ using namespace file_fixture;
 
 namespace {
 
+constexpr std::uint64_t run = 0x1f;
 constexpr std::int64_t steps_per_frame = 10;
 constexpr auto settings = "scenario: a\n";
 
@@ -36,7 +37,7 @@ State state_of_frame(std::int64_t frame) {
 }
 
 TrajectoryFile create(const fs::path& path) {
-  return TrajectoryFile::create(path, state_of_frame(0), steps_per_frame, settings);
+  return TrajectoryFile::create(path, run, state_of_frame(0), steps_per_frame, settings);
 }
 
 void append_frames(TrajectoryFile& file, std::int64_t first, std::int64_t last) {
@@ -61,7 +62,7 @@ std::vector<std::int64_t> steps_expected(std::size_t frames) {
 }
 
 TrajectoryFile reopen(const fs::path& path, std::int64_t frame) {
-  return TrajectoryFile::reopen(path, state_of_frame(frame), steps_per_frame, settings);
+  return TrajectoryFile::reopen(path, run, state_of_frame(frame), steps_per_frame, settings);
 }
 
 std::string refusal(const fs::path& path, std::int64_t frame) {
@@ -104,7 +105,7 @@ TEST_CASE("what is not committed cannot be seen, and does no harm") {
 TEST_CASE("arrays that belong to no frame are in the order of the ids") {
   const ScratchDirectory directory;
   const auto path = directory / "trajectory.h5";
-  TrajectoryFile::create(path, reversed(state_of_frame(0)), steps_per_frame, settings);
+  TrajectoryFile::create(path, run, reversed(state_of_frame(0)), steps_per_frame, settings);
   const auto grains = Hdf5File::open(path).root().group("particles").group("grains");
   std::vector<double> radius(5);
   grains.data("radius").read(std::span(radius));
@@ -150,12 +151,16 @@ TEST_CASE("a trajectory that does not fit the checkpoint is refused") {
   file.commit();
   CHECK(refusal(path, 19).empty());
   CHECK(refusal(path, 20).find("has 20 frames and the checkpoint counts 21") != std::string::npos);
-  CHECK(refusal(directory / "none.h5", 3).find("cannot be written") != std::string::npos);
+  CHECK(refusal(directory / "none.h5", 3).find("is missing") != std::string::npos);
 
+  CHECK(message_of<FileError>([&] {
+          TrajectoryFile::reopen(path, run + 1, state_of_frame(3), steps_per_frame, settings);
+        }).find("it is of another run")
+        != std::string::npos);
   State other = state_of_frame(3);
   add_grain(other, {.x = 0.01, .y = 0.0, .vx = 0.0, .vy = 0.0, .radius = 1e-3, .mass = 1e-6});
-  CHECK_THROWS_AS(TrajectoryFile::reopen(path, other, steps_per_frame, settings), FileError);
-  CHECK_THROWS_AS(TrajectoryFile::reopen(path, state_of_frame(3), 7, settings), FileError);
+  CHECK_THROWS_AS(TrajectoryFile::reopen(path, run, other, steps_per_frame, settings), FileError);
+  CHECK_THROWS_AS(TrajectoryFile::reopen(path, run, state_of_frame(3), 7, settings), FileError);
   CHECK_THROWS_AS(create(path), FileError);
 }
 

@@ -4,6 +4,16 @@ A fault is (what, file, text, replacement); the text must stand in the file exac
 """
 
 FAULTS = [
+    ("a run whose end nobody looks at", "app/schedule.hpp",
+     "step % steps_per_look == 0 || step == last_step", "step % steps_per_look == 0"),
+    ("rows of another run", "io/run_file.cpp",
+     "if (old.text(run_key) != run_of(provenance))", "if (run_of(provenance).empty())"),
+    ("frames of another run", "io/trajectory_file.cpp",
+     'require(contents->run() == run, "it is of another run");', ""),
+    ("warnings that a resume forgets", "io/checkpoint.cpp",
+     '.warnings = lines_of(root.text("warnings")),', ".warnings = {},"),
+    ("a lock that is gone", "io/directory_lock.cpp",
+     "if (identity_of(lock) != lock_identity_)", "if (!lock_identity_)"),
     # The physics of a contact
     ("damping of the wrong sign", "engine/contact_law.hpp",
      "return gamma_n * m_red * rate;", "return -gamma_n * m_red * rate;"),

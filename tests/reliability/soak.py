@@ -11,14 +11,15 @@ At the end it prints how memory and cost per step went over the time, and over t
 - if a checkpoint that had been seen was gone, or replaced by an older one;
 - if rows were lost or out of step, or a resume failed;
 - if memory grew by more than rows take, over the time or over the long life, from the second sixth to the last;
-- if a step got dearer, likewise: if the median of its processor time, from one checkpoint to the next, grew by more
-  than 10 % and three standard errors of the difference of the medians.
+- if a step got dearer, likewise: if the median of its cost, from one checkpoint to the next, grew by more than 10 %
+  and three standard errors of the difference of the medians.
 
 The first 20 s of a life do not count, nor what has fewer than 128 rows: profiles and histograms keep up to 128 samples
 apart, and then add them up in pairs. A soak that is too short for one of these judgements says so.
-Processor time tells less of what else the machine does than time on the clock, but threads that wait for each
-other use it too: on a machine that is busy otherwise, the cost of a step is told by --threads 1 only, or with
-OMP_WAIT_POLICY=passive in the environment.
+The cost of a step is its processor time as a multiple of what a step of the yardstick takes at that time: always the
+same steps, from a copy of the same early checkpoint, for which the tube is halted twice a minute. So it tells the
+program from what else the machine does. Threads that wait for each other use processor time, too: on a machine that is
+busy otherwise OMP_WAIT_POLICY=passive in the environment is needed, or --threads 1.
 The command is build/release/app/riesel, or what the variable RIESEL names.
 """
 
@@ -30,6 +31,7 @@ import pathlib
 import random
 import re
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
@@ -52,6 +54,8 @@ GROWTH = 1.0  # MB, that is borne besides
 ROW = 2e-3  # MB that a row takes: 41 numbers, in the state and in the images of the files
 DEARER, ERRORS = 0.1, 3.0  # that are borne: a part of the cost of a step, and standard errors
 FEWEST = 5  # costs in a part of the time, to tell its median and error
+BETWEEN_YARDSTICKS = 30.0  # s
+YARDSTICK = ("300 ms", "330 ms")  # of flow: from where to where
 
 
 @dataclasses.dataclass
@@ -65,6 +69,12 @@ class Look:
     step: int  # of the last checkpoint, as
     rows: int
     is_first: bool  # to see this checkpoint
+
+
+@dataclasses.dataclass
+class Yardstick:
+    hour: float  # since the start of the soak
+    cost: float  # us of processor time per step
 
 
 def memory_of(process):
@@ -98,28 +108,59 @@ def gets_dearer(early, late):
     """(whether, in words), of the costs of steps in two parts of the time"""
     (before, error_before), (after, error_after) = median_with_error(early), median_with_error(late)
     borne = DEARER * before + ERRORS * math.hypot(error_before, error_after)
-    return after - before > borne, (f"a step costs {after:.1f} us after {before:.1f} us, "
-                                    f"{after - before:+.1f} us of which {borne:.1f} us are borne")
+    return after - before > borne, (f"a step costs {after:.3f} yardsticks after {before:.3f}, "
+                                    f"{after - before:+.3f} of which {borne:.3f} are borne")
 
 
 class Soak:
     def __init__(self, out, threads, seed):
         self.out, self.threads = out, threads
+        self.early = out.with_name(out.name + "-yardstick")
         self.random = random.Random(seed)
         self.begin = time.monotonic()
-        self.looks, self.complaints = [], []
+        self.looks, self.yardsticks, self.complaints = [], [], []
         self.lives = 0
         self.long_life = None
         self.seen, self.saved = None, None  # the last checkpoint: when it was written, and what it counts
 
+    def hour(self):
+        return (time.monotonic() - self.begin) / 3600
+
+    def command(self, *words, **settings):
+        given = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+        return [COMMAND, *words, *given, "--quiet", "--threads", str(self.threads)]
+
+    def beginning(self, out, **settings):
+        return self.command("run", HOME / "scenarios/periodic_tube.yaml", "--out", out, **{**TUBE, **settings})
+
+    # --- the yardstick ---
+
+    def make_yardstick(self):
+        subprocess.run(self.beginning(self.early, **{"run.duration": YARDSTICK[0]}), check=True)
+
+    def take_yardstick(self):
+        copy = self.early.with_name(self.early.name + "-copy")
+        shutil.rmtree(copy, ignore_errors=True)
+        shutil.copytree(self.early, copy)
+        first = counted(copy / "checkpoint.h5")["step"]
+        process = subprocess.Popen(self.command("resume", copy, **{"run.duration": YARDSTICK[1]}),
+                                   stderr=subprocess.DEVNULL)
+        used = os.wait4(process.pid, 0)[2]
+        steps = counted(copy / "checkpoint.h5")["step"] - first
+        self.yardsticks.append(Yardstick(self.hour(), 1e6 * (used.ru_utime + used.ru_stime) / steps))
+
+    def take_yardstick_if_due(self, process):
+        if not self.yardsticks or 3600 * (self.hour() - self.yardsticks[-1].hour) > BETWEEN_YARDSTICKS:
+            process.send_signal(signal.SIGSTOP)
+            self.take_yardstick()
+            process.send_signal(signal.SIGCONT)
+
+    # --- lives ---
+
     def start(self):
-        if (self.out / "checkpoint.h5").exists():
-            what = ["resume", self.out]
-        else:
-            what = ["run", HOME / "scenarios/periodic_tube.yaml", "--out", self.out]
-            what += [word for item in TUBE.items() for word in ("--set", "=".join(item))]
+        goes_on = (self.out / "checkpoint.h5").exists()
         self.lives += 1
-        return subprocess.Popen([COMMAND, *what, "--quiet", "--threads", str(self.threads)],
+        return subprocess.Popen(self.command("resume", self.out) if goes_on else self.beginning(self.out),
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def look(self, process, born):
@@ -131,7 +172,7 @@ class Soak:
         if is_first:
             self.seen = written
             self.note_checkpoint()
-        self.looks.append(Look(self.lives, (time.monotonic() - self.begin) / 3600, time.monotonic() - born, memory,
+        self.looks.append(Look(self.lives, self.hour(), time.monotonic() - born, memory,
                                processor, self.saved["step"], self.saved["rows"], is_first))
 
     def note_checkpoint(self):
@@ -148,6 +189,7 @@ class Soak:
         while (left := born + seconds - time.monotonic()) > 0 and process.poll() is None:
             time.sleep(min(LOOK, left))
             self.look(process, born)
+            self.take_yardstick_if_due(process)
         process.kill()
         message = process.communicate()[1]
         if process.returncode != KILLED:
@@ -172,7 +214,7 @@ class Soak:
             self.complaints.append(f"life {self.lives}: rows are not in step")
 
     def short_lives_until(self, hour):
-        while (left := 3600 * hour - (time.monotonic() - self.begin)) > 0 and not self.complaints:
+        while (left := 3600 * (hour - self.hour())) > 0 and not self.complaints:
             # From a second to ten minutes, each decade as often as the next.
             self.live(min(left, 10 ** self.random.uniform(0.0, 2.78)))
 
@@ -186,15 +228,21 @@ class Soak:
     # --- what came of it ---
 
     def costs(self):
-        """[(look, microseconds of processor time per step)] between the checkpoints of one life."""
+        """[(look, processor time per step in yardsticks)] between the checkpoints of one life."""
         costs, looks = [], [look for look in self.looks if look.is_first]
         for before, after in zip(looks, looks[1:]):
             if before.life == after.life and before.age > WARM and after.step > before.step:
-                costs.append((after, 1e6 * (after.processor - before.processor) / (after.step - before.step)))
+                cost = 1e6 * (after.processor - before.processor) / (after.step - before.step)
+                costs.append((after, cost / self.yardstick_at(after.hour)))
         return costs
 
+    def yardstick_at(self, hour):
+        """us, the median of the five that were taken next to it"""
+        nearest = sorted(self.yardsticks, key=lambda yardstick: abs(yardstick.hour - hour))[:5]
+        return statistics.median(yardstick.cost for yardstick in nearest)
+
     def parts(self, hours, hour_of, counts=lambda look: True):
-        """[(looks, costs of a step in microseconds)] of each part of the time that hour_of(look) tells."""
+        """[(looks, costs of a step)] of each part of the time that hour_of(look) tells."""
         looks = [look for look in self.looks if look.age > WARM and look.rows >= SAMPLES and counts(look)]
         costs, parts = [(look, cost) for look, cost in self.costs() if counts(look)], []
         for part in range(PARTS):
@@ -205,7 +253,7 @@ class Soak:
 
     @staticmethod
     def print_parts(parts, hours, what):
-        print(f"| part of {what} | memory, MB: median | largest | processor time of a step, us | checkpoints |")
+        print(f"| part of {what} | memory, MB: median | largest | cost of a step, yardsticks | checkpoints |")
         print("|---|--:|--:|--:|--:|")
         for part, (looks, costs) in enumerate(parts):
             if not looks or len(costs) < 2:
@@ -214,7 +262,7 @@ class Soak:
             memory = [look.memory for look in looks]
             cost, error = median_with_error(costs)
             print(f"| {low:.3g} to {high:.3g} min | {statistics.median(memory):.1f} | {max(memory):.1f} "
-                  f"| {cost:.1f} +- {error:.1f} | {len(costs)} |")
+                  f"| {cost:.3f} +- {error:.3f} | {len(costs)} |")
 
     def judge_memory(self, early, late, what):
         if not early or not late:
@@ -233,7 +281,7 @@ class Soak:
         dearer, words = gets_dearer(early, late)
         print(f"{what}: {words}")
         if dearer:
-            self.complaints.append(f"steps got dearer over {what}; was the machine as free as before?")
+            self.complaints.append(f"steps got dearer over {what}")
 
     def judge(self, parts, hours, what):
         self.print_parts(parts, hours, what)
@@ -248,6 +296,8 @@ class Soak:
 
     def report(self, hours):
         self.judge_all(hours)
+        taken = [yardstick.cost for yardstick in self.yardsticks]
+        print(f"{len(taken)} yardsticks of {min(taken):.1f} to {max(taken):.1f} us per step, median {statistics.median(taken):.1f} us")
         now = self.saved or {"step": 0, "time_step": 0.0, "rows": 0}
         print(f"{self.lives} lives, {now['step']} steps ({now['step'] * now['time_step']:.3g} s of flow), "
               f"{now['rows']} rows, {len(self.complaints)} complaints")
@@ -267,6 +317,7 @@ def main():
     options.out.parent.mkdir(parents=True, exist_ok=True)
 
     soak = Soak(options.out, options.threads, options.seed)
+    soak.make_yardstick()
     soak.go_on_for(options.hours)
     soak.report(options.hours)
     return 1 if soak.complaints else 0

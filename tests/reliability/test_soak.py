@@ -22,13 +22,20 @@ TIME_STEP = 1e-6
 LIVES = [300, 40, 560, 1800, 400, 200, 300]  # s
 
 
-def looks(leak=0.0, dearer=0.0):
+def yardsticks(busier=0.0):
+    """Two a minute, in us per step: `busier` in parts per minute of the hour."""
+    dice = random.Random(2)
+    return [soak.Yardstick(minute / 60, 70.0 * (1.0 + busier * minute) * dice.gauss(1.0, 0.05))
+            for minute in np.arange(0.0, 61.0, 0.5)]
+
+
+def looks(leak=0.0, dearer=0.0, busier=0.0):
     """One every three seconds, at a checkpoint: `leak` in MB per minute of a life, `dearer` in parts per minute."""
     dice, made, now, step, rows = random.Random(1), [], 0.0, 0, 200
     for life, seconds in enumerate(LIVES, 1):
         processor = 0.0
         for age in range(3, seconds, 3):
-            cost = 80.0 * (1.0 + dearer * age / 60) * dice.gauss(1.0, 0.05)  # us
+            cost = 80.0 * (1.0 + dearer * age / 60) * (1.0 + busier * (now + age) / 60) * dice.gauss(1.0, 0.05)  # us
             processor += 1e-6 * cost * 40_000
             step, rows = step + 40_000, rows + 1
             memory = 38.0 + dice.uniform(0.0, 4.0) + leak * age / 60
@@ -39,9 +46,10 @@ def looks(leak=0.0, dearer=0.0):
 
 class Judgements(unittest.TestCase):
 
-    def complaints(self, made):
+    def complaints(self, made, taken=None):
         soaked = soak.Soak(pathlib.Path("nowhere"), 2, 1)
-        soaked.looks, soaked.long_life = made, 1 + LIVES.index(max(LIVES))
+        soaked.looks, soaked.yardsticks = made, taken or yardsticks()
+        soaked.long_life = 1 + LIVES.index(max(LIVES))
         with contextlib.redirect_stdout(io.StringIO()):
             soaked.judge_all(HOURS)
         return soaked.complaints
@@ -54,6 +62,10 @@ class Judgements(unittest.TestCase):
 
     def test_steps_that_get_dearer_by_a_hundredth_per_minute(self):
         self.assertTrue(any("dearer over the long life" in c for c in self.complaints(looks(dearer=0.01))))
+
+    def test_a_machine_that_gets_busier_is_not_taken_for_steps_that_get_dearer(self):
+        self.assertEqual(self.complaints(looks(busier=0.01), yardsticks(busier=0.01)), [])
+        self.assertNotEqual(self.complaints(looks(busier=0.01)), [])
 
 
 class LostWork(unittest.TestCase):
@@ -92,6 +104,7 @@ class LostWork(unittest.TestCase):
         (self.out / "checkpoint.h5").unlink()
         self.soak.look_at_rows()
         self.assertEqual(len(self.soak.complaints), 1)
+        self.soak.yardsticks = yardsticks()
         told = io.StringIO()
         with contextlib.redirect_stdout(told):
             self.soak.report(HOURS)
