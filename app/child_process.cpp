@@ -1,5 +1,6 @@
 #include "app/child_process.hpp"
 
+#include "app/interrupt.hpp"
 #include "io/file_error.hpp"
 
 #include <fcntl.h>
@@ -46,7 +47,7 @@ private:
   dup2(nothing, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  forget_interrupts();
   sigprocmask(SIG_SETMASK, &signals, nullptr);
   execv("/proc/self/exe", arguments);
   _exit(exit_cannot_execute);

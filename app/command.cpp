@@ -7,6 +7,7 @@
 #include "app/completion.hpp"
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
+#include "app/terminal.hpp"
 #include "app/walltime.hpp"
 #include "engine/simulation.hpp"
 #include "io/build_info.hpp"
@@ -292,7 +293,9 @@ int fail(int status, const char* message) noexcept {
 
 int fail_to_print() noexcept {
   return fail(app::exit_failed,
-              "what was to be printed could not be written; free some space there");
+              app::nobody_reads_the_output()
+                  ? "nobody reads what is printed any more; what was computed is on the disk"
+                  : "what was to be printed could not be written; free some space there");
 }
 
 /// What is printed goes to the disk when it likes, and may not get there.

@@ -20,9 +20,12 @@ void end(int signal) {
   _exit(128 + signal);
 }
 
+/// A terminal that goes may say so twice, through its shell and by itself.
 void remember(int signal) {
-  if (received != 0) _exit(128 + signal);
-  received = signal;
+  if (received == 0)
+    received = signal;
+  else if (signal != SIGHUP)
+    _exit(128 + signal);
 }
 
 void on(int signal, void (*act)(int)) {
@@ -43,6 +46,11 @@ void on_interrupts(void (*act)(int)) {
 }
 
 }  // namespace
+
+void forget_interrupts() {
+  on_interrupts(SIG_DFL);
+  on(SIGPIPE, SIG_DFL);
+}
 
 void end_on_interrupts() { on_interrupts(end); }
 

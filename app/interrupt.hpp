@@ -1,6 +1,6 @@
 // SIGINT, SIGTERM and SIGHUP as a polite request: what has something to save stops at the next
-// occasion, after a checkpoint, and a second signal ends it at once. What has nothing to save ends
-// at once.
+// occasion, after a checkpoint, and a second signal (but SIGHUP, which may come twice) ends it at
+// once. What has nothing to save ends at once.
 #pragma once
 
 namespace riesel::app {
@@ -12,6 +12,9 @@ void end_on_interrupts();
 /// From now on the first signal only asks for the end, and whoever has read its messages may go
 /// (SIGPIPE).
 void catch_interrupts();
+
+/// From now on signals do what they do to any program. Safe between fork and exec.
+void forget_interrupts();
 
 /// The signal that has asked for the end, or 0.
 int interrupting_signal();

@@ -15,9 +15,6 @@ namespace {
 
 /// The contact that had it, and when.
 std::string contact_with(const LargestOverlap& largest, const State& state) {
-  if (!largest.contact)
-    return fmt::format("in a contact {} that ended before the run went on",
-                       largest.at_wall ? "with a wall" : "between grains");
   const Contact& contact = *largest.contact;
   const auto& [wall, grain, partner] = contact.name;
   const std::string partners =

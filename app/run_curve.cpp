@@ -14,7 +14,7 @@ io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::P
                        std::span<const ImpactResult> results) {
   io::CurvePoint mean{.v_x = point.v_x, .v_y = point.v_y};
   int away = 0;
-  double largest_overlap = 0.0, braking = 0.0, braking_cut_short = 0.0;
+  double largest_overlap = 0.0, braking = 0.0, braking_cut_short = 0.0, energy_error = 0.0;
   for (const ImpactResult& r : results) {
     if (r.end == ImpactEnd::passed) ++mean.passed;
     if (r.end == ImpactEnd::stuck) ++mean.stuck;
@@ -29,13 +29,15 @@ io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::P
     largest_overlap = std::max(largest_overlap, r.max_overlap);
     braking += r.braking;
     braking_cut_short += r.braking_cut_short;
+    energy_error = std::max(energy_error, r.energy_error);
   }
   for (double* value : {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time,
                         &mean.max_overlap, &mean.cut_short})
     *value /= away;                                           // not a number where no impact counts
   mean.brake_failure_fraction = braking_cut_short / braking;  // nor where nothing brakes
   const double smaller_radius = std::min(setup.grain_radius, setup.wall_grain_radius);
-  mean.verdict = judge_impacts(largest_overlap / smaller_radius, mean.brake_failure_fraction);
+  mean.verdict =
+      judge_impacts(largest_overlap / smaller_radius, mean.brake_failure_fraction, energy_error);
   return mean;
 }
 

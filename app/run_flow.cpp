@@ -100,11 +100,10 @@ public:
     if (past_.rows > 0) directory_.go_on(settings_);
     tell_beginning();
     try {
-      if (file_.rows() == 0)
-        begin();
-      else
-        look();
+      if (file_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
+      if (past_.rows > 0 && (schedule_.is_row(first_step_) || schedule_.is_look(first_step_)))
+        look();
       if (max_walltime_ && longest_save_ == 0.0) save();  // to know how long it takes
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {

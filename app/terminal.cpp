@@ -1,6 +1,7 @@
 #include "app/terminal.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -23,6 +24,11 @@ bool shows_colours() {
 std::string coloured(std::string_view text, Colour colour) {
   if (!shows_colours()) return std::string(text);
   return fmt::format("\x1b[{}m{}\x1b[0m", static_cast<int>(colour), text);
+}
+
+bool nobody_reads_the_output() noexcept {
+  pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
 std::size_t terminal_width() {

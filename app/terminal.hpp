@@ -26,6 +26,9 @@ void tell(fmt::format_string<Parts...> format, Parts&&... parts) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+/// Standard output is a pipe whose other end is closed.
+bool nobody_reads_the_output() noexcept;
+
 /// Columns of the terminal behind standard error; 80 if it does not tell.
 std::size_t terminal_width();
 

@@ -24,7 +24,7 @@ set(scenarios_rooms     "engine/" "io/" "scenarios/")
 set(scenarios_external  "Eigen/" "fmt/")
 
 set(app_rooms        "engine/" "io/" "scenarios/" "app/")
-set(app_external     "CLI/" "fmt/" "omp.h" "unistd.h" "fcntl.h" "spawn.h" "sys/")
+set(app_external     "CLI/" "fmt/" "omp.h" "unistd.h" "fcntl.h" "poll.h" "spawn.h" "sys/")
 
 set(tests_rooms      "engine/" "io/" "scenarios/" "app/" "tests/")
 set(tests_external   ".")

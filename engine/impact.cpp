@@ -1,6 +1,7 @@
 #include "engine/impact.hpp"
 
 #include "engine/hash.hpp"
+#include "engine/observables.hpp"
 #include "engine/parallel_problems.hpp"
 #include "engine/simulation.hpp"
 
@@ -78,9 +79,10 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
       break;
     }
   }
-  const Grain grain = grain_at(simulation.state(), 0);
-  const ContactTally& tally = simulation.state().tally.walls;
-  const BrakeTally& brakes = simulation.state().tally.brakes;
+  const State& state = simulation.state();
+  const Grain grain = grain_at(state, 0);
+  const ContactTally& tally = state.tally.walls;
+  const BrakeTally& brakes = state.tally.brakes;
   return {.dv_x = grain.vx + impact.v_x,
           .dv_y = impact.v_y - grain.vy,
           .contacts = static_cast<double>(tally.begun),
@@ -89,8 +91,9 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
           .cut_short = static_cast<double>(brakes.cut_short),
           .braking = brakes.braking.value(),
           .braking_cut_short = brakes.braking_cut_short.value(),
+          .energy_error = energy_error_ratio(state, observe(state).energies),
           .end = end,
-          .steps = simulation.state().step};
+          .steps = state.step};
 }
 
 std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector<Impact>& impacts,

@@ -47,6 +47,7 @@ struct ImpactResult {
   double cut_short;     ///< number of contacts cut short, see brake.hpp
   /// kg m/s, impulse against y of the contacts that brake, and of those among them cut short.
   double braking, braking_cut_short;
+  double energy_error;  ///< see energy_error_ratio()
   ImpactEnd end;
   std::int64_t steps;
 };

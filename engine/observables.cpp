@@ -201,7 +201,7 @@ LargestOverlap largest_overlap(const State& state) {
     smallest_at_wall = wall.smaller_radius(smallest_at_wall);
   const auto largest = [&](bool at_wall, double radius) {
     const ContactTally all = all_contacts(state, at_wall);
-    return LargestOverlap{all.max_overlap, all.max_overlap / radius, at_wall, all.deepest};
+    return LargestOverlap{all.max_overlap, all.max_overlap / radius, all.deepest};
   };
   const LargestOverlap of_grains = largest(false, smallest);
   const LargestOverlap of_walls = largest(true, smallest_at_wall);

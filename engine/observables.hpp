@@ -64,8 +64,7 @@ Observables observe(const State& state);
 struct LargestOverlap {
   double overlap;  ///< m
   double ratio;
-  bool at_wall;
-  std::optional<Contact> contact;  ///< that had it, unless it had ended before the state was read
+  std::optional<Contact> contact;  ///< that had it; none if there never was one
 };
 LargestOverlap largest_overlap(const State& state);
 

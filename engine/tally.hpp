@@ -35,8 +35,7 @@ struct ContactTally {
   ExactSum impulse_y_times_step;
   DurationHistogram durations;  ///< of ended contacts
   OverlapHistogram overlaps;    ///< of ended contacts, the largest
-  /// One that had max_overlap, if it ended since the state was made or read: checkpoints do not
-  /// keep it.
+  /// One that had max_overlap; none if no contact ended yet.
   std::optional<Contact> deepest;
 
   /// Adds to the sums and to the maximum.

@@ -44,6 +44,15 @@ constexpr Criterion detachment_criterion = {
     0.5,          false,   "contacts last so long that beads touch several others at once",
     stiffer};
 
+constexpr Criterion energy_criterion = {
+    "energy_error_ratio",
+    &Evidence::energy_error_ratio,
+    0.01,
+    0.1,
+    false,
+    "energy comes or goes by errors of the time step, which is too long for the forces",
+    finer};
+
 constexpr std::array<Criterion, 8> criteria = {{
     overlap_criterion,
     brake_criterion,
@@ -55,8 +64,7 @@ constexpr std::array<Criterion, 8> criteria = {{
      "the damping makes contacts pull", "compare with contact.attraction: clip"},
     {"steps_per_contact", &Evidence::steps_per_contact, 10.0, -none, true,
      "the time step does not resolve the shortest contacts", finer},
-    {"energy_error_ratio", &Evidence::energy_error_ratio, 0.01, 0.1, false,
-     "energy comes or goes by errors of the time step, which is too long for the forces", finer},
+    energy_criterion,
     {"limits_exceeded", &Evidence::limits_exceeded, 0.0, none, false,
      "limits of the settings were exceeded", "see validity.warnings in summary.json"},
 }};
@@ -98,9 +106,11 @@ ValidityVerdict judge(const Evidence& evidence) {
   return result;
 }
 
-Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction) {
-  return std::max(judge(overlap_criterion, max_overlap_ratio),
-                  judge(brake_criterion, brake_failure_fraction));
+Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
+                       double energy_error_ratio) {
+  return std::max({judge(overlap_criterion, max_overlap_ratio),
+                   judge(brake_criterion, brake_failure_fraction),
+                   judge(energy_criterion, energy_error_ratio)});
 }
 
 Validity judge_drop(double max_overlap_ratio, double detachment) {

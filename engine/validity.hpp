@@ -51,8 +51,9 @@ struct ValidityVerdict {
 
 ValidityVerdict judge(const Evidence& evidence);
 
-/// What single impacts can be judged by: the worse of these two findings.
-Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction);
+/// What single impacts can be judged by: the worst of these findings.
+Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
+                       double energy_error_ratio);
 
 /// What a drop of a column of beads can be judged by: the worse of the overlap and the size of
 /// detachment(), which is NaN for a drop that was given up.

@@ -95,6 +95,14 @@ void write(Hdf5Group group, const Tally& tally) {
   });
 }
 
+/// At most one among grains and one at a wall.
+std::vector<Contact> deepest_of(const Tally& tally) {
+  std::vector<Contact> contacts;
+  for (const ContactTally* contacts_of : {&tally.grains, &tally.walls})
+    if (contacts_of->deepest) contacts.push_back(*contacts_of->deepest);
+  return contacts;
+}
+
 Tally read_tally(const StoredGroup& group) {
   Tally tally;
   for_each_kind(tally, [&](const char* name_of_kind, auto& of_kind) {
@@ -114,6 +122,8 @@ void write(Hdf5Group root, const State& state) {
   auto open_visits = root.create_group("open_visits");
   write_records(open_visits, state.open_visits);
   write(root.create_group("tally"), state.tally);
+  auto deepest = root.create_group("deepest_contacts");
+  write_records(deepest, deepest_of(state.tally));
 }
 
 State read_state(const StoredGroup& root) {
@@ -124,6 +134,8 @@ State read_state(const StoredGroup& root) {
   state.contacts = read_records<Contact>(root.group("contacts"));
   state.open_visits = read_records<WallVisit>(root.group("open_visits"));
   state.tally = read_tally(root.group("tally"));
+  for (const Contact& contact : read_records<Contact>(root.group("deepest_contacts")))
+    (contact.name.wall == no_wall ? state.tally.grains : state.tally.walls).deepest = contact;
   return state;
 }
 

@@ -62,6 +62,13 @@ std::optional<FileIdentity> identity_of(const std::filesystem::path& path) {
   return FileIdentity{about.st_dev, about.st_ino};
 }
 
+/// Of an open file, whatever has its name by now.
+std::optional<FileIdentity> identity_of(int descriptor) {
+  struct stat about = {};
+  if (fstat(descriptor, &about) != 0) return std::nullopt;
+  return FileIdentity{about.st_dev, about.st_ino};
+}
+
 }  // namespace
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
@@ -72,7 +79,7 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
   if (lock_patiently(descriptor_)) {
     describe_holder(descriptor_);
     directory_identity_ = identity_of(directory);
-    lock_identity_ = identity_of(directory / lock_name);
+    lock_identity_ = identity_of(descriptor_);
     return;
   }
   const int error_number = errno;

@@ -134,8 +134,6 @@ void write_walls(Hdf5Group group, const State& state) {
   write_column<double>(group, "spacing", "m", spacing);
 }
 
-}  // namespace
-
 /// Which run they are of: a text that is the same in a resume.
 std::string run_of(const Provenance& provenance) {
   const auto found = std::ranges::find(provenance, run_key, &Provenance::value_type::first);
@@ -145,6 +143,8 @@ std::string run_of(const Provenance& provenance) {
 void require_same_run(const StoredGroup& old, const Provenance& provenance) {
   if (old.text(run_key) != run_of(provenance)) throw Hdf5Error("it is of another run");
 }
+
+}  // namespace
 
 /// The file in memory, and the rows that are not yet in there.
 class RunFile::Contents {

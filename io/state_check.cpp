@@ -133,6 +133,7 @@ std::string flaw_of_visits(const State& state) {
 std::string flaw_of_tally(const ContactTally& tally) {
   if (tally.begun < 0 || tally.ended < 0) return "a count of contacts is negative";
   if (!std::isfinite(tally.max_overlap)) return "the greatest overlap is not finite";
+  if (tally.max_overlap > 0.0 && !tally.deepest) return "nobody had the greatest overlap";
   return {};
 }
 

@@ -131,7 +131,7 @@ template <class Any, class T>
 concept MaybeConst = std::same_as<std::remove_const_t<Any>, T>;
 
 /// Calls visit(name, value) for each number, exact sum and array of counts of a tally (const or
-/// not), in SI units. `deepest` is for those who watch a run.
+/// not), in SI units. `deepest` is stored as contacts are.
 template <MaybeConst<ContactTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
   auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, energy_won,

@@ -32,7 +32,7 @@ io::SettingsTable run_limits_settings() {
        .fallback = "stop",
        .choices = {"stop", "warn"},
        .doc = "What to do when a limit is exceeded: `stop` the run with a checkpoint for the post "
-              "mortem, or `warn` and go on."},
+              "mortem, or `warn` and go on, with a verdict that is suspect at best."},
   };
 }
 

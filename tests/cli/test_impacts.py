@@ -84,6 +84,21 @@ class SingleWallGrain(Impacts, CommandTest):
                                   "--set", f"contact.stiffness={stiffness}", *one_speed)
             self.assertEqual([p["verdict"] for p in self.summary(out)["curve"]], [verdict])
 
+    def test_a_damping_that_the_time_step_does_not_resolve_is_told(self):
+        """Of the power law: it does not vanish where a contact begins. The loss of the brake is off, by a half or so, long before
+        its energy gets more."""
+        losses = {}
+        for damping, steps, verdict in ((0.2, 20, "suspect"), (0.2, 50, "valid"), (0.2, 200, "valid"), (1, 50, "unphysical")):
+            with self.subTest(damping=damping, steps=steps):
+                self.write("power.yaml", "scenario: single_wall_grain\n"
+                                         f"contact: {{law: power, stiffness: 3e5, damping: {damping}, exponent_overlap: 0}}\n"
+                                         f"impact: {{axial_velocity: [0.3]}}\nrun: {{steps_per_collision: {steps}}}\n")
+                point, = self.summary(self.run_to_end("power.yaml", f"{damping}-{steps}"))["curve"]
+                self.assertEqual(point["verdict"], verdict)
+                losses[damping, steps] = point["dv_y"]
+        self.assertAlmostEqual(losses[0.2, 50] / losses[0.2, 200], 1.0, delta=0.01)
+        self.assertGreater(abs(losses[0.2, 20] / losses[0.2, 200] - 1.0), 0.3)
+
     def test_the_screen_tells_where_it_fails(self):
         result = self.riesel("run", SHIPPED / "single_wall_grain.yaml", "--out", "out")
         curve = self.summary(self.home / "out")["curve"]

@@ -107,6 +107,15 @@ class Interruption(CommandTest):
         self.assertTrue(catches(process.pid, signal.SIGTERM))
         self.assertFalse(catches(process.pid, signal.SIGHUP))
 
+    def test_a_terminal_that_goes_may_say_so_twice(self):
+        process = self.start_and_get_on(["run", "long.yaml", "--out", "out"], self.last_frame)
+        for _ in range(2):
+            process.send_signal(signal.SIGHUP)
+            time.sleep(0.001)
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 128 + signal.SIGHUP, stderr)
+        self.assert_saved_where_it_stopped(stderr, 0)
+
     def test_whoever_reads_the_messages_may_go(self):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1, "--verbose", *SAVE_OFTEN)
         self.wait_until((self.out / "checkpoint.h5").exists, "the first checkpoint")
@@ -114,6 +123,14 @@ class Interruption(CommandTest):
         before = saved_step(self.out)
         self.wait_until(lambda: saved_step(self.out) > before or process.poll() is not None, "another checkpoint")
         self.assertIsNone(process.poll())
+
+    def test_whoever_reads_the_result_may_go(self):
+        process = self.start("run", "long.yaml", "--out", "out", "--threads", 1, "--set", "run.duration=1 ms")
+        process.stdout.close()
+        process.wait(timeout=PATIENCE)
+        self.assertIn("nobody reads what is printed any more", process.stderr.read())
+        self.assertEqual(process.returncode, 1)
+        self.assertTrue((self.out / "summary.json").exists())
 
     def test_by_kills_and_polite_signals(self):
         """A kill loses what has come since the last checkpoint, which is another one each time."""

@@ -75,6 +75,12 @@ class Limits(CommandTest):
         result = self.riesel("resume", "same/post_mortem.h5", "--threads", 1)
         self.assert_stopped("same", result, "limits.overlap is exceeded")
 
+    def test_a_limit_that_is_given_in_a_resume_is_kept_though_it_stops_the_run_at_once(self):
+        self.tube("given", "run.duration=5 ms")
+        for options in (["--set", "run.duration=10 ms", "--set", "limits.overlap=0.02"], []):
+            result = self.riesel("resume", "given", *options, "--threads", 1)
+            self.assert_stopped("given", result, "limits.overlap is exceeded")
+
     def test_a_start_beyond_a_limit_is_told_and_can_go_on_with_another(self):
         result = self.tube("start", "limits.speed=2.5 m/s", "run.duration=1 ms")
         self.assert_stopped("start", result, "limits.speed", "t = 0 s",

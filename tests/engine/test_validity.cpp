@@ -37,14 +37,16 @@ TEST_CASE("hard grains are valid, with all findings told") {
   CHECK(v.findings[1].value == hard.brake_failure_fraction);
 }
 
-TEST_CASE("impacts are judged by their overlaps and by how they brake") {
+TEST_CASE("impacts are judged by their overlaps, how they brake and how well energy is kept") {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  CHECK(judge_impacts(0.19, 0.09) == Validity::valid);
-  CHECK(judge_impacts(0.21, 0.09) == Validity::suspect);
-  CHECK(judge_impacts(0.19, 0.11) == Validity::suspect);
-  CHECK(judge_impacts(0.51, 0.09) == Validity::unphysical);
-  CHECK(judge_impacts(0.19, 0.51) == Validity::unphysical);
-  CHECK(judge_impacts(0.19, unknown) == Validity::suspect);
+  CHECK(judge_impacts(0.19, 0.09, 0.009) == Validity::valid);
+  CHECK(judge_impacts(0.21, 0.09, 0.0) == Validity::suspect);
+  CHECK(judge_impacts(0.19, 0.11, 0.0) == Validity::suspect);
+  CHECK(judge_impacts(0.19, 0.09, 0.011) == Validity::suspect);
+  CHECK(judge_impacts(0.51, 0.09, 0.0) == Validity::unphysical);
+  CHECK(judge_impacts(0.19, 0.51, 0.0) == Validity::unphysical);
+  CHECK(judge_impacts(0.19, 0.09, 0.11) == Validity::unphysical);
+  CHECK(judge_impacts(0.19, unknown, 0.0) == Validity::suspect);
 }
 
 TEST_CASE("a verdict has one name") {

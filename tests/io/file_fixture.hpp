@@ -214,6 +214,8 @@ inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
   state.open_visits = {visit(0, 0, -1.0 / 3.0), visit(0, 0, 0.1), visit(1, 3, denormal)};
   state.open_visits[2].span.end = std::numeric_limits<double>::infinity();
   state.tally = whole_tally();
+  state.tally.grains.deepest = contact({riesel::no_wall, 0, 3}, 0.2);
+  state.tally.walls.deepest = contact({1, 2, 0}, 0.3);
   state.origin = {.energy = 1.0 / 7.0, .momentum_y = -0.0, .moment_x = 1.0 / 11.0};
   return state;
 }
@@ -254,6 +256,7 @@ public:
       add(*sum);
     }
     add_all(t.durations.counts());
+    if (t.deepest) add(*t.deepest);
     add_all(t.overlaps.counts());
   }
   void add(const riesel::BrakeTally& t) {

@@ -68,7 +68,7 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
     const auto old = Hdf5File::open(path).root();
     auto root = file.root();
     for (const auto* name : {"grains", "walls", "contacts", "open_visits", "tally", "profiles",
-                             "histograms", "settings", "source", "warnings"}) {
+                             "histograms", "settings", "source", "warnings", "deepest_contacts"}) {
       root.copy(old, name);
     }
     const auto copy_attribute = [&](const char* name, auto value) {
@@ -339,6 +339,8 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "a count of contacts is negative");
   CHECK(refusal([](auto& c) { c.state.tally.grains.max_overlap = nan; })
         == "the greatest overlap is not finite");
+  CHECK(refusal([](auto& c) { c.state.tally.walls.deepest.reset(); })
+        == "nobody had the greatest overlap");
   CHECK(refusal([](auto& c) { std::swap(c.state.open_visits[0], c.state.open_visits[1]); })
         == "the visit of grain 0 to wall 0 is out of order");
   CHECK(refusal([](auto& c) { c.state.open_visits[2].grain = 4; })

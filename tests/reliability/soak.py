@@ -136,6 +136,7 @@ class Soak:
     # --- the yardstick ---
 
     def make_yardstick(self):
+        shutil.rmtree(self.early, ignore_errors=True)  # of an earlier soak
         subprocess.run(self.beginning(self.early, **{"run.duration": YARDSTICK[0]}), check=True)
 
     def take_yardstick(self):
@@ -143,17 +144,20 @@ class Soak:
         shutil.rmtree(copy, ignore_errors=True)
         shutil.copytree(self.early, copy)
         first = counted(copy / "checkpoint.h5")["step"]
-        process = subprocess.Popen(self.command("resume", copy, **{"run.duration": YARDSTICK[1]}),
-                                   stderr=subprocess.DEVNULL)
-        used = os.wait4(process.pid, 0)[2]
+        process = subprocess.Popen(self.command("resume", copy, **{"run.duration": YARDSTICK[1]}))
+        _, status, used = os.wait4(process.pid, 0)
+        if status != 0:
+            raise SystemExit(f"the yardstick {copy} ended with status {status}")
         steps = counted(copy / "checkpoint.h5")["step"] - first
         self.yardsticks.append(Yardstick(self.hour(), 1e6 * (used.ru_utime + used.ru_stime) / steps))
 
     def take_yardstick_if_due(self, process):
         if not self.yardsticks or 3600 * (self.hour() - self.yardsticks[-1].hour) > BETWEEN_YARDSTICKS:
             process.send_signal(signal.SIGSTOP)
-            self.take_yardstick()
-            process.send_signal(signal.SIGCONT)
+            try:
+                self.take_yardstick()
+            finally:
+                process.send_signal(signal.SIGCONT)
 
     # --- lives ---
 
