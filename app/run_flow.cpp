@@ -55,7 +55,7 @@ struct LimitExceeded : RunFailure {
 /// See Checkpoint::run.
 std::uint64_t identity_of(const io::Settings& settings, const State& start) {
   Hash hash;
-  for (const char c : settings.effective_yaml()) hash.add(c);
+  hash.add_text(settings.effective_yaml());
   hash.add(state_hash(start));
   return hash.value();
 }

@@ -143,6 +143,7 @@ int sweep(const SweepOptions& options) {
     return submit(plan.manifest, directory, options);
   }
   const auto write_manifest = [&](const io::Manifest& manifest) {
+    locked.require_in_place();
     io::write_durably(directory / io::manifest_name, io::to_json(manifest));
   };
   const int status = run_points(plan.manifest, directory, {},

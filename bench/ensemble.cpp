@@ -37,7 +37,7 @@ Outcome outcome_of(const fs::path& sweep) {
     const auto grains = summary["grains"].get<std::size_t>();
     outcome.grains += grains;
     outcome.particle_steps += static_cast<double>(grains) * summary["steps"].get<double>();
-    for (const char c : summary["state_hash"].get<std::string>()) hash.add(c);
+    hash.add_text(summary["state_hash"].get<std::string>());
   }
   outcome.hash = hash.value();
   return outcome;

@@ -33,7 +33,7 @@ std::uint64_t fingerprint(const FlowCase& one, const io::Settings& settings) {
   Hash hash;
   hash.add(recipe);
   hash.add(one.relaxation);
-  for (const char c : settings.effective_yaml()) hash.add(c);
+  hash.add_text(settings.effective_yaml());
   return hash.value();
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <string_view>
 #include <type_traits>
 
 namespace riesel {
@@ -16,6 +17,9 @@ public:
     static_assert(std::is_arithmetic_v<T>);
     for (const auto byte : std::bit_cast<std::array<unsigned char, sizeof(T)>>(value))
       hash_ = (hash_ ^ byte) * 0x100000001b3U;
+  }
+  void add_text(std::string_view text) {
+    for (const char c : text) add(c);
   }
   std::uint64_t value() const { return hash_; }
 

@@ -37,7 +37,6 @@ void ContactTally::merge(const ContactTally& other) {
   begun += other.begun;
   ended += other.ended;
   if (other.deepest) note_deepest(*this, *other.deepest);
-  max_overlap = std::max(max_overlap, other.max_overlap);
   duration.add(other.duration);
   slip_path.add(other.slip_path);
   normal_loss.add(other.normal_loss);

@@ -55,17 +55,12 @@ bool lock_patiently(int descriptor) {
   }
 }
 
-/// Of no file: nothing, and errno tells why.
-std::optional<FileIdentity> identity_of(const std::filesystem::path& path) {
+/// Of a path by `stat`, of an open file, whatever has its name by now, by `fstat`. Of no file:
+/// nothing, and errno tells why.
+template <class File>
+std::optional<FileIdentity> identity_by(int (*ask)(File, struct stat*), File file) {
   struct stat about = {};
-  if (stat(path.c_str(), &about) != 0) return std::nullopt;
-  return FileIdentity{about.st_dev, about.st_ino};
-}
-
-/// Of an open file, whatever has its name by now.
-std::optional<FileIdentity> identity_of(int descriptor) {
-  struct stat about = {};
-  if (fstat(descriptor, &about) != 0) return std::nullopt;
+  if (ask(file, &about) != 0) return std::nullopt;
   return FileIdentity{about.st_dev, about.st_ino};
 }
 
@@ -78,8 +73,8 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
   if (lock_patiently(descriptor_)) {
     describe_holder(descriptor_);
-    directory_identity_ = identity_of(directory);
-    lock_identity_ = identity_of(descriptor_);
+    directory_identity_ = identity_by(stat, directory.c_str());
+    lock_identity_ = identity_by(fstat, descriptor_);
     return;
   }
   const int error_number = errno;
@@ -93,15 +88,15 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
 }
 
 void DirectoryLock::require_in_place() const {
-  const auto found = identity_of(directory_);
+  const auto found = identity_by(stat, directory_.c_str());
   if (!found) throw system_failure(directory_, "cannot be written any more", errno);
   if (found != directory_identity_)
-    throw FileError(directory_, "is another directory than that in which the run was started",
-                    "go on with 'riesel resume' where that is now");
+    throw FileError(directory_, "is another directory than that in which this began",
+                    "go on where that is now");
   const auto lock = directory_ / lock_name;
-  if (identity_of(lock) != lock_identity_)
+  if (identity_by(stat, lock.c_str()) != lock_identity_)
     throw FileError(lock, "has been removed or replaced, so that another process may work here",
-                    "go on with 'riesel resume' when none does");
+                    "go on when none does");
 }
 
 bool DirectoryLock::is_held(const std::filesystem::path& directory) {

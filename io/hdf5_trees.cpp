@@ -131,10 +131,6 @@ std::uint32_t fletcher32(const Bytes& bytes) {
     sum = fold(sum);
     sum_of_sums = fold(sum_of_sums);
   }
-  if (bytes.size() % 2 != 0) {
-    sum = fold(sum + (byte(bytes.size() - 1) << 8U));
-    sum_of_sums = fold(sum_of_sums + sum);
-  }
   return fold(sum_of_sums) << 16U | fold(sum);
 }
 

@@ -27,7 +27,8 @@ std::map<std::string, std::uint64_t> read_hdf5_members(const Bytes& file,
 std::vector<Bytes> read_hdf5_chunks(const Bytes& file, const Hdf5Layout& layout,
                                     std::uint64_t chunk_size, std::uint64_t count);
 
-/// The checksum that HDF5's filter of this name appends to chunks.
+/// The checksum that HDF5's filter of this name appends to chunks: of an even number of bytes, as
+/// all numbers have.
 std::uint32_t fletcher32(const Bytes& bytes);
 
 }  // namespace riesel::io

@@ -15,10 +15,12 @@ constexpr std::string_view beginning = "riesel ";
 /// The first line of the seal.
 std::string title(std::string_view kind) { return fmt::format("{}{}\n", beginning, kind); }
 
+std::string_view text_of(std::span<const char> image) { return {image.data(), image.size()}; }
+
 /// The seal of the whole file.
 std::string seal_text(std::span<const char> image, std::string_view kind) {
   Hash checksum;
-  for (const char byte : image.subspan(seal_size)) checksum.add(byte);
+  checksum.add_text(text_of(image.subspan(seal_size)));
   auto text = fmt::format("{}An HDF5 file behind a block of {} bytes\n"
                           "bytes in all: {}\n"
                           "FNV-1a of those behind the block: {:016x}\n",
@@ -26,8 +28,6 @@ std::string seal_text(std::span<const char> image, std::string_view kind) {
   text.resize(seal_size, '\0');
   return text;
 }
-
-std::string_view text_of(std::span<const char> image) { return {image.data(), image.size()}; }
 
 }  // namespace
 

@@ -37,17 +37,17 @@ std::vector<Combination> combinations_of(const std::vector<std::size_t>& counts)
   return all;
 }
 
-template <class Text>
-std::string hash_text(const Text& text) {
+std::string hash_text(std::string_view text) {
   Hash hash;
-  for (const char c : text) hash.add(c);
+  hash.add_text(text);
   return fmt::format("{:016x}", hash.value());
 }
 
 /// Of what stands in a file, if it can be read: whether it can is for the run to say.
 std::string hash_content(const std::string& path) {
   try {
-    return hash_text(read_whole_file(path));
+    const auto content = read_whole_file(path);
+    return hash_text({content.data(), content.size()});
   } catch (const FileError&) {
     return "none";
   }

@@ -31,7 +31,7 @@ void for_each_number(AnyHead& head, Visit visit) {
 
 std::uint64_t checksum_of(std::string_view bytes) {
   Hash hash;
-  for (const char byte : bytes) hash.add(byte);
+  hash.add_text(bytes);
   return hash.value();
 }
 

@@ -7,12 +7,11 @@
 #include "io/settings.hpp"
 #include "io/trajectory_file.hpp"
 #include "scenarios/scenario.hpp"
+#include "tests/scratch_directory.hpp"
 
 #include <cstdint>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -97,14 +96,11 @@ void reopen_small_trajectory(const fs::path& path) {
 }
 
 std::vector<char> small_file(void (*write)(const fs::path&)) {
-  auto directory = (fs::temp_directory_path() / "riesel-small-XXXXXX").string();
-  if (mkdtemp(directory.data()) == nullptr) throw std::runtime_error("no temporary directory");
-  const auto path = fs::path(directory) / "file.h5";
+  const ScratchDirectory directory;
+  const auto path = directory / "file.h5";
   write(path);
   std::ifstream file(path, std::ios::binary);
-  std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-  fs::remove_all(directory);
-  return bytes;
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace riesel

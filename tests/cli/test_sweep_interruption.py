@@ -191,6 +191,14 @@ axes: {contact.restitution: [0.8]}
         self.assertEqual(self.stop(process, signal.SIGTERM), 143)
         self.assertIn("2 interrupted, 1 waiting", self.riesel("status", "out").stdout)
 
+    def test_a_sweep_that_lost_its_lock_ends_and_can_be_gone_on_with(self):
+        process = self.start_sweep(LONG)
+        (self.home / "out/.lock").unlink()
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, FAILED, stderr)
+        self.assertIn("out/.lock: has been removed or replaced", stderr)
+        self.assert_goes_on_as_uninterrupted(LONG)
+
     def test_a_point_that_another_process_runs_is_left_to_it(self):
         self.write("sweep.yaml", LONG)
         self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out", "--prepare"))

@@ -10,17 +10,16 @@
 #include "io/seal.hpp"
 #include "tests/fuzz/attempt.hpp"
 #include "tests/memory_file.hpp"
+#include "tests/scratch_directory.hpp"
 #include "tests/small_files.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -106,23 +105,6 @@ Content changed(const Good& good, Input changes) {
   return content;
 }
 
-/// A name on the disk, and nothing there in the end.
-class ScratchFile {
-public:
-  ScratchFile() {
-    if (mkdtemp(directory_.data()) == nullptr) throw std::runtime_error("no temporary directory");
-  }
-  ~ScratchFile() { fs::remove_all(directory_); }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  ScratchFile(ScratchFile&&) = delete;
-  ScratchFile& operator=(ScratchFile&&) = delete;
-  fs::path path() const { return fs::path(directory_) / "file.h5"; }
-
-private:
-  std::string directory_ = (fs::temp_directory_path() / "riesel-fuzz-XXXXXX").string();
-};
-
 /// Behind a seal. The length that HDF5 wants is made right, too.
 Content sealed(const Content& content, const std::string& kind) {
   constexpr std::size_t place_of_length = 40;
@@ -170,10 +152,11 @@ Content content_from(Input input) {
 
 /// It is opened to be written, which files in memory refuse by their names.
 void go_on_with_trajectory(const Content& content) {
-  static const ScratchFile file;
-  std::ofstream(file.path(), std::ios::binary)
+  static const ScratchDirectory directory;
+  static const auto path = directory / "trajectory.h5";
+  std::ofstream(path, std::ios::binary)
       .write(content.data(), static_cast<std::streamsize>(content.size()));
-  attempt([&] { reopen_small_trajectory(file.path()); });
+  attempt([&] { reopen_small_trajectory(path); });
 }
 
 }  // namespace

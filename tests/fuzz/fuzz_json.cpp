@@ -5,10 +5,10 @@
 #include "io/sweep_manifest.hpp"
 #include "io/sweep_table.hpp"
 #include "tests/fuzz/attempt.hpp"
+#include "tests/scratch_directory.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -24,28 +24,20 @@ namespace fs = std::filesystem;
 class Directory {
 public:
   Directory() {
-    auto name = (fs::temp_directory_path() / "riesel-fuzz-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();
-    path_ = name;
     put(nullptr, 0);
     for (const char* other : {io::manifest_name, "attempts.json"})
-      fs::create_hard_link(path_ / io::summary_name, path_ / other);
+      fs::create_hard_link(directory_ / io::summary_name, directory_ / other);
   }
-  ~Directory() { fs::remove_all(path_); }
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-  Directory(Directory&&) = delete;
-  Directory& operator=(Directory&&) = delete;
 
-  const fs::path& path() const { return path_; }
+  const fs::path& path() const { return directory_.path(); }
 
   void put(const char* bytes, std::size_t size) const {
-    std::ofstream file(path_ / io::summary_name, std::ios::binary | std::ios::trunc);
+    std::ofstream file(directory_ / io::summary_name, std::ios::binary | std::ios::trunc);
     file.write(bytes, static_cast<std::streamsize>(size));
   }
 
 private:
-  fs::path path_;
+  ScratchDirectory directory_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "engine/state.hpp"
 #include "io/run_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/scratch_directory.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -25,39 +25,7 @@ namespace file_fixture {
 
 namespace fs = std::filesystem;
 
-/// An empty directory that goes with its contents.
-class ScratchDirectory {
-public:
-  ScratchDirectory() {
-    auto name = (fs::temp_directory_path() / "riesel-test-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-  ScratchDirectory(ScratchDirectory&&) = delete;
-  ScratchDirectory& operator=(ScratchDirectory&&) = delete;
-
-  const fs::path& path() const { return path_; }
-  fs::path operator/(const char* name) const { return path_ / name; }
-
-  /// The names of all files, in alphabetical order.
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path_)) {
-      names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-private:
-  fs::path path_;
-};
+using riesel::ScratchDirectory;
 
 inline std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

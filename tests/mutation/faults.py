@@ -13,7 +13,7 @@ FAULTS = [
     ("warnings that a resume forgets", "io/checkpoint.cpp",
      '.warnings = lines_of(root.text("warnings")),', ".warnings = {},"),
     ("a lock that is gone", "io/directory_lock.cpp",
-     "if (identity_of(lock) != lock_identity_)", "if (!lock_identity_)"),
+     "if (identity_by(stat, lock.c_str()) != lock_identity_)", "if (!lock_identity_)"),
     # The physics of a contact
     ("damping of the wrong sign", "engine/contact_law.hpp",
      "return gamma_n * m_red * rate;", "return -gamma_n * m_red * rate;"),

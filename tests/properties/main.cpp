@@ -56,12 +56,12 @@ int print_gains(std::uint64_t first, std::uint64_t count) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const Impact impact = random_impact(seed);
     std::size_t row = lowest.size() - 1;
-    while (row > 0 && impact.steps_per_collision < lowest.at(row)) --row;
+    while (row > 0 && impact.steps_per_contact < lowest.at(row)) --row;
     auto& cell = most.at(impact.model.normal.index()).at(impact.model.slip.index()).at(row);
     cell = std::max(cell, impact.gain);
     ++counts.at(impact.model.normal.index()).at(impact.model.slip.index()).at(row);
   }
-  std::puts("| law | slip | steps per collision from | impacts | largest gain |");
+  std::puts("| law | slip | steps per contact from | impacts | largest gain |");
   std::puts("|---|---|--:|--:|--:|");
   for (std::size_t law = 0; law < laws.size(); ++law)
     for (std::size_t slip = 0; slip < slips.size(); ++slip)

@@ -38,7 +38,7 @@ Complaints balances(const SetUp& set_up, const Outcome& outcome);
 /// One impact of two grains, or of a grain on a corrugated wall, at any angle and of any law.
 struct Impact {
   double gain;  ///< of kinetic and elastic energy, as a part of that of the relative motion
-  double steps_per_collision;  ///< of a head-on collision
+  double steps_per_contact;  ///< in contact_time()
   riesel::ContactModel model;
 };
 

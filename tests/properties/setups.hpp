@@ -11,12 +11,15 @@
 
 namespace properties {
 
+/// Below it a set-up is there to blow up, by all ways in the same manner.
+inline constexpr double fewest_steps_per_contact = 8.0;
+
 struct SetUp {
   riesel::State start;
   riesel::ContactModel model;
   std::int64_t steps;  ///< how far to go
   bool equal_masses;
-  double steps_per_collision;  ///< of two mean grains that meet with the typical speed
+  double steps_per_contact;  ///< in contact_time() of mean grains that meet as fast as they can
 };
 
 SetUp random_set_up(std::uint64_t seed);
@@ -24,8 +27,14 @@ SetUp random_set_up(std::uint64_t seed);
 /// A contact law of any kind, with its friction. Loses energy, or at least wins none.
 riesel::ContactModel random_model(systems::Dice& dice);
 
-/// Makes grains rotate and springs act for every other seed. `t_col` in s; before there are grains.
-void add_rotation(std::uint64_t seed, double t_col, riesel::ContactModel& model,
+/// s, the shortest time that steps have to resolve in a head-on contact that begins with `speed`
+/// (m/s): how long it lasts, or, where damping is stronger than elasticity, pi times the time in
+/// which that alone takes the speed down e-fold.
+double contact_time(const riesel::NormalLaw& normal, double reduced_mass, double speed);
+
+/// Makes grains rotate and springs act for every other seed. `contact_time` in s; before there are
+/// grains.
+void add_rotation(std::uint64_t seed, double contact_time, riesel::ContactModel& model,
                   riesel::State& state);
 
 /// Gravity at an angle for every third seed, smooth walls for every fifth, walls that move for

@@ -21,8 +21,8 @@ TEST_CASE("no impact wins energy but by the error of the time step") {
   // Second order. Of a million there are some that win more: docs/reliability.md.
   for (std::uint64_t seed = 1; seed <= 5000; ++seed) {
     const Impact impact = random_impact(seed);
-    const double steps = impact.steps_per_collision;
-    INFO("seed " << seed << ", " << steps << " steps per collision");
+    const double steps = impact.steps_per_contact;
+    INFO("seed " << seed << ", " << steps << " steps per contact");
     CHECK(impact.gain < 3.0 / (steps * steps));
   }
 }
