@@ -306,6 +306,7 @@ int tell_if_not_printed(int status) {
 
 /// Reads the command line and does what it says.
 int run_program(int argc, char** argv) {
+  app::occupy_closed_streams();
   app::end_on_interrupts();
   CommandLine line(argc, argv);
   try {
@@ -329,6 +330,9 @@ int riesel::app::command(int argc, char** argv) {
     return fail(app::exit_bad_input, error.what());
   } catch (const std::bad_alloc&) {
     return fail(app::exit_failed, "out of memory; choose fewer grains");
+  } catch (const std::filesystem::filesystem_error& error) {
+    const auto told = io::system_failure(error.path1(), "cannot be reached", error.code().value());
+    return fail(app::exit_failed, told.what());
   } catch (const std::exception& error) {
     return std::ferror(stdout) != 0 ? fail_to_print() : fail(app::exit_failed, error.what());
   }

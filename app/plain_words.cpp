@@ -100,10 +100,16 @@ std::string description_of(const RigidColumn& rigid) {
 }
 
 std::string where_hard(const io::ColumnSummary& summary) {
+  const auto touches_several = [](const io::ColumnPoint& p) {
+    return judge_drop(0.0, p.detachment, 0.0) != Validity::valid;
+  };
   std::vector<io::ColumnPoint> points = summary.column;
   std::ranges::sort(points, std::ranges::greater{}, &io::ColumnPoint::gap_ratio);
-  const auto soft = std::ranges::find_if(
-      points, [](const io::ColumnPoint& p) { return p.verdict != Validity::valid; });
+  const auto soft = std::ranges::find_if(points, touches_several);
+  if (soft == points.end()
+      && std::ranges::count(points, Validity::valid, &io::ColumnPoint::verdict)
+             < std::ssize(points))
+    return "not resolved, or too deep: raise run.steps_per_collision or contact.stiffness.";
   if (soft == points.begin())
     return "t_col is too long for all of these gaps: raise contact.stiffness.";
   const double from = std::prev(soft)->gap_ratio;

@@ -5,24 +5,33 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace riesel::app {
 
 namespace {
 
+/// With its error bar, if it has one.
+std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int error_digits = 2) {
+  if (std::isnan(m.value)) return "not known";
+  const auto error =
+      std::isnan(m.error) ? std::string() : fmt::format(" +- {:.{}g}", m.error, error_digits);
+  return fmt::format("{:.{}g}{} {}", m.value, digits, error, unit);
+}
+
 void print_balance(const io::FlowSummary::Balance& b) {
   const std::string factors = b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s",
                                                                 b.n_dot.value, b.dv_y.value)
                                                   : std::string("none begun, lasting ones");
-  fmt::print("  {:<22}{} = {:.4g} +- {:.2g} m/s^2, gravity {:.4g} m/s^2\n", "wall collisions",
-             factors, b.n_dot_dv_y.value, b.n_dot_dv_y.error, b.gravity);
+  fmt::print("  {:<22}{} = {}, gravity {:.4g} m/s^2\n", "wall collisions", factors,
+             text_of(b.n_dot_dv_y, "m/s^2"), b.gravity);
 }
 
 void print_braking(const io::FlowSummary::BrakingForce& f) {
-  fmt::print("  {:<22}left {:.4g} +- {:.2g} N, right {:.4g} +- {:.2g} N, weight {:.4g} N\n",
-             "braking by the walls", f.left.value, f.left.error, f.right.value, f.right.error,
-             f.weight);
+  fmt::print("  {:<22}left {}, right {}, weight {:.4g} N\n", "braking by the walls",
+             text_of(f.left, "N"), text_of(f.right, "N"), f.weight);
 }
 
 void print_visits(const io::FlowSummary::WallVisits& v) {
@@ -30,17 +39,15 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
     fmt::print("  {:<22}none after the transient\n", "visit to a wall");
     return;
   }
-  fmt::print("  {:<22}{:.3g} +- {:.1g} contacts, {:.3g} +- {:.1g} m/s lost ({:.0f} visits)\n",
-             "visit to a wall", v.contacts.value, v.contacts.error, v.dv_y.value, v.dv_y.error,
-             v.visits);
+  fmt::print("  {:<22}{}, {} lost ({:.0f} visits)\n", "visit to a wall",
+             text_of(v.contacts, "contacts", 3, 1), text_of(v.dv_y, "m/s", 3, 1), v.visits);
 }
 
 /// With its error bar; a flow that gains speed has none.
 void print_mean(const io::FlowSummary& s) {
-  const auto& [value, error] = s.mean_axial_velocity;
-  const std::string bar =
-      s.state == "accelerating" ? std::string{} : fmt::format(" +- {:.2g}", error);
-  fmt::print("  {:<22}{:.5g}{} m/s (after {:.3g} s)\n", "mean axial velocity", value, bar,
+  io::Measured mean = s.mean_axial_velocity;
+  if (s.state == "accelerating") mean.error = std::numeric_limits<double>::quiet_NaN();
+  fmt::print("  {:<22}{} (after {:.3g} s)\n", "mean axial velocity", text_of(mean, "m/s", 5),
              s.transient_end);
 }
 
@@ -85,9 +92,8 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   print_mean(s);
   print_state(s, directory);
   if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
-  const io::Measured& temperature = s.fluctuations.granular_temperature;
-  fmt::print("  {:<22}{:.4g} +- {:.2g} m^2/s^2\n", "granular temperature", temperature.value,
-             temperature.error);
+  fmt::print("  {:<22}{}\n", "granular temperature",
+             text_of(s.fluctuations.granular_temperature, "m^2/s^2"));
   print_balance(s.balance);
   print_braking(s.braking_force);
   print_visits(s.wall_visits);

@@ -24,7 +24,7 @@ io::ColumnPoint point(const scenarios::ColumnCurve& curve, double gap_ratio,
                     .contacts = r.contacts,
                     .contact_time = r.contact_time,
                     .max_overlap = r.max_overlap};
-  p.verdict = judge_drop(p.max_overlap / curve.setup.bead_radius, p.detachment);
+  p.verdict = judge_drop(p.max_overlap / curve.setup.bead_radius, p.detachment, r.energy_error);
   return p;
 }
 

@@ -32,8 +32,8 @@ void RunDirectory::write_settings(const io::Settings& settings) const {
 }
 
 RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
-  const bool holds_run =
-      fs::exists(path / io::run_file_name) || fs::exists(path / io::trajectory_name);
+  const bool holds_run = fs::exists(path / io::run_file_name)
+                         || fs::exists(path / io::trajectory_name) || has_checkpoint(path);
   if (holds_run && stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": holds a run that was stopped before its first checkpoint; "
@@ -44,12 +44,9 @@ RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& sett
         + ": holds a run already; choose another directory with --out, or go on with that "
           "run by 'riesel resume "
         + path.string() + "'");
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw io::system_failure(path, "cannot be made", error.value());
+  io::make_directories(path);
   RunDirectory directory(path);
   directory.write_settings(settings);
-  io::sync_directory_of(fs::canonical(path));
   return directory;
 }
 

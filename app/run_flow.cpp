@@ -5,6 +5,7 @@
 #include "app/flow_summary.hpp"
 #include "app/interrupt.hpp"
 #include "app/limit_watch.hpp"
+#include "app/pace.hpp"
 #include "app/print_profile.hpp"
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
@@ -199,17 +200,17 @@ private:
     return simulation_.state().step < schedule_.last_step ? "precision" : "at_most";
   }
 
-  /// To the next row or frame, or a part of the way in a large system, so that signals and the
-  /// clock are heeded in time.
+  /// To the next row or frame, or a part of the way there, so that signals and the clock are heeded
+  /// in time.
   void advance() {
-    constexpr double particle_steps = 2e7;  // about a quarter of a second
     const State& state = simulation_.state();
-    const auto patience = static_cast<std::int64_t>(
-        std::ceil(particle_steps / static_cast<double>(state.grains.size())));
     const auto start = Clock::now();
-    simulation_.advance(std::min(schedule_.next(state.step) - state.step, patience));
-    times_.stepping += seconds_since(start);
-    longest_piece_ = std::max(longest_piece_, seconds_since(start));
+    const std::int64_t steps = std::min(schedule_.next(state.step) - state.step, pace_.steps());
+    simulation_.advance(steps);
+    const double seconds = seconds_since(start);
+    times_.stepping += seconds;
+    longest_piece_ = std::max(longest_piece_, seconds);
+    pace_.note(steps, seconds);
     if (schedule_.is_frame(state.step)) add_frame();
     if (schedule_.is_row(state.step))
       add_row();
@@ -378,6 +379,7 @@ private:
   HistogramBlocks histograms_;
   Observables last_;
   Progress progress_;
+  Pace pace_;
   std::string precision_so_far_;  // for the line of progress
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;

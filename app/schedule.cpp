@@ -1,7 +1,5 @@
 #include "app/schedule.hpp"
 
-#include "scenarios/run_length.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +9,7 @@ Schedule::Schedule(const io::Settings& settings, double time_step)
     : steps_per_row(scenarios::steps_between(settings.number("output.interval"), time_step)),
       seconds_between_checkpoints(settings.number("output.checkpoint_interval")) {
   const scenarios::RunLength length = scenarios::run_length(settings);
-  last_step = std::llround(std::ceil(length.at_most / time_step - 1e-9));
+  last_step = std::max(1LL, std::llround(std::ceil(length.at_most / time_step - 1e-9)));
   relative_error = length.relative_error;
   constexpr auto trajectory_key = "output.trajectory_interval";
   if (settings.has(trajectory_key))
@@ -20,7 +18,8 @@ Schedule::Schedule(const io::Settings& settings, double time_step)
 
 std::int64_t Schedule::next(std::int64_t step) const {
   const auto after = [step](std::int64_t steps) { return (step / steps + 1) * steps; };
-  const std::int64_t look = std::min({after(steps_per_row), after(steps_per_look), last_step});
+  const std::int64_t look =
+      std::min({after(steps_per_row), after(scenarios::steps_per_look), last_step});
   return steps_per_frame > 0 ? std::min(look, after(steps_per_frame)) : look;
 }
 

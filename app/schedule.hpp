@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/settings.hpp"
+#include "scenarios/run_length.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -18,11 +19,12 @@ struct Schedule {
     return steps_per_frame > 0 && step % steps_per_frame == 0;
   }
   /// When, besides with each row, it is looked whether the run is still what it should be.
-  bool is_look(std::int64_t step) const { return step % steps_per_look == 0 || step == last_step; }
+  bool is_look(std::int64_t step) const {
+    return step % scenarios::steps_per_look == 0 || step == last_step;
+  }
   /// The next step at which something is due.
   std::int64_t next(std::int64_t step) const;
 
-  static constexpr std::int64_t steps_per_look = 10'000;
   std::int64_t last_step;
   std::optional<double> relative_error;  ///< of the mean velocity, to stop at before the last step
   std::int64_t steps_per_row;

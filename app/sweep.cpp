@@ -27,12 +27,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void make_directory(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw io::system_failure(path, "cannot be made", error.value());
-}
-
 bool holds(const fs::path& file, const std::string& content) {
   std::ifstream stream(file, std::ios::binary);
   return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == content;
@@ -42,7 +36,7 @@ bool holds(const fs::path& file, const std::string& content) {
 void write_plan(const SweepPlan& plan, const fs::path& sweep) {
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const fs::path point = point_directory(sweep, plan.manifest.points[i].name);
-    make_directory(point);
+    io::make_directories(point);
     const fs::path file = point / point_settings_name;
     if (!holds(file, plan.settings[i])) io::write_durably(file, plan.settings[i]);
   }
@@ -54,7 +48,7 @@ void write_plan(const SweepPlan& plan, const fs::path& sweep) {
 io::DirectoryLock lock(const fs::path& sweep) {
   if (fs::exists(sweep / io::run_file_name))
     throw UnusableInput(sweep.string() + ": holds a run; choose another directory with --out");
-  make_directory(sweep);
+  io::make_directories(sweep);
   return io::DirectoryLock(sweep);
 }
 
@@ -99,7 +93,7 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
     print_status(manifest, sweep);
     return exit_done;
   }
-  make_directory(sweep / "slurm");
+  io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
   fmt::print("{}: submitted as job {}; see 'riesel status {}'\n", sweep.string(),
              submit_to_slurm(sweep / slurm_script_name), sweep.string());

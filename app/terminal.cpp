@@ -1,5 +1,6 @@
 #include "app/terminal.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/ioctl.h>
@@ -24,6 +25,14 @@ bool shows_colours() {
 std::string coloured(std::string_view text, Colour colour) {
   if (!shows_colours()) return std::string(text);
   return fmt::format("\x1b[{}m{}\x1b[0m", static_cast<int>(colour), text);
+}
+
+void occupy_closed_streams() noexcept {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    const int useless = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    static_cast<void>(open("/dev/null", useless));  // gets the lowest number that is free: this one
+  }
 }
 
 bool nobody_reads_the_output() noexcept {

@@ -26,6 +26,10 @@ void tell(fmt::format_string<Parts...> format, Parts&&... parts) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+/// Takes the places of those standard streams that are closed, so that no file of a run gets one of
+/// them and messages are written into it. Using them fails as before.
+void occupy_closed_streams() noexcept;
+
 /// Standard output is a pipe whose other end is closed.
 bool nobody_reads_the_output() noexcept;
 

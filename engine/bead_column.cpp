@@ -1,6 +1,7 @@
 #include "engine/bead_column.hpp"
 
 #include "engine/hash.hpp"
+#include "engine/observables.hpp"
 #include "engine/parallel_problems.hpp"
 
 #include <algorithm>
@@ -84,6 +85,7 @@ ColumnResult result(const ColumnSetup& setup, const State& state, bool over) {
           .contacts = static_cast<double>(pairs.begun + plate.begun),
           .contact_time = pairs.duration.value() + plate.duration.value(),
           .max_overlap = std::max(pairs.max_overlap, plate.max_overlap),
+          .energy_error = energy_error_ratio(state, observe(state).energies),
           .over = over,
           .steps = state.step};
 }

@@ -33,6 +33,7 @@ struct ColumnResult {
   double contacts;      ///< number of overlaps begun
   double contact_time;  ///< s, sum of their durations
   double max_overlap;   ///< m
+  double energy_error;  ///< see energy_error_ratio()
   bool over;  ///< contacts have ended and no two bodies approach (more than hardly); else given up
   std::int64_t steps;
 };

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -124,6 +125,9 @@ std::string partners(const ContactName& name) {
              ? grain + " and grain " + partner
              : grain + " and grain " + partner + " of wall " + std::to_string(name.wall);
 }
+
+/// Not each side has a wall.
+bool has_open_side(const State& state) { return state.walls.size() < 2; }
 
 }  // namespace
 
@@ -267,17 +271,19 @@ void Simulation::collect() {
 }
 
 void Simulation::fail_if_in_trouble() const {
-  const std::string when =
-      " at t = " + std::to_string(state_.time()) + " s (step " + std::to_string(state_.step) + ")";
+  std::ostringstream when;
+  when << " at t = " << state_.time() << " s (step " << state_.step << ")";
   std::optional<ContactName> trouble;
   for (const Slice& slice : candidates_->slices()) trouble = first_by_name(trouble, slice.trouble);
   if (trouble)
-    throw RunFailure("the force between " + partners(*trouble) + " is not finite" + when
+    throw RunFailure("the force between " + partners(*trouble) + " is not finite" + when.str()
                      + "; a shorter time step may help");
   for (const Slice& slice : candidates_->slices()) {
     if (slice.lost)
-      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when
-                       + "; stiffer contacts or a shorter time step may help");
+      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when.str()
+                       + (has_open_side(state_)
+                              ? "; more room at the open side or a slower start may help"
+                              : "; stiffer contacts or a shorter time step may help"));
   }
 }
 

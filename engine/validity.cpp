@@ -113,9 +113,10 @@ Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
                    judge(energy_criterion, energy_error_ratio)});
 }
 
-Validity judge_drop(double max_overlap_ratio, double detachment) {
-  return std::max(judge(overlap_criterion, max_overlap_ratio),
-                  judge(detachment_criterion, std::abs(detachment)));
+Validity judge_drop(double max_overlap_ratio, double detachment, double energy_error_ratio) {
+  return std::max({judge(overlap_criterion, max_overlap_ratio),
+                   judge(detachment_criterion, std::abs(detachment)),
+                   judge(energy_criterion, energy_error_ratio)});
 }
 
 double detachment(double restitution, double rigid_restitution) {

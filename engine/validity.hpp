@@ -55,9 +55,9 @@ ValidityVerdict judge(const Evidence& evidence);
 Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
                        double energy_error_ratio);
 
-/// What a drop of a column of beads can be judged by: the worse of the overlap and the size of
-/// detachment(), which is NaN for a drop that was given up.
-Validity judge_drop(double max_overlap_ratio, double detachment);
+/// What a drop of a column of beads can be judged by: the worst of the overlap, the size of
+/// detachment(), which is NaN for a drop that was given up, and the error of the energy.
+Validity judge_drop(double max_overlap_ratio, double detachment, double energy_error_ratio);
 
 /// Part of the energy that a column of rigid beads loses which one of soft beads keeps. By the
 /// restitutions of both, as in engine/bead_column.hpp; 0 where rigid beads hardly lose any.

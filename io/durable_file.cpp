@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <system_error>
 #include <utility>
 
 namespace riesel::io {
@@ -79,6 +80,15 @@ void write_durably(const fs::path& path, std::string_view content, Previous prev
   rename_to(aside.path(), path, path);
   if (keeps) rename_to(replaced.path(), previous_generation(path), path);
   sync_directory_of(path);
+}
+
+void make_directories(const fs::path& path) {
+  const fs::path parent = path.parent_path();
+  std::error_code error;
+  if (!parent.empty() && !fs::exists(parent, error)) make_directories(parent);
+  const bool is_new = fs::create_directory(path, error);
+  if (error) throw system_failure(path, "cannot be made", error.value());
+  if (is_new) sync_directory_of(path);
 }
 
 fs::path previous_generation(const fs::path& path) { return with_suffix(path, ".previous"); }

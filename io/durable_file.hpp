@@ -31,6 +31,10 @@ void write_durably(const std::filesystem::path& path, std::string_view content,
 /// FileError.
 void sync_directory_of(const std::filesystem::path& path);
 
+/// Makes a directory and those above it that are missing, each to be found on the disk from then
+/// on. Throws FileError.
+void make_directories(const std::filesystem::path& path);
+
 /// NAME.previous: where the generation before is kept.
 std::filesystem::path previous_generation(const std::filesystem::path& path);
 

@@ -130,8 +130,12 @@ std::string flaw_of_visits(const State& state) {
   return {};
 }
 
+/// More than any run can come to, and far from where counters overflow.
+constexpr std::int64_t most_contacts = std::int64_t{1} << 61;
+
 std::string flaw_of_tally(const ContactTally& tally) {
   if (tally.begun < 0 || tally.ended < 0) return "a count of contacts is negative";
+  if (std::max(tally.begun, tally.ended) > most_contacts) return "a count of contacts is absurd";
   if (!std::isfinite(tally.max_overlap)) return "the greatest overlap is not finite";
   if (tally.max_overlap > 0.0 && !tally.deepest) return "nobody had the greatest overlap";
   return {};

@@ -102,6 +102,15 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
                     fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
 }
 
+/// What falls freely from one look to the next must not get so fast that it seems slow again.
+void reject_strong_gravity(const io::Settings& settings, std::size_t grains, const State& state) {
+  const double largest = largest_speed(state.box, state.time_step, grains)
+                         / (static_cast<double>(steps_per_look) * state.time_step);
+  if (std::hypot(state.gravity.x, state.gravity.y) < largest) return;
+  settings.reject("gravity", "too strong for this tube and time step",
+                  fmt::format("choose less than {:.3g} m/s^2", largest));
+}
+
 void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
                         const State& state) {
   const double largest = largest_speed(state.box, state.time_step, grains.size());
@@ -137,6 +146,7 @@ Flow start_with(const std::vector<Grain>& grains, const io::Settings& settings,
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
   reject_fast_walls(settings, state);
+  reject_strong_gravity(settings, grains.size(), state);
   reject_fast_grains(settings, grains, state);
   reject_fast_spins(settings, grains, state);
   for (const Grain& grain : grains) add_grain(state, grain);
@@ -156,6 +166,7 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   reject_other_swing_across(settings, earlier, room.empty);
   set_time_step(settings, model, earlier.grains.mass, room.empty);
   reject_fast_walls(settings, room.empty);
+  reject_strong_gravity(settings, earlier.grains.size(), room.empty);
   take_over(earlier, model, room.empty);
   return {.state = std::move(room.empty), .model = model};
 }

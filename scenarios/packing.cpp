@@ -122,6 +122,7 @@ private:
                      const std::vector<double>& radii) {
     State state = empty;
     state.gravity = {};
+    for (WallLattice& wall : state.walls) wall.motion = {};  // its time is not that of the run
     state.time_step = collision_time(model().normal, 0.5 * mass, 0.0) / steps_per_collision;
     for (std::size_t i = 0; i < places.size(); ++i)
       add_grain(state, {.x = places[i].x,

@@ -11,6 +11,9 @@ namespace riesel::scenarios {
 
 inline constexpr double most_steps = 1e15;  ///< of any run: far below what a counter holds
 
+/// Steps after which it is looked at the latest whether a run is still what it should be.
+inline constexpr std::int64_t steps_per_look = 10'000;
+
 struct RunLength {
   double at_most;                        ///< s, simulated
   std::optional<double> relative_error;  ///< of the mean axial velocity, to stop at; or none

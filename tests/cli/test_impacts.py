@@ -158,6 +158,18 @@ class BeadColumn(CommandTest):
         close = self.riesel("run", SHIPPED / "bead_column.yaml", "--out", "close", "--set", "column.gap_ratio=0.1")
         self.assertIn("too long for all of these gaps: raise contact.stiffness", close.stdout)
 
+    def test_energy_that_comes_from_nowhere_is_told(self):
+        """Beads without damping that steps do not resolve."""
+        result = self.riesel("run", SHIPPED / "bead_column.yaml", "--out", "coarse", "--set", "contact.restitution=1",
+                             "--set", "run.steps_per_collision=5")
+        self.assert_done(result)
+        column = self.summary(self.home / "coarse")["column"]
+        self.assertGreater(max(point["restitution"] for point in column), 1.01)
+        for point in column:
+            if point["restitution"] > 1.01:
+                self.assertNotEqual(point["verdict"], "valid", point)
+        self.assertIn("raise run.steps_per_collision", result.stdout)
+
     def test_check_warns_of_gaps_below_v_t_col(self):
         result = self.riesel("check", SHIPPED / "bead_column.yaml")
         self.assert_done(result)

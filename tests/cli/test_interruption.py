@@ -5,11 +5,12 @@ import random
 import re
 import shutil
 import signal
+import subprocess
 import time
 
 import h5py
 
-from riesel_command import PATIENCE, SMALL_TUBE, CommandTest, data_of, final_time, saved_step
+from riesel_command import COMMAND, PATIENCE, SMALL_TUBE, CommandTest, data_of, final_time, saved_step
 
 # Rows of 1 ms hold about 1000 steps; the run ends long after the tests. After its first checkpoint none is due:
 # what is saved later has been saved because the run was told to stop.
@@ -173,6 +174,30 @@ class Interruption(CommandTest):
             step = self.assert_saved_where_it_stopped(stderr, step)
             arguments = ["resume", "out"]
         self.assert_goes_on_as_uninterrupted("pieces.yaml", rows=1)
+
+    def test_by_the_limit_on_the_clock_with_far_more_threads_than_cores(self):
+        """Whose steps may take a thousand times as long: ten thousand of them are not to be waited for."""
+        self.write("slow.yaml", LONG_TUBE.replace("10 ms}", "100 s, interval: 1 s}"))
+        begin = time.monotonic()
+        result = self.riesel("run", "slow.yaml", "--out", "out", "--threads", 64, "--set", "run.stepping=plain",
+                             "--max-walltime", f"{LIMIT} s")
+        self.assertEqual(result.returncode, OUT_OF_TIME, result)
+        self.assertLess(time.monotonic() - begin, LIMIT)
+
+    def test_messages_are_never_written_into_the_files_of_a_run(self):
+        """If standard streams are closed the next files that are opened would get their numbers."""
+        for closed in ("2>&-", "<&- 2>&-", "<&- >&- 2>&-"):
+            with self.subTest(closed=closed):
+                for earlier in (self.out, self.home / "whole"):
+                    shutil.rmtree(earlier, ignore_errors=True)
+                arguments = ["run", "long.yaml", "--out", "out", "--threads", "1", *SAVE_OFTEN]
+                process = subprocess.Popen(["sh", "-c", f'exec "$@" {closed}', "sh", COMMAND, *arguments], cwd=self.home)
+                self.wait_until((self.out / "checkpoint.h5.previous").exists, "the second checkpoint")
+                process.terminate()
+                self.assertEqual(process.wait(PATIENCE), 143)
+                lock = (self.out / ".lock").read_text(encoding="utf-8")
+                self.assertRegex(lock, r"\Aprocess \d+ on \S+\Z")
+                self.assert_goes_on_as_uninterrupted(rows=1)
 
     def test_a_limit_on_the_clock_that_is_none(self):
         for limit in ("soon", "3 m", "-1 s", "0"):

@@ -89,6 +89,7 @@ MISTAKES_IN_OVERRIDES = {
     "weather.rain=1": ["weather.rain: unknown key", "grains"],
     "run=3": ["run:", "is a section", "--set run."],
     "run.duration=5 kg": ["run.duration:", "a time", "'5 kg'"],
+    "gravity=1e6": ["gravity:", "too strong for this tube", "choose less than"],
     "grains.area_fraction=2": ["grains.area_fraction:", "from 0.001 to 0.9", "'2'"],
     "seed=[1": ["not valid YAML"],
     "contact.damping=1e4": ["contact.", "damping", "restitution", "remove one"],

@@ -3,7 +3,7 @@
 import h5py
 import numpy as np
 
-from riesel_command import FAILED, SMALL_TUBE, CommandTest, data_of
+from riesel_command import FAILED, SHIPPED, SMALL_TUBE, CommandTest, data_of
 
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
@@ -241,6 +241,15 @@ class SameBits(CommandTest):
 
 
 class LostGrains(CommandTest):
+
+    def test_a_grain_that_leaves_by_the_open_side_of_a_chute_is_told(self):
+        result = self.riesel("run", SHIPPED / "inclined_chute.yaml", "--out", "out", "--threads", 1, "--set",
+                             "chute.layers=3", "--set", "chute.length=10 mm", "--set", "start.random_velocity=1 m/s",
+                             "--set", "run.duration=0.3 s")
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assertRegex(result.stderr, r"grain \d+ has left the system at t = 0\.\d+ s \(step \d+\); more room at the "
+                                        r"open side or a slower start may help")
+        self.assertTrue((self.home / "out" / "post_mortem.h5").exists())
 
     def test_a_run_that_goes_wrong_fails_with_a_reason_and_keeps_what_it_has(self):
         tube = self.write("tube.yaml", SMALL_TUBE)

@@ -49,6 +49,18 @@ TEST_CASE("impacts are judged by their overlaps, how they brake and how well ene
   CHECK(judge_impacts(0.19, unknown, 0.0) == Validity::suspect);
 }
 
+TEST_CASE("drops are judged by their overlap, by what hard beads would lose, and by their energy") {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  CHECK(judge_drop(0.19, -0.09, 0.009) == Validity::valid);
+  CHECK(judge_drop(0.21, 0.0, 0.0) == Validity::suspect);
+  CHECK(judge_drop(0.0, -0.11, 0.0) == Validity::suspect);
+  CHECK(judge_drop(0.0, unknown, 0.0) == Validity::suspect);
+  CHECK(judge_drop(0.0, 0.0, 0.011) == Validity::suspect);
+  CHECK(judge_drop(0.51, 0.0, 0.0) == Validity::unphysical);
+  CHECK(judge_drop(0.0, 0.51, 0.0) == Validity::unphysical);
+  CHECK(judge_drop(0.0, 0.0, 0.11) == Validity::unphysical);
+}
+
 TEST_CASE("a verdict has one name") {
   for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
     CHECK(validity_named(name(validity)) == validity);

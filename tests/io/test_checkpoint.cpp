@@ -337,6 +337,9 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "the contact (wall -1, grain 0, partner 3) has a value that is not finite");
   CHECK(refusal([](auto& c) { c.state.tally.walls.begun = -1; })
         == "a count of contacts is negative");
+  CHECK(
+      refusal([](auto& c) { c.state.tally.walls.begun = std::numeric_limits<std::int64_t>::max(); })
+      == "a count of contacts is absurd");
   CHECK(refusal([](auto& c) { c.state.tally.grains.max_overlap = nan; })
         == "the greatest overlap is not finite");
   CHECK(refusal([](auto& c) { c.state.tally.walls.deepest.reset(); })

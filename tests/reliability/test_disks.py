@@ -98,6 +98,11 @@ class Disks(CommandTest):
             result = subprocess.run([command, *arguments], cwd=self.home, user=NOBODY, timeout=60,
                                     capture_output=True, text=True, check=False)
             self.assert_failed(result, "Permission denied", "permissions")
+        self.out.chmod(0o700)  # nobody else can tell what is in it
+        for arguments in (["resume", "out"], ["report", "out"], ["run", "tube.yaml", "--out", "out/new"]):
+            result = subprocess.run([command, *arguments], cwd=self.home, user=NOBODY, timeout=60,
+                                    capture_output=True, text=True, check=False)
+            self.assert_failed(result, "out", "cannot be", "Permission denied; check the permissions")
         self.assertEqual(bytes_of_files(self.out), before)
 
     # --- removed and moved ---
@@ -119,6 +124,6 @@ class Disks(CommandTest):
         process = self.start_long_run()
         moved = self.out.rename(self.home / "moved")
         self.out.mkdir()
-        self.assert_ends_with_word(process, "out", "another directory", "riesel resume")
+        self.assert_ends_with_word(process, "out", "another directory", "go on where that is now")
         self.assertEqual(bytes_of_files(self.out), {})
         self.assert_goes_on_as_uninterrupted(moved)

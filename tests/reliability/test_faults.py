@@ -30,7 +30,7 @@ FRAMES = SMALL_TUBE.replace("5 ms", "3 ms") + OUTPUT.replace("}", ", trajectory_
 # It neither ends nor saves by itself.
 ENDLESS = ["--set", "run.duration=1000 s", "--set", "output.checkpoint_interval=1 h"]
 AS_IN_TUBE = ["--set", "run.duration=6 ms", "--set", "output.checkpoint_interval=1e-6 s"]
-BEGINNING = "mkdir open ftruncate pwrite"  # the directory and its lock
+BEGINNING = "mkdir open fsync close open ftruncate pwrite"  # the directory and its lock
 KINDS = ["open", "write", "fsync", "close", "link", "rename"]
 ERRORS = {28: "No space left", 5: "Input/output error", 13: "Permission denied", 30: "Read-only",
           122: "Disk quota exceeded"}
@@ -291,6 +291,12 @@ class Faults(FaultTest):
         self.assert_fails_with_word(result, errno.EIO)
         self.assert_done(self.faulty("resume", "out", *AS_IN_TUBE))
         self.assert_came_to_the_same()
+
+    def test_directories_are_on_the_disk_before_anything_is_put_in_them(self):
+        (self.home / "log").unlink(missing_ok=True)
+        self.assert_done(self.faulty("run", "tube.yaml", "--out", "out/of/some", log=True))
+        calls = (self.home / "log").read_text(encoding="ascii")
+        self.assertRegex(" ".join(calls.split()), r"\A(mkdir open fsync close ){3}open ftruncate")
 
     def test_the_directory_cannot_be_made(self):
         result = self.faulty("run", "tube.yaml", "--out", "out", fault=f"mkdir:1:{errno.EACCES}")

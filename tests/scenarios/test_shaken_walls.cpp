@@ -34,6 +34,17 @@ TEST_CASE("walls shake in the direction that they are told") {
   CHECK(across.walls[0].motion.amplitude_y == 0.0);
 }
 
+TEST_CASE("grains find their places between walls that stand, however these move afterwards") {
+  const Overrides dense = {"grains.area_fraction=0.75", "tube.length=20 mm"};
+  for (const char* angle : {"0", "90 degrees"}) {
+    Overrides moved = shaken(dense);
+    moved.push_back(std::string("wall.shake_angle=") + angle);
+    const State still = tube(dense).state, state = tube(moved).state;
+    CHECK(state.grains.x == still.grains.x);
+    CHECK(state.grains.y == still.grains.y);
+  }
+}
+
 TEST_CASE("walls that shake too far or too fast are refused") {
   const auto swing = [](const char* amplitude, const char* angle) {
     return complaint(tube_yaml, {"wall.shake_frequency=10", "tube.length=40 mm",
