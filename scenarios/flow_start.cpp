@@ -108,7 +108,7 @@ void reject_strong_gravity(const io::Settings& settings, std::size_t grains, con
                          / (static_cast<double>(steps_per_look) * state.time_step);
   if (std::hypot(state.gravity.x, state.gravity.y) < largest) return;
   settings.reject("gravity", "too strong for this tube and time step",
-                  fmt::format("choose less than {:.3g} m/s^2", largest));
+                  fmt::format("choose less than {:.3g} m/s^2, or a shorter time step", largest));
 }
 
 void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
