@@ -87,6 +87,7 @@ void make_directories(const fs::path& path) {
   std::error_code error;
   if (!parent.empty() && !fs::exists(parent, error)) make_directories(parent);
   const bool is_new = fs::create_directory(path, error);
+  if (error == std::errc::file_exists) error = std::make_error_code(std::errc::not_a_directory);
   if (error) throw system_failure(path, "cannot be made", error.value());
   if (is_new) sync_directory_of(path);
 }
