@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace riesel::app {
@@ -46,7 +45,7 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
 /// With its error bar; a flow that gains speed has none.
 void print_mean(const io::FlowSummary& s) {
   io::Measured mean = s.mean_axial_velocity;
-  if (s.state == "accelerating") mean.error = std::numeric_limits<double>::quiet_NaN();
+  if (s.state == "accelerating") mean.error = unknown;
   fmt::print("  {:<22}{} (after {:.3g} s)\n", "mean axial velocity", text_of(mean, "m/s", 5),
              s.transient_end);
 }

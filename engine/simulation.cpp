@@ -271,16 +271,19 @@ void Simulation::collect() {
 }
 
 void Simulation::fail_if_in_trouble() const {
-  std::ostringstream when;
-  when << " at t = " << state_.time() << " s (step " << state_.step << ")";
+  const auto when = [this] {
+    std::ostringstream text;
+    text << " at t = " << state_.time() << " s (step " << state_.step << ")";
+    return text.str();
+  };
   std::optional<ContactName> trouble;
   for (const Slice& slice : candidates_->slices()) trouble = first_by_name(trouble, slice.trouble);
   if (trouble)
-    throw RunFailure("the force between " + partners(*trouble) + " is not finite" + when.str()
+    throw RunFailure("the force between " + partners(*trouble) + " is not finite" + when()
                      + "; a shorter time step may help");
   for (const Slice& slice : candidates_->slices()) {
     if (slice.lost)
-      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when.str()
+      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when()
                        + (has_open_side(state_)
                               ? "; more room at the open side or a slower start may help"
                               : "; stiffer contacts or a shorter time step may help"));

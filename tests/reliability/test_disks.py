@@ -31,6 +31,14 @@ class Disks(CommandTest):
             raise unittest.SkipTest("skipped: this user may not mount a small disk")
         self.addCleanup(subprocess.run, ["umount", "-l", self.out], check=True)
 
+    def assert_forbidden(self, arguments, *mentions):
+        """To another user, who has a command of their own: that in the build directory may be out of reach."""
+        command = self.home / "riesel"
+        shutil.copy(COMMAND, command)
+        result = subprocess.run([command, *arguments], cwd=self.home, user=NOBODY, timeout=60,
+                                capture_output=True, text=True, check=False)
+        self.assert_failed(result, "Permission denied", *mentions)
+
     def start_long_run(self):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1)
         deadline = time.monotonic() + PATIENCE
@@ -91,18 +99,12 @@ class Disks(CommandTest):
         self.home.chmod(0o755)
         self.run_to_end("tube.yaml", "out")
         before = bytes_of_files(self.out)
-        command = self.home / "riesel"  # that in the build directory may be out of reach
-        shutil.copy(COMMAND, command)
         for arguments in (["resume", "out", "--set", "run.duration=9 ms"],
                           ["run", "tube.yaml", "--out", "new"]):
-            result = subprocess.run([command, *arguments], cwd=self.home, user=NOBODY, timeout=60,
-                                    capture_output=True, text=True, check=False)
-            self.assert_failed(result, "Permission denied", "permissions")
+            self.assert_forbidden(arguments, "permissions")
         self.out.chmod(0o700)  # nobody else can tell what is in it
         for arguments in (["resume", "out"], ["report", "out"], ["run", "tube.yaml", "--out", "out/new"]):
-            result = subprocess.run([command, *arguments], cwd=self.home, user=NOBODY, timeout=60,
-                                    capture_output=True, text=True, check=False)
-            self.assert_failed(result, "out", "cannot be", "Permission denied; check the permissions")
+            self.assert_forbidden(arguments, "out", "cannot be", "Permission denied; check the permissions")
         self.assertEqual(bytes_of_files(self.out), before)
 
     # --- removed and moved ---
