@@ -6,10 +6,6 @@
 
 namespace riesel::app {
 
-std::string when(const State& state) {
-  return fmt::format("at t = {:.6g} s (step {})", state.time(), state.step);
-}
-
 void fail_if_too_fast(const State& state) {
   const FastestGrain fastest = fastest_grain(state);
   const double largest = largest_speed(state.box, state.time_step, state.grains.size());

@@ -4,12 +4,7 @@
 #include "engine/observables.hpp"
 #include "engine/state.hpp"
 
-#include <string>
-
 namespace riesel::app {
-
-/// "at t = 0.0125 s (step 1234)"
-std::string when(const State& state);
 
 /// Throws RunFailure, with grain, time and remedy, if grains move so fast that nothing can be told
 /// of them, nor of how they went on (largest_speed).

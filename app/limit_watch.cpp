@@ -1,6 +1,5 @@
 #include "app/limit_watch.hpp"
 
-#include "app/flow_failures.hpp"
 #include "app/flow_summary.hpp"
 
 #include <fmt/format.h>

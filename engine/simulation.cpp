@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -271,22 +270,17 @@ void Simulation::collect() {
 }
 
 void Simulation::fail_if_in_trouble() const {
-  const auto when = [this] {
-    std::ostringstream text;
-    text << " at t = " << state_.time() << " s (step " << state_.step << ")";
-    return text.str();
-  };
   std::optional<ContactName> trouble;
   for (const Slice& slice : candidates_->slices()) trouble = first_by_name(trouble, slice.trouble);
   if (trouble)
-    throw RunFailure("the force between " + partners(*trouble) + " is not finite" + when()
+    throw RunFailure("the force between " + partners(*trouble) + " is not finite " + when(state_)
                      + "; a shorter time step may help");
   for (const Slice& slice : candidates_->slices()) {
     if (slice.lost)
-      throw RunFailure("grain " + std::to_string(*slice.lost) + " has left the system" + when()
-                       + (has_open_side(state_)
-                              ? "; more room at the open side or a slower start may help"
-                              : "; stiffer contacts or a shorter time step may help"));
+      throw RunFailure(
+          "grain " + std::to_string(*slice.lost) + " has left the system " + when(state_)
+          + (has_open_side(state_) ? "; more room at the open side or a slower start may help"
+                                   : "; stiffer contacts or a shorter time step may help"));
   }
 }
 

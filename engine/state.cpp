@@ -2,6 +2,8 @@
 
 #include "engine/hash.hpp"
 
+#include <sstream>
+
 namespace riesel {
 
 namespace {
@@ -167,6 +169,12 @@ Grains ordered_by_id(const Grains& grains) {
     ordered.spin_kick[i] = grains.spin_kick[slot];
   }
   return ordered;
+}
+
+std::string when(const State& state) {
+  std::ostringstream text;
+  text << "at t = " << state.time() << " s (step " << state.step << ")";
+  return text.str();
 }
 
 std::uint64_t state_hash(const State& state) {

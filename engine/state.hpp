@@ -25,6 +25,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace riesel {
@@ -145,6 +146,9 @@ double total_mass(const Grains& grains);
 
 /// A copy in which the slots are ordered by id.
 Grains ordered_by_id(const Grains& grains);
+
+/// The moment, for messages: "at t = 0.0125 s (step 1234)".
+std::string when(const State& state);
 
 /// 64-bit FNV-1a hash of all that the future depends on, the same for any order of the slots.
 std::uint64_t state_hash(const State& state);

@@ -70,15 +70,15 @@ double contact_time(const NormalLaw& normal, double reduced_mass, double speed) 
 }
 
 // From dice of its own: the other seeds, and all the rest, are as without.
-void add_rotation(std::uint64_t seed, double contact_time, ContactModel& model, State& state) {
+void add_rotation(std::uint64_t seed, double shortest, ContactModel& model, State& state) {
   Dice dice(seed ^ 0x5eedU);
   if (dice.below(2) == 0) return;
   if (dice.below(3) != 0) state.grains.inertia = dice.below(2) == 0 ? disc : sphere;
   if (state.grains.rotate()) model.rolling_friction = dice.below(2) == 0 ? 0.0 : 0.3;
   if (dice.below(3) == 0) return;
-  const double k_n = 0.5 * mass * std::pow(std::acos(-1.0) / contact_time, 2);
+  const double k_n = 0.5 * mass * std::pow(std::acos(-1.0) / shortest, 2);
   const double k_t = dice.between(0.05, 1.0) * k_n;
-  model.slip = SpringSlip{k_t, dice.below(2) == 0 ? 0.0 : dice.between(0.0, 1.0) / contact_time};
+  model.slip = SpringSlip{k_t, dice.below(2) == 0 ? 0.0 : dice.between(0.0, 1.0) / shortest};
 }
 
 void add_slopes(std::uint64_t seed, State& state) {

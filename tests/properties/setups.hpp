@@ -32,9 +32,9 @@ riesel::ContactModel random_model(systems::Dice& dice);
 /// which that alone takes the speed down e-fold.
 double contact_time(const riesel::NormalLaw& normal, double reduced_mass, double speed);
 
-/// Makes grains rotate and springs act for every other seed. `contact_time` in s; before there are
-/// grains.
-void add_rotation(std::uint64_t seed, double contact_time, riesel::ContactModel& model,
+/// Makes grains rotate and springs act for every other seed. `shortest`: s, contact_time() of what
+/// is to be resolved; before there are grains.
+void add_rotation(std::uint64_t seed, double shortest, riesel::ContactModel& model,
                   riesel::State& state);
 
 /// Gravity at an angle for every third seed, smooth walls for every fifth, walls that move for
