@@ -38,7 +38,7 @@ constexpr std::int64_t apart = 1, unusable = 2;
 
 struct LiveContacts::Columns {
   const std::int64_t *first, *second;
-  std::array<const Fixed*, 6> wall;  // members of its BodyMotion
+  std::array<Fixed*, 6> partner;  // members of its BodyMotion
   const double *reach, *reduced_mass, *per_mass_first, *per_mass_second;
   std::array<double*, life_members> life;
   std::array<Fixed*, 4> kick;
@@ -49,6 +49,36 @@ struct LiveContacts::Columns {
 
 namespace {
 
+/// Carries the motion of the second grain, as seen from the first, on by one step: gravity is the
+/// same for both, and integers add up to the bits that a look at both grains would give. What they
+/// do not know of are the last kicks, of all contacts of the two.
+template <class Columns>
+[[gnu::always_inline]] inline BodyMotion next_motion(const Columns& c, std::size_t i,
+                                                     const Bodies& b) {
+  const std::int64_t first = c.first[i], second = c.second[i];
+  const Fixed kick_x = wrapped_difference(b.kick_x[second], b.kick_x[first]);
+  const Fixed kick_y = wrapped_difference(b.kick_y[second], b.kick_y[first]);
+  const Fixed ux = wrapped_sum(c.partner[2][i], kick_x);
+  const Fixed uy = wrapped_sum(c.partner[3][i], kick_y);
+  const Fixed x = wrapped_sum(c.partner[0][i], ux), y = wrapped_sum(c.partner[1][i], uy);
+  c.partner[0][i] = x;
+  c.partner[1][i] = y;
+  c.partner[2][i] = ux;
+  c.partner[3][i] = uy;
+  return {.x = x, .y = y, .ux = ux, .uy = uy, .kick_x = kick_x, .kick_y = kick_y};
+}
+
+template <class Columns>
+[[gnu::always_inline]] inline BodyMotion motion_of_wall(const Columns& c, std::size_t i,
+                                                        const Bodies& bodies,
+                                                        const StepUnits& units) {
+  return relative_motion(bodies, c.first[i],
+                         {c.partner[0][i], c.partner[1][i], c.partner[2][i], c.partner[3][i],
+                          c.partner[4][i], c.partner[5][i]},
+                         units);
+}
+
+/// Looks at both bodies, where they are now.
 template <LiveContacts::Partner partner, class Columns>
 [[gnu::always_inline]] inline Encounter encounter_of(const Columns& c, std::size_t i,
                                                      const Bodies& bodies, const StepUnits& units) {
@@ -56,11 +86,18 @@ template <LiveContacts::Partner partner, class Columns>
     return encounter(relative_motion(bodies, c.first[i], c.second[i]), c.reach[i],
                      c.reduced_mass[i], units);
   else
-    return encounter(relative_motion(bodies, c.first[i],
-                                     {c.wall[0][i], c.wall[1][i], c.wall[2][i], c.wall[3][i],
-                                      c.wall[4][i], c.wall[5][i]},
-                                     units),
-                     c.reach[i], c.reduced_mass[i], units);
+    return encounter(motion_of_wall(c, i, bodies, units), c.reach[i], c.reduced_mass[i], units);
+}
+
+/// The same in a contact that has been followed up to the step before.
+template <LiveContacts::Partner partner, class Columns>
+[[gnu::always_inline]] inline Encounter next_encounter(const Columns& c, std::size_t i,
+                                                       const Bodies& bodies,
+                                                       const StepUnits& units) {
+  if constexpr (partner == LiveContacts::Partner::grain)
+    return encounter(next_motion(c, i, bodies), c.reach[i], c.reduced_mass[i], units);
+  else
+    return encounter_of<partner>(c, i, bodies, units);
 }
 
 template <LiveContacts::Partner partner, class Turn, class Columns>
@@ -200,7 +237,7 @@ RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, Ste
 #pragma omp simd reduction(| : any)
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const std::size_t i = block + lane;
-      const Encounter e = encounter_of<partner>(c, i, b, u);
+      const Encounter e = next_encounter<partner>(c, i, b, u);
       const bool touching = e.x * e.x + e.y * e.y < e.reach * e.reach;
       const Turn turn = turning_of<partner, Turn>(c, i, b, rolling_friction, u);
       const Touch t = touch(e, turn, stretch_of<Slip>(c, i, u), normal, slip, mu, attraction, u.dt);
@@ -236,7 +273,7 @@ void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodie
 LiveContacts::Columns LiveContacts::columns() {
   Columns c{.first = body_[0].data(),
             .second = body_[1].data(),
-            .wall = {},
+            .partner = {},
             .reach = reach_.data(),
             .reduced_mass = reduced_mass_.data(),
             .per_mass_first = per_mass_[0].data(),
@@ -248,7 +285,7 @@ LiveContacts::Columns LiveContacts::columns() {
             .flags = found_.of_lanes.data(),
             .block_flags = found_.of_blocks.data()};
   const auto data = [](auto& a) { return a.data(); };
-  std::transform(wall_point_.begin(), wall_point_.end(), c.wall.begin(), data);
+  std::transform(partner_motion_.begin(), partner_motion_.end(), c.partner.begin(), data);
   std::transform(life_.begin(), life_.end(), c.life.begin(), data);
   std::transform(kick_.begin(), kick_.end(), c.kick.begin(), data);
   return c;
@@ -268,7 +305,7 @@ Contact LiveContacts::contact(std::size_t i) const {
 template <class Visit>
 void LiveContacts::for_each_array(Visit visit) {
   for (auto& a : body_) visit(a);
-  for (auto& a : wall_point_) visit(a);
+  for (auto& a : partner_motion_) visit(a);
   visit(reach_);
   visit(reduced_mass_);
   for (auto& a : per_mass_) visit(a);
@@ -306,7 +343,19 @@ void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
     const BodyMotion point = wall_point(meetings_[i], bodies, body_[0][i], units);
     const auto members = std::bit_cast<std::array<Fixed, 6>>(point);
     for (std::size_t member = 0; member < members.size(); ++member)
-      wall_point_[member][i] = members[member];
+      partner_motion_[member][i] = members[member];
+  }
+}
+
+/// Contacts that have been added since the last step know nothing of their grains' motion yet: they
+/// get that of the step before.
+void LiveContacts::follow_bodies(const Bodies& bodies) {
+  for (std::size_t i = followed_; i < size(); ++i) {
+    const BodyMotion now = relative_motion(bodies, body_[0][i], body_[1][i]);
+    partner_motion_[0][i] = wrapped_difference(now.x, now.ux);
+    partner_motion_[1][i] = wrapped_difference(now.y, now.uy);
+    partner_motion_[2][i] = wrapped_difference(now.ux, now.kick_x);
+    partner_motion_[3][i] = wrapped_difference(now.uy, now.kick_y);
   }
 }
 
@@ -320,7 +369,7 @@ void LiveContacts::pad() {
 
 void LiveContacts::clear() {
   meetings_.clear();
-  beginning_ = 0;
+  beginning_ = followed_ = 0;
   any_level_ = false;
   for_each_array([](auto& a) { std::fill(a.begin(), a.end(), 0); });
 }
@@ -333,8 +382,8 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   pad();
   body_[0][i] = meeting.first;
   body_[1][i] = meeting.second;
-  wall_point_[0][i] = meeting.line;
-  wall_point_[1][i] = meeting.y;
+  partner_motion_[0][i] = meeting.line;
+  partner_motion_[1][i] = meeting.y;
   reach_[i] = meeting.reach();
   reduced_mass_[i] = meeting.reduced_mass();
   const BodyPair bodies = meeting.bodies();
@@ -353,6 +402,7 @@ void LiveContacts::remove(std::size_t i) {
   const std::size_t last = size() - 1;
   meetings_[i] = meetings_[last];
   meetings_.pop_back();
+  --followed_;
   for_each_array([&](auto& a) {
     a[i] = a[last];
     a[last] = 0;
@@ -362,6 +412,7 @@ void LiveContacts::remove(std::size_t i) {
 template <LiveContacts::Partner partner, class Turn, class Normal, class Slip>
 void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const ContactModel& model,
                         const Normal& normal, const Slip& slip) {
+  if constexpr (partner == Partner::grain) follow_bodies(bodies);
   const Columns c = columns();
   for (std::size_t i = size() - beginning_; i < size(); ++i) {
     const Touch t = touch(encounter_of<partner>(c, i, bodies, units),
@@ -373,6 +424,7 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
     c.life[RIESEL_LIFE(entry_slip)][i] = t.centre_slip;
   }
   beginning_ = 0;
+  followed_ = size();
   step_lanes<partner, Turn, LaneFlags::lanes>(c, LaneFlags::padded(size()), bodies, units, normal,
                                               slip, model.friction, model.rolling_friction,
                                               model.attraction);

@@ -92,16 +92,20 @@ private:
   void become_rich();
   void make_harmless(std::size_t i);
   void follow_walls(const Bodies& bodies, const StepUnits& units);
+  void follow_bodies(const Bodies& bodies);
   void pad();
   template <class Visit>
   void for_each_array(Visit visit);
 
   Partner partner_;
   std::size_t beginning_ = 0;  // contacts at the end of the arrays that begin in the next step
+  std::size_t followed_ = 0;   // so many have been stepped; the others have been added since
   std::vector<Meeting> meetings_;
   // The arrays are padded with lanes of zero reach, which never touch, to whole blocks.
   std::array<AlignedVector<std::int64_t>, 2> body_;  // first and second
-  std::array<AlignedVector<Fixed>, 6> wall_point_;   // members of its BodyMotion
+  // Members of a BodyMotion: of the point of a wall, or of the second grain as seen from the first,
+  // which kicks alone change from step to step.
+  std::array<AlignedVector<Fixed>, 6> partner_motion_;
   AlignedVector<double> reach_, reduced_mass_;
   std::array<AlignedVector<double>, 2> per_mass_;  // 1/kg, of first and second
   std::array<AlignedVector<double>, life_members> life_;
