@@ -103,11 +103,6 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
     throw std::invalid_argument("a contact between bodies that are far from each other");
 }
 
-void Candidates::note_speeds(const State& state, Slice& mine) const {
-  for (const Kick& kick : mine.received)
-    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, kick.slot));
-}
-
 bool Candidates::spend_step(Slice& mine, std::int64_t step) const {
   mine.budget -= std::sqrt(largest(slices_, &Slice::fastest2));
   return mine.budget >= 0.0 && step <= hold_until_;
@@ -228,20 +223,6 @@ void Candidates::list_received(const Grains& grains, Slice& mine) {
       mine.received.push_back({static_cast<std::uint32_t>(i), by});
 }
 
-/// Of the displacement per step relative to the drift, with or without the kick in the store: in
-/// the middle of a step the last kick is taken up already, at its end the next step will.
-double Candidates::squared_speed(const State& state, std::size_t slot) const {
-  const Grains& g = state.grains;
-  const Fixed ux = wrapped_difference(g.ux[slot], drift_.x);
-  const Fixed uy = wrapped_difference(g.uy[slot], drift_.y);
-  const auto squared = [&](Fixed x, Fixed y) {
-    const double vx = state.box.metres_x(x), vy = state.box.metres_y(y);
-    return vx * vx + vy * vy;
-  };
-  return std::max(squared(ux, uy),
-                  squared(wrapped_sum(ux, g.kick_x[slot]), wrapped_sum(uy, g.kick_y[slot])));
-}
-
 Candidates::Displacement Candidates::common_motion(std::int64_t step) const {
   const auto along = [&](Fixed drift, Fixed fall) {
     return wrapped_sum(wrapped_product(step - sorted_at_, drift),
@@ -266,10 +247,17 @@ void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& min
   mine.farthest = std::sqrt(static_cast<double>(farthest2)) * (1.0 + 1e-6) + resolution;
 }
 
+/// With or without the kicks in the store: in the middle of a step the last ones are taken up
+/// already, at its end the next step will.
 void Candidates::measure_speeds(const State& state, Slice& mine) const {
+  const Grains& g = state.grains;
   mine.fastest2 = 0.0;
-  for (std::size_t slot = mine.begin; slot < mine.end; ++slot)
-    mine.fastest2 = std::max(mine.fastest2, squared_speed(state, slot));
+  for (std::size_t i = mine.begin; i < mine.end; ++i) {
+    const double without = squared_speed(state.box, g.ux[i], g.uy[i]);
+    const double with = squared_speed(state.box, wrapped_sum(g.ux[i], g.kick_x[i]),
+                                      wrapped_sum(g.uy[i], g.kick_y[i]));
+    mine.fastest2 = std::max({mine.fastest2, without, with});
+  }
 }
 
 std::vector<Contact> Candidates::contacts() const {

@@ -17,6 +17,7 @@
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -65,8 +66,11 @@ public:
   /// From when they were listed to `step`.
   Displacement common_motion(std::int64_t step) const;
 
-  /// The grains of `mine` that received kicks have new velocities: keeps the bound on the speeds.
-  void note_speeds(const State& state, Slice& mine) const;
+  /// A grain of `mine` has a new velocity: keeps the bound on the speeds.
+  void note_speed(const State& state, Slice& mine, std::uint32_t slot) const {
+    const Grains& g = state.grains;
+    mine.fastest2 = std::max(mine.fastest2, squared_speed(state.box, g.ux[slot], g.uy[slot]));
+  }
 
   /// Contacts of all slices, ordered by name.
   std::vector<Contact> contacts() const;
@@ -79,7 +83,12 @@ private:
   static void list_received(const Grains& grains, Slice& mine);
   void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;
   void measure_speeds(const State& state, Slice& mine) const;
-  double squared_speed(const State& state, std::size_t slot) const;
+  /// Relative to the drift.
+  double squared_speed(const Box& box, Fixed ux, Fixed uy) const {
+    const double vx = box.metres_x(wrapped_difference(ux, drift_.x));
+    const double vy = box.metres_y(wrapped_difference(uy, drift_.y));
+    return vx * vx + vy * vy;
+  }
 
   std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
   void keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const;

@@ -6,16 +6,6 @@
 
 namespace riesel {
 
-void take_up_kicks(Grains& grains, const Slice& mine) {
-  for (const Kick& kick : mine.received) {
-    grains.ux[kick.slot] = wrapped_sum(grains.ux[kick.slot], kick.by.x);
-    grains.uy[kick.slot] = wrapped_sum(grains.uy[kick.slot], kick.by.y);
-  }
-  if (!grains.rotate()) return;
-  for (const Kick& kick : mine.received)
-    grains.spin[kick.slot] = wrapped_sum(grains.spin[kick.slot], kick.by.spin);
-}
-
 void give_away_kicks(Slice& mine) {
   mine.given_away.clear();
   for_each_kick(mine, [&](std::int64_t place, const BodyKick& kick) {

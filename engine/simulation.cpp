@@ -169,7 +169,6 @@ void Simulation::step(Slice& mine, std::int64_t step) {
   profile.done(Profile::Phase::forces);
   barrier_->arrive_and_wait();
   receive_kicks(state_.grains, candidates_->slices(), mine);
-  candidates_->note_speeds(state_, mine);
   profile.done(Profile::Phase::receive);
 }
 
@@ -243,7 +242,8 @@ void Simulation::advance_by_flights(std::int64_t last) {
 /// Velocities take up the last kicks, positions move on to step `step`.
 void Simulation::drift(Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
-  take_up_kicks(g, mine);
+  take_up_kicks(g, mine,
+                [&](std::uint32_t slot) { candidates_->note_speed(state_, mine, slot); });
   const std::size_t count = mine.end - mine.begin;
   const Fall fallen = fall_.times(step);
   fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);

@@ -91,9 +91,9 @@ FAULTS = [
     ("a budget that is not spent by all slices", "engine/candidates.cpp",
      "mine.budget -= std::sqrt(largest(slices_, &Slice::fastest2));",
      "mine.budget -= std::sqrt(mine.fastest2);"),
-    ("new speeds not noted", "engine/candidates.cpp",
-     "mine.fastest2 = std::max(mine.fastest2, squared_speed(state, kick.slot));",
-     "static_cast<void>(kick);\n    static_cast<void>(state);"),
+    ("new speeds not noted", "engine/candidates.hpp",
+     "mine.fastest2 = std::max(mine.fastest2, squared_speed(state.box, g.ux[slot], g.uy[slot]));",
+     "static_cast<void>(g);\n    static_cast<void>(slot);"),
     ("a pair never looked for again after its first contact", "engine/contact_loop.cpp",
      "reach2 = std::abs(reach2);", "reach2 = -std::abs(reach2);"),
 
