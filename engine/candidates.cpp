@@ -172,11 +172,15 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   sorted_at_ = step;
   hold_until_ = step + steps_to_walls_;
   drift_.x = wrapped_difference(0, fall_.times(step).x);
-  double sum = 0.0;  // relative to the first grain: velocities in the falling frame may wrap
-  for (const Fixed uy : grains.uy)
-    sum += static_cast<double>(wrapped_difference(uy, grains.uy.front()));
-  drift_.y =
-      wrapped_sum(grains.uy.front(), nearest_fixed(sum / static_cast<double>(grains.size())));
+  // Half-way between the slowest and the fastest grain, so that none has a large speed relative to
+  // it; counted from the first grain, as velocities in the falling frame may wrap.
+  Fixed least = 0, most = 0;
+  for (const Fixed uy : grains.uy) {
+    const Fixed from_first = wrapped_difference(uy, grains.uy.front());
+    least = std::min(least, from_first);
+    most = std::max(most, from_first);
+  }
+  drift_.y = wrapped_sum(grains.uy.front(), least + wrapped_difference(most, least) / 2);
 }
 
 /// First the pairs within the longest reach, a few at a time, then of them those within their own.
