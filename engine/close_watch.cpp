@@ -67,7 +67,7 @@ void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t seco
                      double far, std::int64_t step) {
   const std::size_t i = pairs_.size();
   pairs_.push_back(pair);
-  const std::size_t room = LaneFlags::padded(pairs_.size());
+  const std::size_t room = Due::padded(pairs_.size());
   if (columns_.x.size() < room) {
     for (auto& slots : columns_.slot) slots.resize(2 * room, own_slot_);
     for_each_column([room](auto& column) { column.resize(2 * room); });
@@ -99,19 +99,19 @@ const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
   if (pairs_.empty()) return due_;
   Columns& c = columns_;
   const Bodies bodies = deflected.bodies();
-  watch_lanes<LaneFlags::lanes>(LaneFlags::padded(pairs_.size()),
-                                {.slot = {c.slot[0].data(), c.slot[1].data()},
-                                 .place = {c.place[0].data(), c.place[1].data()},
-                                 .x = c.x.data(),
-                                 .y = c.y.data(),
-                                 .ux = c.ux.data(),
-                                 .uy = c.uy.data(),
-                                 .reach2 = c.reach2.data(),
-                                 .far2 = c.far2.data(),
-                                 .flags = are_due_.of_lanes.data(),
-                                 .block_flags = are_due_.of_blocks.data()},
-                                courses_.places(), bodies.x, bodies.y, units.fallen, units.metre_x,
-                                units.metre_y);
+  watch_lanes<Due::lanes>(Due::padded(pairs_.size()),
+                          {.slot = {c.slot[0].data(), c.slot[1].data()},
+                           .place = {c.place[0].data(), c.place[1].data()},
+                           .x = c.x.data(),
+                           .y = c.y.data(),
+                           .ux = c.ux.data(),
+                           .uy = c.uy.data(),
+                           .reach2 = c.reach2.data(),
+                           .far2 = c.far2.data(),
+                           .flags = are_due_.of_lanes.data(),
+                           .block_flags = are_due_.of_blocks.data()},
+                          courses_.places(), bodies.x, bodies.y, units.fallen, units.metre_x,
+                          units.metre_y);
   leaving_.clear();
   are_due_.for_each_set(pairs_.size(),
                         [this](std::size_t i, std::int64_t) { leaving_.push_back(i); });

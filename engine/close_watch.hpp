@@ -35,6 +35,7 @@ public:
                                            const DeflectedGrains& deflected);
 
 private:
+  using Due = LaneFlags<std::int64_t>;
   /// The grains of the pairs, and where the second is if it flies.
   struct Columns {
     std::array<AlignedVector<std::int64_t>, 2> slot, place;
@@ -49,7 +50,7 @@ private:
   std::vector<std::uint32_t> pairs_;
   std::uint32_t own_slot_ = 0;  // for the padding: other slots others may be writing to
   Columns columns_;             // padded to whole blocks
-  LaneFlags are_due_;           // in the last step
+  Due are_due_;                 // in the last step
   std::vector<std::size_t> leaving_;
   std::vector<std::uint32_t> due_;
 };

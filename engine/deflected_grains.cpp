@@ -122,10 +122,10 @@ Bodies DeflectedGrains::bodies() const {
 
 void DeflectedGrains::move(const Fall& fallen) {
   auto& c = columns_;
-  move_lanes<LaneFlags::lanes>(padded_size(), fallen.x, c[at_kick_x].data(), c[at_ux].data(),
-                               c[at_x].data(), c[off_ux].data(), c[off_x].data());
-  move_lanes<LaneFlags::lanes>(padded_size(), fallen.y, c[at_kick_y].data(), c[at_uy].data(),
-                               c[at_y].data(), c[off_uy].data(), c[off_y].data());
+  move_lanes<Strays::lanes>(padded_size(), fallen.x, c[at_kick_x].data(), c[at_ux].data(),
+                            c[at_x].data(), c[off_ux].data(), c[off_x].data());
+  move_lanes<Strays::lanes>(padded_size(), fallen.y, c[at_kick_y].data(), c[at_uy].data(),
+                            c[at_y].data(), c[off_uy].data(), c[off_y].data());
   for (std::size_t i = 0; i < spin_.size(); ++i) spin_[i] = wrapped_sum(spin_[i], spin_kick_[i]);
 }
 
@@ -145,16 +145,16 @@ void DeflectedGrains::set_course(Place place) {
 const std::vector<DeflectedGrains::Place>& DeflectedGrains::straying(Fixed tolerance_x,
                                                                      Fixed tolerance_y) {
   const auto& c = columns_;
-  flag_strays<LaneFlags::lanes>(padded_size(),
-                                {.kick = c[at_kick_x].data(),
-                                 .off_u = c[off_ux].data(),
-                                 .off = c[off_x].data(),
-                                 .tolerance = tolerance_x},
-                                {.kick = c[at_kick_y].data(),
-                                 .off_u = c[off_uy].data(),
-                                 .off = c[off_y].data(),
-                                 .tolerance = tolerance_y},
-                                strays_.of_lanes.data(), strays_.of_blocks.data());
+  flag_strays<Strays::lanes>(padded_size(),
+                             {.kick = c[at_kick_x].data(),
+                              .off_u = c[off_ux].data(),
+                              .off = c[off_x].data(),
+                              .tolerance = tolerance_x},
+                             {.kick = c[at_kick_y].data(),
+                              .off_u = c[off_uy].data(),
+                              .off = c[off_y].data(),
+                              .tolerance = tolerance_y},
+                             strays_.of_lanes.data(), strays_.of_blocks.data());
   straying_.clear();
   strays_.for_each_set(end(), [this](std::size_t place, std::int64_t) {
     straying_.push_back(static_cast<Place>(place));

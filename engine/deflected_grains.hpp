@@ -76,13 +76,15 @@ private:
     column_count
   };
 
+  using Strays = LaneFlags<std::int64_t>;
+
   bool rotate() const { return inertia_ > 0.0; }
-  std::size_t padded_size() const { return LaneFlags::padded(slots_.size()); }
+  std::size_t padded_size() const { return Strays::padded(slots_.size()); }
 
   std::vector<std::uint32_t> slots_;
   std::vector<std::int32_t> contacts_;
   std::array<AlignedVector<Fixed>, column_count> columns_;  // free places and padding: motionless
-  LaneFlags strays_;                                        // of places
+  Strays strays_;                                           // of places
   std::vector<Place> free_, straying_;
   const double inertia_;
   AlignedVector<Fixed> spin_, spin_kick_;  // as columns_; empty if grains do not rotate

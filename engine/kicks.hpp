@@ -9,8 +9,8 @@
 
 namespace riesel {
 
-/// Adds the kicks that the grains of `mine` received in the last step to their velocities, and calls
-/// taken_up(slot) after each.
+/// Adds the kicks that the grains of `mine` received in the last step to their velocities, and
+/// calls taken_up(slot) after each.
 template <class TakenUp>
 void take_up_kicks(Grains& grains, const Slice& mine, TakenUp taken_up) {
   for (const Kick& kick : mine.received) {

@@ -12,11 +12,15 @@
 
 namespace riesel {
 
+/// A loop over 64-bit numbers takes as many lanes at once as fit into a vector of flags: with flags
+/// of 32 bits these are two vectors of numbers side by side, one of which goes on while the other
+/// waits for a root. That pays where a lane takes long and there are many.
+template <class Flag>
 struct LaneFlags {
-  /// Of a block: a vector of 64-bit numbers.
-  static constexpr std::size_t lanes = 8;
+  /// Of a block, which is a vector of flags.
+  static constexpr std::size_t lanes = cache_line / sizeof(Flag);
 
-  AlignedVector<std::int64_t> of_lanes, of_blocks;
+  AlignedVector<Flag> of_lanes, of_blocks;
 
   /// `count` rounded up to whole blocks.
   static constexpr std::size_t padded(std::size_t count) {

@@ -32,7 +32,7 @@ bool is_rich(const Contact& contact) {
 }
 
 /// What a step finds of a contact.
-constexpr std::int64_t apart = 1, unusable = 2;
+constexpr std::int32_t apart = 1, unusable = 2;
 
 }  // namespace
 
@@ -44,7 +44,6 @@ struct LiveContacts::Columns {
   std::array<Fixed*, 4> kick;
   std::array<const double*, 2> radius;
   std::array<Fixed*, 2> spin_kick;
-  std::int64_t *flags, *block_flags;
 };
 
 namespace {
@@ -69,9 +68,8 @@ template <class Columns>
 }
 
 template <class Columns>
-[[gnu::always_inline]] inline BodyMotion motion_of_wall(const Columns& c, std::size_t i,
-                                                        const Bodies& bodies,
-                                                        const StepUnits& units) {
+[[gnu::always_inline]] inline BodyMotion
+motion_of_wall(const Columns& c, std::size_t i, const Bodies& bodies, const StepUnits& units) {
   return relative_motion(bodies, c.first[i],
                          {c.partner[0][i], c.partner[1][i], c.partner[2][i], c.partner[3][i],
                           c.partner[4][i], c.partner[5][i]},
@@ -91,9 +89,8 @@ template <LiveContacts::Partner partner, class Columns>
 
 /// The same in a contact that has been followed up to the step before.
 template <LiveContacts::Partner partner, class Columns>
-[[gnu::always_inline]] inline Encounter next_encounter(const Columns& c, std::size_t i,
-                                                       const Bodies& bodies,
-                                                       const StepUnits& units) {
+[[gnu::always_inline]] inline Encounter
+next_encounter(const Columns& c, std::size_t i, const Bodies& bodies, const StepUnits& units) {
   if constexpr (partner == LiveContacts::Partner::grain)
     return encounter(next_motion(c, i, bodies), c.reach[i], c.reduced_mass[i], units);
   else
@@ -225,15 +222,16 @@ template <LiveContacts::Partner partner, class Turn, class Columns>
   return size;
 }
 
-/// One step of `count` contacts, a multiple of `lanes`. Lanes that do not touch compute nonsense,
-/// which is not kept.
-template <LiveContacts::Partner partner, class Turn, std::size_t lanes, class Columns, class Normal,
+/// One step of `count` contacts, a multiple of the lanes for which there are `flags`. Lanes that do
+/// not touch compute nonsense, which is not kept.
+template <LiveContacts::Partner partner, class Turn, class Flag, class Columns, class Normal,
           class Slip>
-RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, StepUnits u,
-                                     Normal normal, Slip slip, double mu, double rolling_friction,
-                                     Attraction attraction) {
+RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Flag* flags, Flag* block_flags,
+                                     Bodies b, StepUnits u, Normal normal, Slip slip, double mu,
+                                     double rolling_friction, Attraction attraction) {
+  constexpr std::size_t lanes = LaneFlags<Flag>::lanes;
   for (std::size_t block = 0; block < count; block += lanes) {
-    std::int64_t any = 0;
+    Flag any = 0;
 #pragma omp simd reduction(| : any)
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const std::size_t i = block + lane;
@@ -245,12 +243,12 @@ RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Bodies b, Ste
       const double size = kick_bodies<partner>(c, i, touching, t, u)
                           + twist_bodies<partner>(c, i, touching, turn, t, u);
       // Kicks are integers: what is not a number, or beyond all bounds, must not become one.
-      const std::int64_t bad = size < 0x1p62 ? 0 : unusable;
-      const std::int64_t over = touching ? 0 : apart;
-      c.flags[i] = over | bad;
+      const Flag bad = size < 0x1p62 ? 0 : unusable;
+      const Flag over = touching ? 0 : apart;
+      flags[i] = over | bad;
       any |= c.reach[i] > 0.0 ? over | bad : 0;  // no lane of the padding
     }
-    c.block_flags[block / lanes] = any;
+    block_flags[block / lanes] = any;
   }
 }
 
@@ -281,9 +279,7 @@ LiveContacts::Columns LiveContacts::columns() {
             .life = {},
             .kick = {},
             .radius = {radius_[0].data(), radius_[1].data()},
-            .spin_kick = {spin_kick_[0].data(), spin_kick_[1].data()},
-            .flags = found_.of_lanes.data(),
-            .block_flags = found_.of_blocks.data()};
+            .spin_kick = {spin_kick_[0].data(), spin_kick_[1].data()}};
   const auto data = [](auto& a) { return a.data(); };
   std::transform(partner_motion_.begin(), partner_motion_.end(), c.partner.begin(), data);
   std::transform(life_.begin(), life_.end(), c.life.begin(), data);
@@ -361,10 +357,10 @@ void LiveContacts::follow_bodies(const Bodies& bodies) {
 
 /// Room for whole blocks; what is beyond size() is zero.
 void LiveContacts::pad() {
-  const std::size_t room = LaneFlags::padded(size());
+  const std::size_t room = LaneFlags<std::int32_t>::padded(size());
   if (reach_.size() >= room) return;
   for_each_array([&](auto& a) { a.resize(2 * room); });
-  found_.resize(2 * room);
+  found_of_many_.resize(2 * room);
 }
 
 void LiveContacts::clear() {
@@ -425,9 +421,11 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
   }
   beginning_ = 0;
   followed_ = size();
-  step_lanes<partner, Turn, LaneFlags::lanes>(c, LaneFlags::padded(size()), bodies, units, normal,
-                                              slip, model.friction, model.rolling_friction,
-                                              model.attraction);
+  with_found([&](auto& found) {
+    step_lanes<partner, Turn>(c, found.padded(size()), found.of_lanes.data(),
+                              found.of_blocks.data(), bodies, units, normal, slip, model.friction,
+                              model.rolling_friction, model.attraction);
+  });
 }
 
 template <LiveContacts::Partner partner>
@@ -452,11 +450,13 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
     step<Partner::grain>(bodies, units, model);
   else
     step<Partner::wall>(bodies, units, model);
-  found_.for_each_set(size(), [&](std::size_t i, std::int64_t found) {
-    if ((found & apart) != 0) ended_.push_back(i);
-    if ((found & unusable) == 0) return;
-    trouble_ = first_by_name(trouble_, meetings_[i].name);
-    make_harmless(i);
+  with_found([&](const auto& found) {
+    found.for_each_set(size(), [&](std::size_t i, std::int64_t flag) {
+      if ((flag & apart) != 0) ended_.push_back(i);
+      if ((flag & unusable) == 0) return;
+      trouble_ = first_by_name(trouble_, meetings_[i].name);
+      make_harmless(i);
+    });
   });
   std::reverse(ended_.begin(), ended_.end());
 }

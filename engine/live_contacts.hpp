@@ -30,7 +30,10 @@ class LiveContacts {
 public:
   enum class Partner { grain, wall };
 
-  explicit LiveContacts(Partner partner) : partner_(partner) { pad(); }
+  explicit LiveContacts(Partner partner) : partner_(partner) {
+    found_of_few_.resize(LaneFlags<std::int64_t>::lanes);
+    pad();
+  }
 
   std::size_t size() const { return meetings_.size(); }
   const Meeting& meeting(std::size_t i) const { return meetings_[i]; }
@@ -88,6 +91,14 @@ private:
             const Normal& normal, const Slip& slip);
   template <Partner partner>
   void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
+  /// Calls use(found_of_few_) or use(found_of_many_).
+  template <class Use>
+  void with_found(Use use) {
+    if (size() <= LaneFlags<std::int64_t>::lanes)
+      use(found_of_few_);
+    else
+      use(found_of_many_);
+  }
   std::size_t members() const { return rich_ ? life_members : poor_life_members; }
   void become_rich();
   void make_harmless(std::size_t i);
@@ -114,7 +125,9 @@ private:
   bool rich_ = false;       // there are springs or torques; else the arrays for them are empty
   std::array<AlignedVector<double>, 2> radius_;    // m, of first and second
   std::array<AlignedVector<Fixed>, 2> spin_kick_;  // likewise
-  LaneFlags found_;                                // in the last step, of each contact
+  // What the last step found of each contact: of so few that they are one vector, or of more.
+  LaneFlags<std::int64_t> found_of_few_;
+  LaneFlags<std::int32_t> found_of_many_;
   std::vector<std::size_t> ended_;
   std::optional<ContactName> trouble_;
 };

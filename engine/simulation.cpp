@@ -242,8 +242,7 @@ void Simulation::advance_by_flights(std::int64_t last) {
 /// Velocities take up the last kicks, positions move on to step `step`.
 void Simulation::drift(Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
-  take_up_kicks(g, mine,
-                [&](std::uint32_t slot) { candidates_->note_speed(state_, mine, slot); });
+  take_up_kicks(g, mine, [&](std::uint32_t slot) { candidates_->note_speed(state_, mine, slot); });
   const std::size_t count = mine.end - mine.begin;
   const Fall fallen = fall_.times(step);
   fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
