@@ -193,8 +193,8 @@ FAULTS = [
      "if (std::isnan(value)) return Validity::suspect;",
      "if (std::isnan(value)) return Validity::valid;"),
     ("a force that is not a number passes", "engine/live_contacts.cpp",
-     "const std::int64_t bad = size < 0x1p62 ? 0 : unusable;",
-     "const std::int64_t bad = size < 0x1p62 ? 0 : 0 * unusable;"),
+     "const Flag bad = size < 0x1p62 ? 0 : unusable;",
+     "const Flag bad = size < 0x1p62 ? 0 : 0 * unusable;"),
 
     # Files
     ("a file not flushed to the disk", "io/durable_file.cpp", "  file.sync();\n", ""),
