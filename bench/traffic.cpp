@@ -19,13 +19,14 @@ double plain_traffic(const State& state) {
   constexpr double pair = 2.0 * sizeof(std::uint32_t) + sizeof(float);
   constexpr double coarse = 2.0 * sizeof(std::int32_t);
   constexpr double near_wall = sizeof(NearWall) + sizeof(Fixed) + sizeof(double);
-  // The life of a contact is read and written, its constants (two places, reach, masses) read, its
-  // kicks and flags written. Each kick is then listed, collected, and taken up by the velocities.
-  // The positions, displacements and kicks of its grains are gathered.
-  constexpr double life = 2.0 * (sizeof(Contact) - sizeof(ContactName));
+  // The life of a contact and the relative motion in it (two positions, two displacements) are read
+  // and written, its constants (two places, reach, masses) read, its kicks and flags written. Each
+  // kick is then listed, collected, and taken up by the velocities. The kicks of its grains are
+  // gathered.
+  constexpr double life = 2.0 * (sizeof(Contact) - sizeof(ContactName) + 4.0 * sizeof(Fixed));
   constexpr double constants = 2.0 * sizeof(std::int64_t) + 4.0 * sizeof(double);
-  constexpr double results = 4.0 * sizeof(Fixed) + sizeof(std::int64_t);
-  constexpr double grain = 6.0 * sizeof(Fixed) + 5.0 * sizeof(Kick);
+  constexpr double results = 4.0 * sizeof(Fixed) + sizeof(std::int32_t);
+  constexpr double grain = 2.0 * sizeof(Fixed) + 5.0 * sizeof(Kick);
   constexpr double contact = life + constants + results + 2.0 * grain;
   return drift + coarse + pair * per_grain(all.pairs.size())
          + near_wall * per_grain(all.near_walls.size())
