@@ -180,7 +180,8 @@ void Candidates::start_over(const State& state, std::int64_t step) {
     least = std::min(least, from_first);
     most = std::max(most, from_first);
   }
-  drift_.y = wrapped_sum(grains.uy.front(), least + wrapped_difference(most, least) / 2);
+  const Fixed middle = wrapped_sum(least, wrapped_difference(most, least) / 2);
+  drift_.y = wrapped_sum(grains.uy.front(), middle);
 }
 
 /// First the pairs within the longest reach, a few at a time, then of them those within their own.
