@@ -93,7 +93,7 @@ FAULTS = [
      "mine.budget -= std::sqrt(mine.fastest2);"),
     ("new speeds not noted", "engine/candidates.hpp",
      "mine.fastest2 = std::max(mine.fastest2, squared_speed(state.box, g.ux[slot], g.uy[slot]));",
-     "static_cast<void>(g);\n    static_cast<void>(slot);"),
+     "static_cast<void>(g);\n    static_cast<void>(slot);\n    static_cast<void>(mine);"),
     ("a pair never looked for again after its first contact", "engine/contact_loop.cpp",
      "reach2 = std::abs(reach2);", "reach2 = -std::abs(reach2);"),
 
