@@ -66,6 +66,13 @@ public:
   /// From when they were listed to `step`.
   Displacement common_motion(std::int64_t step) const;
 
+  /// (m per step)^2, of a displacement per step (quanta) relative to the drift.
+  double squared_speed(const Box& box, Fixed ux, Fixed uy) const {
+    const double vx = box.metres_x(wrapped_difference(ux, drift_.x));
+    const double vy = box.metres_y(wrapped_difference(uy, drift_.y));
+    return vx * vx + vy * vy;
+  }
+
   /// A grain of `mine` has a new velocity: keeps the bound on the speeds.
   void note_speed(const State& state, Slice& mine, std::uint32_t slot) const {
     const Grains& g = state.grains;
@@ -83,12 +90,6 @@ private:
   static void list_received(const Grains& grains, Slice& mine);
   void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;
   void measure_speeds(const State& state, Slice& mine) const;
-  /// Relative to the drift.
-  double squared_speed(const Box& box, Fixed ux, Fixed uy) const {
-    const double vx = box.metres_x(wrapped_difference(ux, drift_.x));
-    const double vy = box.metres_y(wrapped_difference(uy, drift_.y));
-    return vx * vx + vy * vy;
-  }
 
   std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
   void keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const;

@@ -32,10 +32,9 @@ inline SkinGuard::Velocity SkinGuard::off_drift(std::size_t slot) const {
 
 std::int64_t SkinGuard::hold_until(SlotRange slots) const {
   double fastest2 = 0.0;
-  for (std::size_t slot = slots.begin; slot < slots.end; ++slot) {
-    const auto [ux, uy] = off_drift(slot);
-    fastest2 = std::max(fastest2, ux * ux + uy * uy);
-  }
+  const Grains& g = state_.grains;
+  for (std::size_t slot = slots.begin; slot < slots.end; ++slot)
+    fastest2 = std::max(fastest2, candidates_.squared_speed(state_.box, g.ux[slot], g.uy[slot]));
   return std::min(candidates_.hold_until(),
                   courses_.sorted_at() + Forecast::whole_steps(room_ / std::sqrt(fastest2)) - 1);
 }
