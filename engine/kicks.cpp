@@ -6,8 +6,9 @@
 
 namespace riesel {
 
-void give_away_kicks(Slice& mine) {
+void give_away_kicks(Slice& mine, std::size_t others) {
   mine.given_away.clear();
+  if (others == 0) return;
   for_each_kick(mine, [&](std::int64_t place, const BodyKick& kick) {
     const auto slot = static_cast<std::uint32_t>(place);
     if (!mine.owns(slot)) mine.given_away.push_back({slot, kick});
@@ -18,18 +19,21 @@ void receive_kicks(Grains& grains, const std::vector<Slice>& givers, Slice& mine
   for (const Kick& old : mine.received) grains.kick_x[old.slot] = grains.kick_y[old.slot] = 0;
   if (grains.rotate())
     for (const Kick& old : mine.received) grains.spin_kick[old.slot] = 0;
-  mine.received.clear();
+  std::size_t most = 2 * mine.pair_contacts.size() + mine.wall_contacts.size(), count = 0;
+  for (const Slice& giver : givers) most += &giver == &mine ? 0 : giver.given_away.size();
+  mine.received.resize(most);
   const auto receive = [&](const Kick& kick) {
     if (!mine.owns(kick.slot)) return;
     grains.kick_x[kick.slot] = wrapped_sum(grains.kick_x[kick.slot], kick.by.x);
     grains.kick_y[kick.slot] = wrapped_sum(grains.kick_y[kick.slot], kick.by.y);
-    mine.received.push_back(kick);
+    mine.received[count++] = kick;
   };
   for_each_kick(mine, [&](std::int64_t place, const BodyKick& kick) {
     receive({static_cast<std::uint32_t>(place), kick});
   });
   for (const Slice& giver : givers)
     if (&giver != &mine) std::for_each(giver.given_away.begin(), giver.given_away.end(), receive);
+  mine.received.resize(count);
   if (!grains.rotate()) return;
   for (const Kick& kick : mine.received)
     grains.spin_kick[kick.slot] = wrapped_sum(grains.spin_kick[kick.slot], kick.by.spin);

@@ -24,8 +24,8 @@ void take_up_kicks(Grains& grains, const Slice& mine, TakenUp taken_up) {
 }
 
 /// Lists what the contacts of `mine` gave to grains of other slices in this step, for their
-/// threads.
-void give_away_kicks(Slice& mine);
+/// threads; there are so many others.
+void give_away_kicks(Slice& mine, std::size_t others);
 
 /// Collects what the contacts of all slices gave to the grains of `mine` in this step.
 void receive_kicks(Grains& grains, const std::vector<Slice>& givers, Slice& mine);

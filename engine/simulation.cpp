@@ -165,7 +165,7 @@ void Simulation::step(Slice& mine, std::int64_t step) {
   find_overlapping(mine, state_, coarse_, candidates_->units());
   profile.done(Profile::Phase::search);
   resolve_contacts(mine, state_, model_);
-  give_away_kicks(mine);
+  give_away_kicks(mine, candidates_->slices().size() - 1);
   profile.done(Profile::Phase::forces);
   barrier_->arrive_and_wait();
   receive_kicks(state_.grains, candidates_->slices(), mine);
