@@ -226,10 +226,16 @@ template <LiveContacts::Partner partner, class Turn, class Columns>
 /// not touch compute nonsense, which is not kept.
 template <LiveContacts::Partner partner, class Turn, class Flag, class Columns, class Normal,
           class Slip>
-RIESEL_VECTOR_KERNEL void step_lanes(Columns c, std::size_t count, Flag* flags, Flag* block_flags,
-                                     Bodies b, StepUnits u, Normal normal, Slip slip, double mu,
+RIESEL_VECTOR_KERNEL void step_lanes(const Columns& columns, std::size_t count, Flag* flags,
+                                     Flag* block_flags, const Bodies& bodies,
+                                     const StepUnits& units, Normal normal, Slip slip, double mu,
                                      double rolling_friction, Attraction attraction) {
   constexpr std::size_t lanes = LaneFlags<Flag>::lanes;
+  // Of copies only what is used is loaded, and once: what others refer to may change with each
+  // store.
+  const Columns c = columns;
+  const Bodies b = bodies;
+  const StepUnits u = units;
   for (std::size_t block = 0; block < count; block += lanes) {
     Flag any = 0;
 #pragma omp simd reduction(| : any)
