@@ -6,8 +6,9 @@ namespace riesel::bench {
 
 double plain_traffic(const State& state) {
   State copy = state;
-  const Candidates candidates(copy, CappedSlip{}, 1, Candidates::short_skin);
-  const Slice& all = candidates.slices().front();
+  Candidates candidates(copy, CappedSlip{}, 1, Candidates::short_skin);
+  Slice& all = candidates.slices().front();
+  find_overlapping(all, copy, candidates.when_sorted(), candidates.units());
   const auto per_grain = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(state.grains.size());
   };
@@ -15,7 +16,7 @@ double plain_traffic(const State& state) {
   // The drift, for each axis: the displacement is read, the position read and written, the coarse
   // position written, for which its line is read.
   constexpr double drift = 2.0 * (sizeof(Fixed) + 2.0 * sizeof(Fixed) + 2.0 * sizeof(std::int32_t));
-  // The search: each pair, and the coarse positions again.
+  // The search: each pair of the inner list, and the coarse positions again.
   constexpr double pair = 2.0 * sizeof(std::uint32_t) + sizeof(float);
   constexpr double coarse = 2.0 * sizeof(std::int32_t);
   constexpr double near_wall = sizeof(NearWall) + sizeof(Fixed) + sizeof(double);
@@ -28,7 +29,7 @@ double plain_traffic(const State& state) {
   constexpr double results = 4.0 * sizeof(Fixed) + sizeof(std::int32_t);
   constexpr double grain = 2.0 * sizeof(Fixed) + 5.0 * sizeof(Kick);
   constexpr double contact = life + constants + results + 2.0 * grain;
-  return drift + coarse + pair * per_grain(all.pairs.size())
+  return drift + coarse + pair * per_grain(all.inner.pairs().size())
          + near_wall * per_grain(all.near_walls.size())
          + contact * per_grain(state.contacts.size());
 }

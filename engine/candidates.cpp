@@ -81,10 +81,10 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
     largest_partner = std::max(largest_partner, wall.radius);
   const double reach = max_radius_ + largest_partner;
   const double diameter = mean_diameter(grains);
-  if (state.box.length <= 2.0 * (reach + short_skin * diameter))
+  if (state.box.length <= 2.0 * (reach + least_skin * diameter))
     throw std::invalid_argument("the period is too short for the nearest image to be unique");
   const double longest_skin = 0.499 * state.box.length - reach;
-  skin_ = std::max(short_skin * diameter, std::min(skin_per_diameter * diameter, longest_skin));
+  skin_ = std::max(least_skin * diameter, std::min(skin_per_diameter * diameter, longest_skin));
   steps_to_walls_ = steps_of_fall(std::abs(state.box.metres_x(fall_.x)), 0.5 * skin_);
   for (const WallLattice& wall : state.walls)
     if (2.0 * (max_radius_ + wall.radius)
@@ -104,7 +104,9 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
 }
 
 bool Candidates::spend_step(Slice& mine, std::int64_t step) const {
-  mine.budget -= std::sqrt(largest(slices_, &Slice::fastest2));
+  const double motion = std::sqrt(largest(slices_, &Slice::fastest2));
+  mine.budget -= motion;
+  mine.inner.spend(motion);
   return mine.budget >= 0.0 && step <= hold_until_;
 }
 
@@ -156,6 +158,7 @@ void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
     slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
   measure_speeds(state, mine);
   mine.budget = 0.5 * skin_;
+  mine.inner.start_over(skin_);
 #pragma omp barrier
 }
 

@@ -26,9 +26,11 @@ namespace riesel {
 
 class Candidates {
 public:
-  /// The skin as a part of the mean diameter: more means more pairs to test, less means more
+  /// The skin as a part of the mean diameter: more means more pairs to look at, less means more
   /// sortings. This one serves plain stepping.
-  static constexpr double short_skin = 0.25;
+  static constexpr double short_skin = 0.35;
+  /// A period that leaves no room for this one is too short.
+  static constexpr double least_skin = 0.25;
 
   /// Sorts `state` and takes over its contacts. Throws std::invalid_argument if the box is too
   /// short for the nearest image to be unique, wall grains are too close together, or a contact of

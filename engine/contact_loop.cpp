@@ -7,12 +7,14 @@ namespace riesel {
 namespace {
 
 void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
-  for (const std::uint32_t p : slice.hits) {
+  for (const std::uint32_t near : slice.hits) {
+    const std::uint32_t p = slice.inner.candidate(near);
     const std::uint32_t i = slice.pairs.first[p], j = slice.pairs.second[p];
     if (!overlapping(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i]),
                      g.radius[i] + g.radius[j], units))
       continue;
     begin_contact(slice, slice.pair_contacts, meeting_of_pair(slice, g, p));
+    slice.inner.leave_out(near);
   }
 }
 
@@ -75,7 +77,10 @@ void resolve_contacts(Slice& slice, const State& state, const ContactModel& mode
   begin_at_walls(slice, state, units);
   for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts}) {
     contacts->step(bodies(state.grains), units, model);
-    complete_step(slice, *contacts, [](std::size_t) {});
+    complete_step(slice, *contacts, [&](std::size_t i) {
+      const Meeting& meeting = contacts->meeting(i);
+      if (meeting.name.wall == no_wall) slice.inner.take_back(slice.pairs, meeting.candidate);
+    });
   }
   count_work_of_walls(slice, units);
 }

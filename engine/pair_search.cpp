@@ -22,11 +22,25 @@ struct PairBlock {
   CoarseUnits units;
 };
 
-[[gnu::always_inline]] inline bool may_overlap(const PairBlock& b, std::size_t p) {
+PairBlock pairs_from(std::size_t begin, const CandidatePairs& pairs,
+                     const CoarsePositions& positions, CoarseUnits units) {
+  return {.first = pairs.first.data() + begin,
+          .second = pairs.second.data() + begin,
+          .reach2 = pairs.reach2.data() + begin,
+          .x = positions.x.data(),
+          .y = positions.y.data(),
+          .units = units};
+}
+
+[[gnu::always_inline]] inline float squared_distance(const PairBlock& b, std::size_t p) {
   const std::uint32_t i = b.first[p], j = b.second[p];
   const float dx = static_cast<float>(coarse_difference(b.x[j], b.x[i])) * b.units.x;
   const float dy = static_cast<float>(coarse_difference(b.y[j], b.y[i])) * b.units.y;
-  return dx * dx + dy * dy < b.reach2[p];
+  return dx * dx + dy * dy;
+}
+
+[[gnu::always_inline]] inline bool may_overlap(const PairBlock& b, std::size_t p) {
+  return squared_distance(b, p) < b.reach2[p];
 }
 
 /// Whether any of the pairs may overlap.
@@ -42,16 +56,37 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
   hits.clear();
   for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
     const std::size_t count = std::min(block, pairs.size() - begin);
-    const PairBlock some{.first = &pairs.first[begin],
-                         .second = &pairs.second[begin],
-                         .reach2 = &pairs.reach2[begin],
-                         .x = positions.x.data(),
-                         .y = positions.y.data(),
-                         .units = units};
+    const PairBlock some = pairs_from(begin, pairs, positions, units);
     if (!any_may_overlap(some, count)) continue;
     for (std::size_t p = 0; p < count; ++p)
       if (may_overlap(some, p)) hits.push_back(static_cast<std::uint32_t>(begin + p));
   }
+}
+
+/// Writes the pairs that are near to `near`, where there must be room for one more than all;
+/// returns their number.
+RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
+                                           const CoarsePositions& positions, CoarseUnits units,
+                                           float skin, std::uint32_t* near) {
+  constexpr float generous_square = 1.0F + 2e-6F;  // of what is rounded here
+  std::size_t found = 0;
+  alignas(cache_line) std::array<std::uint8_t, block> result{};
+  for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
+    const std::size_t count = std::min(block, pairs.size() - begin);
+    const PairBlock some = pairs_from(begin, pairs, positions, units);
+#pragma omp simd
+    for (std::size_t p = 0; p < count; ++p) {
+      const float far = std::sqrt(std::abs(some.reach2[p])) + skin;
+      const float far2 = some.reach2[p] > 0.0F ? far * far * generous_square : 0.0F;
+      result[p] = squared_distance(some, p) < far2;
+    }
+    // Every pair is written, and the next one over it unless it is near: no branch to guess.
+    for (std::size_t p = 0; p < count; ++p) {
+      near[found] = static_cast<std::uint32_t>(begin + p);
+      found += result[p];
+    }
+  }
+  return found;
 }
 
 /// Writes the pairs of grain i with those of the slots that are close to it to `close`, where there
@@ -73,7 +108,7 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
       result[lane] = dx * dx + dy * dy < farthest2;
     }
     const std::size_t count = std::min(lanes, range.end - j);
-    // Every pair is written, and the next one over it unless it counts: no branch to guess.
+    // As above.
     for (std::size_t lane = 0; lane < count; ++lane) {
       close[found] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j + lane)};
       found += result[lane];
@@ -113,9 +148,21 @@ void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& posi
   find_close_pairs(cells, slots, positions, units, farthest2, close);
 }
 
+void find_near(const CandidatePairs& pairs, const CoarsePositions& positions, CoarseUnits units,
+               double skin, std::vector<std::uint32_t>& near) {
+  near.resize(pairs.size() + 1);
+  near.resize(list_near(pairs, positions, units, static_cast<float>(skin), near.data()));
+}
+
+void find_overlapping_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
+                            CoarseUnits units, std::vector<std::uint32_t>& hits) {
+  find_pairs(pairs, positions, units, hits);
+}
+
 void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
                       CoarseUnits units) {
-  find_pairs(slice.pairs, positions, units, slice.hits);
+  slice.inner.keep_up(slice.pairs, positions, units);
+  find_overlapping_pairs(slice.inner.pairs(), positions, units, slice.hits);
   find_at_walls(slice, state);
 }
 

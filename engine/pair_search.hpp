@@ -1,13 +1,11 @@
 // Which of the candidate pairs overlap? The innermost loop of plain stepping.
 //
-// It looks only at the upper 32 bits of the coordinates: half the memory, twice the lanes, and the
-// nearest image along y is still integer overflow. The answer errs on the side of a hit by a few
-// units of the coarse position; the contact loop then decides with all bits.
+// It looks only at coarse positions. The answer errs on the side of a hit by a few of their units;
+// the contact loop then decides with all bits.
 #pragma once
 
-#include "engine/aligned.hpp"
-#include "engine/box.hpp"
 #include "engine/cells.hpp"
+#include "engine/coarse_positions.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 
@@ -16,53 +14,23 @@
 
 namespace riesel {
 
-constexpr std::int32_t coarse_difference(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-}
-
-/// The length of one unit of a coarse position along each axis.
-struct CoarseUnits {
-  explicit CoarseUnits(const Box& box)
-      : x(static_cast<float>(box.quantum_x() * 0x1p32)),
-        y(static_cast<float>(box.quantum_y() * 0x1p32)) {}
-  float x, y;  ///< m
-
-  /// (reach + resolution)^2 in m^2, rounded up: no pair closer than `reach` (m) is farther in
-  /// coarse positions.
-  float generous_square(double reach) const {
-    // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7
-    // relative.
-    const double padded = reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y));
-    return static_cast<float>(padded * padded * (1.0 + 1e-6));
-  }
-};
-
-/// Upper halves of the positions of all grains, by slot.
-struct CoarsePositions {
-  /// So many elements more can be read, whatever they hold.
-  static constexpr std::size_t padding = 16;
-
-  AlignedVector<std::int32_t> x, y;
-
-  void resize(std::size_t grains) {
-    x.resize(grains + padding);
-    y.resize(grains + padding);
-  }
-
-  float squared_distance(std::size_t i, std::size_t j, CoarseUnits units) const {  ///< m^2
-    const float dx = static_cast<float>(coarse_difference(x[j], x[i])) * units.x;
-    const float dy = static_cast<float>(coarse_difference(y[j], y[i])) * units.y;
-    return dx * dx + dy * dy;
-  }
-};
-
 /// All pairs closer than the square root of `farthest2` (m^2), with the first grain among `slots`,
 /// replace those in `close`.
 void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& positions,
                 CoarseUnits units, float farthest2, std::vector<SlotPair>& close);
 
-/// Writes to slice.hits and slice.wall_hits the indices of the candidates that may overlap, in
+/// Replaces `near` by the indices of those of `pairs`, not in contact, that are closer than the sum
+/// of their radii plus `skin` (m); some more may be there.
+void find_near(const CandidatePairs& pairs, const CoarsePositions& positions, CoarseUnits units,
+               double skin, std::vector<std::uint32_t>& near);
+
+/// Replaces `hits` by the indices of those of `pairs`, not in contact, that may overlap, in
 /// increasing order.
+void find_overlapping_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
+                            CoarseUnits units, std::vector<std::uint32_t>& hits);
+
+/// Writes to slice.hits and slice.wall_hits the indices of the inner pairs and of the grains near
+/// walls that may overlap, in increasing order. `positions` are the present ones.
 void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
                       CoarseUnits units);
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "engine/aligned.hpp"
+#include "engine/candidate_pairs.hpp"
 #include "engine/fixed_point.hpp"
+#include "engine/inner_pairs.hpp"
 #include "engine/live_contacts.hpp"
 #include "engine/profile.hpp"
 #include "engine/tally.hpp"
@@ -13,36 +15,6 @@
 #include <vector>
 
 namespace riesel {
-
-struct SlotPair {
-  std::uint32_t first, second;
-};
-
-/// Pairs of slots that can touch before the next sorting, ordered by the first. Arrays of equal
-/// size.
-struct CandidatePairs {
-  AlignedVector<std::uint32_t> first, second;
-  /// m^2, (sum of radii)^2 plus the resolution of the coarse positions; negative while the pair is
-  /// in contact, so that nobody looks for it
-  AlignedVector<float> reach2;
-
-  std::size_t size() const { return first.size(); }
-  void clear() {
-    first.clear();
-    second.clear();
-    reach2.clear();
-  }
-  void reserve(std::size_t n) {
-    first.reserve(n);
-    second.reserve(n);
-    reach2.reserve(n);
-  }
-  void add(std::uint32_t i, std::uint32_t j, float square) {
-    first.push_back(i);
-    second.push_back(j);
-    reach2.push_back(square);
-  }
-};
 
 /// A grain that can touch a wall before the next sorting.
 struct NearWall {
@@ -69,10 +41,11 @@ struct Kick {
 struct alignas(cache_line) Slice {
   std::size_t begin = 0, end = 0;  ///< slots
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere
+  InnerPairs inner;                ///< those of the pairs that plain stepping tests
   std::vector<SlotPair> close;     ///< while the pairs are being listed
   std::vector<NearWall> near_walls;
 
-  std::vector<std::uint32_t> hits;       ///< indices of pairs that may overlap in this step
+  std::vector<std::uint32_t> hits;       ///< indices of inner pairs that may overlap in this step
   std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
   LiveContacts pair_contacts{LiveContacts::Partner::grain};
   LiveContacts wall_contacts{LiveContacts::Partner::wall};

@@ -14,7 +14,7 @@ namespace {
 /// Pairs of grains at a given distance, in random directions and places, half of them astride the
 /// seam.
 struct Pairs {
-  Slice slice;
+  CandidatePairs pairs;
   CoarsePositions positions;
 };
 
@@ -35,20 +35,35 @@ Pairs pairs_at(double distance, double reach, std::size_t count, const Box& box)
     const std::uint32_t first = place(x, y);
     const std::uint32_t second =
         place(x + distance * std::cos(angle), y + distance * std::sin(angle));
-    pairs.slice.pairs.add(first, second, units.generous_square(reach));
+    pairs.pairs.add(first, second, units.generous_square(reach));
   }
   return pairs;
 }
 
-std::size_t hits(Pairs pairs, const Box& box) {
-  State state;
-  state.box = box;
-  std::vector<std::uint32_t>& found = pairs.slice.hits;
-  found = {7, 7, 7};  // what was there must go
-  find_overlapping(pairs.slice, state, pairs.positions, CoarseUnits(box));
+/// What is there must go; then the indices must stand in order, each once.
+template <class Find>
+std::size_t count_of(std::vector<std::uint32_t> found, Find find) {
+  find(found);
   CHECK(std::is_sorted(found.begin(), found.end()));
   CHECK(std::adjacent_find(found.begin(), found.end()) == found.end());
   return found.size();
+}
+
+std::size_t hits(const Pairs& p, const Box& box) {
+  return count_of({7, 7, 7}, [&](std::vector<std::uint32_t>& found) {
+    find_overlapping_pairs(p.pairs, p.positions, CoarseUnits(box), found);
+  });
+}
+
+std::size_t near(const Pairs& p, double skin, const Box& box) {
+  return count_of({7, 7, 7}, [&](std::vector<std::uint32_t>& found) {
+    find_near(p.pairs, p.positions, CoarseUnits(box), skin, found);
+  });
+}
+
+/// As pairs in contact are marked.
+void mark_all(Pairs& p) {
+  for (float& reach2 : p.pairs.reach2) reach2 = -reach2;
 }
 
 }  // namespace
@@ -66,4 +81,21 @@ TEST_CASE("no pair beyond the resolution is hit") {
   const double resolution = 8.0 * static_cast<double>(units.x + units.y) + 2e-6 * 1e-3;
   CHECK(resolution < 1e-8);
   CHECK(hits(pairs_at(1e-3 + resolution, 1e-3, 1000, box), box) == 0);
+}
+
+TEST_CASE("every pair within the skin is near, and none much farther") {
+  const Box box{.width = 20e-3, .length = 0.1};
+  const auto count = GENERATE(as<std::size_t>{}, 0, 1, 7, 63, 64, 65, 1000);
+  const double skin = GENERATE(0.0, 1e-8, 1e-5, 3e-4);
+  CAPTURE(count, skin);
+  CHECK(near(pairs_at((1e-3 + skin) * (1.0 - 1e-12), 1e-3, count, box), skin, box) == count);
+  CHECK(near(pairs_at(1e-3 + skin + 2e-8, 1e-3, count, box), skin, box) == 0);
+}
+
+TEST_CASE("pairs in contact are not searched for") {
+  const Box box{.width = 20e-3, .length = 0.1};
+  Pairs pairs = pairs_at(0.9e-3, 1e-3, 100, box);
+  mark_all(pairs);
+  CHECK(hits(pairs, box) == 0);
+  CHECK(near(pairs, 1e-4, box) == 0);
 }

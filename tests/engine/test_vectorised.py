@@ -24,7 +24,7 @@ EXPECTED = {
     "deflected_grains.cpp": [1, 1],
     "free_flight.cpp": [1, 1],
     "live_contacts.cpp": [2 * 2 * 4 * 2 * 2],
-    "pair_search.cpp": [1, 1],
+    "pair_search.cpp": [1, 1, 1],
     "simulation.cpp": [1],
     "strips.cpp": [1],
 }
@@ -65,7 +65,7 @@ class Vectorised(unittest.TestCase):
                 told = vectorised_lines(entry)
                 for pragma, number in zip(pragmas, expected):
                     # GCC names a line of the loop's head, of its body, or of what is inlined there.
-                    near = sum(n for line, n in told.items() if abs(line - pragma) <= 10)
+                    near = sum(n for line, n in told.items() if abs(line - pragma) <= 13)
                     self.assertGreaterEqual(near, number, f"{name}:{pragma}, of {dict(told)}")
 
 

@@ -1,0 +1,41 @@
+// Pairs of grains that may come to touch.
+#pragma once
+
+#include "engine/aligned.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace riesel {
+
+struct SlotPair {
+  std::uint32_t first, second;
+};
+
+/// Pairs of slots that can touch before the next sorting, ordered by the first. Arrays of equal
+/// size.
+struct CandidatePairs {
+  AlignedVector<std::uint32_t> first, second;
+  /// m^2, (sum of radii)^2 plus the resolution of the coarse positions; negative while the pair is
+  /// in contact, so that nobody looks for it
+  AlignedVector<float> reach2;
+
+  std::size_t size() const { return first.size(); }
+  void clear() {
+    first.clear();
+    second.clear();
+    reach2.clear();
+  }
+  void reserve(std::size_t n) {
+    first.reserve(n);
+    second.reserve(n);
+    reach2.reserve(n);
+  }
+  void add(std::uint32_t i, std::uint32_t j, float square) {
+    first.push_back(i);
+    second.push_back(j);
+    reach2.push_back(square);
+  }
+};
+
+}  // namespace riesel

@@ -1,0 +1,64 @@
+// Those of the candidate pairs that may touch soon: the inner one of two Verlet lists.
+//
+// The search of plain stepping tests pairs in every step, and most candidates are too far apart for
+// that. The inner list has those closer than the sum of radii plus a skin of its own, some tenth of
+// that of the candidates. It is made by one look at all candidates, and holds as long as no grain
+// has moved by half of its skin. The skin follows the motion of the grains: lists are made so often
+// that this costs as much as it saves.
+//
+// Which pairs are in it changes no result: those that are not cannot touch.
+#pragma once
+
+#include "engine/candidate_pairs.hpp"
+#include "engine/coarse_positions.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace riesel {
+
+class InnerPairs {
+public:
+  /// There are new candidates, which have a skin of `outer_skin` (m): the list holds no longer.
+  void start_over(double outer_skin);
+
+  /// A step has been done in which no grain has moved farther than this (m), relative to a motion
+  /// common to all.
+  void spend(double motion) {
+    budget_ -= motion;
+    ++age_;
+  }
+
+  /// Lists anew what is close at `positions`, the present ones, if the list holds no longer, or if
+  /// a shorter one pays. `candidates` are those of the last start_over().
+  void keep_up(const CandidatePairs& candidates, const CoarsePositions& positions,
+               CoarseUnits units);
+
+  /// Of pairs in contact reach2 is negative, as in the candidates.
+  const CandidatePairs& pairs() const { return pairs_; }
+  /// The index among the candidates of a pair of the list.
+  std::uint32_t candidate(std::size_t pair) const { return candidate_[pair]; }
+
+  /// This pair of the list has come into contact.
+  void leave_out(std::size_t pair) { pairs_.reach2[pair] = -pairs_.reach2[pair]; }
+  /// The contact of this candidate has ended.
+  void take_back(const CandidatePairs& candidates, std::uint32_t candidate);
+
+private:
+  /// Of pairs, since the list was made.
+  double tests() const {
+    return static_cast<double>(age_) * static_cast<double>(pairs_.size() + 1);
+  }
+  void adapt_skin();
+
+  CandidatePairs pairs_;
+  std::vector<std::uint32_t> candidate_;    // of each pair
+  double longest_skin_ = 0.0, skin_ = 0.0;  // m
+  double budget_ = 0.0;                     // m, motion that leaves the list valid
+  std::int64_t age_ = 0;                    // steps that the list has served
+  double tests_worth_listing_ = 0.0;        // of pairs: as much work as making the list
+  bool stale_ = true;
+};
+
+}  // namespace riesel
