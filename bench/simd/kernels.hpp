@@ -17,7 +17,7 @@
 
 namespace riesel::bench::simd {
 
-/// Candidate pairs to be tested, as find_overlapping() gets them.
+/// Candidate pairs to be tested, as find_overlapping_pairs() gets them.
 struct PairProblem {
   const std::uint32_t *first, *second;
   const float* reach2;
@@ -33,6 +33,7 @@ struct ContactProblem {
   const std::int64_t *first, *second;
   const double *reach, *reduced_mass, *per_mass_first, *per_mass_second;
   double *end, *overlap, *max_overlap, *elastic_energy, *slip_path, *normal_loss, *friction_loss;
+  double *friction_x, *friction_y;  // on the first grain
   Fixed *kick_first_x, *kick_first_y, *kick_second_x, *kick_second_y;
   std::int64_t* flags;
   std::size_t count;
@@ -163,13 +164,18 @@ auto step_lanes(const ContactProblem& c, std::size_t i) {
   const auto add = [&](double* member, auto value) {
     Lanes::store(member + i, Lanes::load(member + i) + Lanes::choose(touching, value, zero));
   };
+  const auto mean_vx = all(2.0) * half_vx - vx, mean_vy = all(2.0) * half_vy - vy;
+  const auto friction_power =
+      Lanes::load(c.friction_x + i) * mean_vx + Lanes::load(c.friction_y + i) * mean_vy;
+  Lanes::store(c.friction_loss + i, Lanes::load(c.friction_loss + i) + friction_power * dt);
+  set(c.friction_x, Lanes::negative(f_s) * ny);
+  set(c.friction_y, f_s * nx);
   set(c.end, all(u.time) + until);
   set(c.overlap, overlap);
   set(c.max_overlap, larger<Lanes>(Lanes::load(c.max_overlap + i), overlap));
   set(c.elastic_energy, half * all(c.law.k_n) * overlap * overlap);
   add(c.slip_path, Lanes::size(slip) * dt);
   add(c.normal_loss, (f_n - elastic) * rate * dt);
-  add(c.friction_loss, Lanes::negative(f_s) * slip * dt);
 
   const auto own_x = Lanes::choose(touching, fx, zero), own_y = Lanes::choose(touching, fy, zero);
   const auto first = Lanes::load(c.per_mass_first + i), second = Lanes::load(c.per_mass_second + i);

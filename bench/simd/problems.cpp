@@ -10,10 +10,13 @@ namespace {
 
 constexpr std::size_t lanes = 8;
 
-/// What a step writes of a life, in the order of ContactColumns.
-std::array<double, 7> life_of(const Contact& c) {
-  return {c.end,       c.overlap,     c.max_overlap,  c.elastic_energy,
-          c.slip_path, c.normal_loss, c.friction_loss};
+/// What a step writes of the life of contact i, in the order of ContactColumns.
+std::array<double, 9> life_of(const LiveContacts& live, std::size_t i) {
+  const Contact c = live.contact(i);
+  const double on_first = live.meeting(i).turned ? -1.0 : 1.0;
+  return {
+      c.end,         c.overlap,       c.max_overlap,           c.elastic_energy,       c.slip_path,
+      c.normal_loss, c.friction_loss, on_first * c.friction_x, on_first * c.friction_y};
 }
 
 }  // namespace
@@ -26,7 +29,6 @@ Original::Original(State state, const ContactModel& model)
   if (!std::holds_alternative<LinearLaw>(model.normal)
       || !std::holds_alternative<CappedSlip>(model.slip) || model.attraction != Attraction::keep)
     throw std::invalid_argument("the kernels know the linear law, capped slip and attraction only");
-  slice().near_walls.clear();  // the search is to look at pairs alone
 }
 
 PairSearch::PairSearch(Original& engine)
@@ -80,7 +82,7 @@ ContactColumns::ContactColumns(Original& engine)
     body_[1][i] = live.second(i);
     const std::array constants = {meeting.reach(), a * b / (a + b), 1.0 / a, 1.0 / b};
     for (std::size_t m = 0; m < constants.size(); ++m) constants_[m][i] = constants[m];
-    const auto life = life_of(live.contact(i));
+    const auto life = life_of(live, i);
     for (std::size_t m = 0; m < life.size(); ++m) life_[m][i] = life[m];
   }
 }
@@ -99,6 +101,8 @@ ContactProblem ContactColumns::problem() {
           .slip_path = life_[4].data(),
           .normal_loss = life_[5].data(),
           .friction_loss = life_[6].data(),
+          .friction_x = life_[7].data(),
+          .friction_y = life_[8].data(),
           .kick_first_x = kick_[0].data(),
           .kick_first_y = kick_[1].data(),
           .kick_second_x = kick_[2].data(),
@@ -115,7 +119,7 @@ bool ContactColumns::agrees(Original& engine) const {
   const LiveContacts& live = engine.slice().pair_contacts;
   bool same = live.size() == size_ && live.ended().empty();
   for (std::size_t i = 0; same && i < size_; ++i) {
-    const auto life = life_of(live.contact(i));
+    const auto life = life_of(live, i);
     for (std::size_t m = 0; m < life.size(); ++m) same = same && life_[m][i] == life[m];
     const BodyKick first = live.kick_of_first(i), second = live.kick_of_second(i);
     same = same && kick_[0][i] == first.x && kick_[1][i] == first.y && kick_[2][i] == second.x

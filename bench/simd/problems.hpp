@@ -10,14 +10,14 @@
 
 namespace riesel::bench::simd {
 
-/// The engine's own loops. The state stands still: each pass does the same work again, but that the
-/// losses and slip paths of contacts grow.
+/// The engine's own loops.
 class Original {
 public:
   Original(State state, const ContactModel& model);
 
   void find_pairs() {
-    find_overlapping(slice(), state_, candidates_.when_sorted(), candidates_.units());
+    find_overlapping_pairs(slice().pairs, candidates_.when_sorted(), candidates_.units(),
+                           slice().hits);
   }
   void step_contacts() { slice().pair_contacts.step(bodies(state_.grains), units_, model_); }
 
@@ -70,7 +70,7 @@ private:
   double friction_;
   std::array<AlignedVector<std::int64_t>, 2> body_;
   std::array<AlignedVector<double>, 4> constants_;
-  std::array<AlignedVector<double>, 7> life_;
+  std::array<AlignedVector<double>, 9> life_;
   std::array<AlignedVector<Fixed>, 4> kick_;
   AlignedVector<std::int64_t> flags_;
 };
