@@ -103,6 +103,16 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
     throw std::invalid_argument("a contact between bodies that are far from each other");
 }
 
+void Candidates::compare_inner_lists(Slice& mine) const {
+  InnerPairs::Use all;
+  for (const Slice& slice : slices_) {
+    const InnerPairs::Use one = slice.inner.use();
+    all.tests += one.tests;
+    all.worth_listing += one.worth_listing;
+  }
+  mine.inner.heed(all);
+}
+
 bool Candidates::spend_step(Slice& mine, std::int64_t step) const {
   const double motion = std::sqrt(largest(slices_, &Slice::fastest2));
   mine.budget -= motion;

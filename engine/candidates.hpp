@@ -41,6 +41,10 @@ public:
   const std::vector<Slice>& slices() const { return slices_; }
   CoarseUnits units() const { return units_; }
 
+  /// Tells the inner list of `mine` how all have been used: before the barrier of a step, when
+  /// nobody searches.
+  void compare_inner_lists(Slice& mine) const;
+
   /// Spends the motion of `step` of the budget. True if the candidates hold for sure; else
   /// look_again() must be called before they are used. All threads of a team, called after a
   /// barrier, get the same answer.

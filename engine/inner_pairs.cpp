@@ -30,14 +30,14 @@ void InnerPairs::start_over(double outer_skin) {
 
 /// Tests between two lists grow as the skin (steps) times its root (pairs).
 void InnerPairs::adapt_skin() {
-  const double ratio = tests_worth_listing_ / tests();
+  const double ratio = of_all_.worth_listing / of_all_.tests;
   skin_ *= std::clamp(std::cbrt(ratio * ratio), 0.5, 2.0);
   skin_ = std::clamp(skin_, shortest / longest * longest_skin_, longest_skin_);
 }
 
 void InnerPairs::keep_up(const CandidatePairs& candidates, const CoarsePositions& positions,
                          CoarseUnits units) {
-  const bool pays = tests() < most_patience * tests_worth_listing_;
+  const bool pays = of_all_.tests < most_patience * of_all_.worth_listing;
   if (!stale_ && budget_ >= 0.0 && pays) return;
   if (!stale_) adapt_skin();
   find_near(candidates, positions, units, skin_, candidate_);

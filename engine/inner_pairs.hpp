@@ -30,6 +30,19 @@ public:
     ++age_;
   }
 
+  /// What a list has cost so far, in tests of pairs.
+  struct Use {
+    double tests = 0.0;          ///< since it was made, with those of the step to come
+    double worth_listing = 0.0;  ///< as many as would be best between two lists
+  };
+  Use use() const {
+    return {.tests = static_cast<double>(age_ + 1) * static_cast<double>(pairs_.size() + 1),
+            .worth_listing = tests_worth_listing_};
+  }
+  /// The use that all slices have made of their lists decides when all make new ones: in the same
+  /// step, so that none waits for another. To be told before each step.
+  void heed(const Use& of_all) { of_all_ = of_all; }
+
   /// Lists anew what is close at `positions`, the present ones, if the list holds no longer, or if
   /// a shorter one pays. `candidates` are those of the last start_over().
   void keep_up(const CandidatePairs& candidates, const CoarsePositions& positions,
@@ -46,10 +59,6 @@ public:
   void take_back(const CandidatePairs& candidates, std::uint32_t candidate);
 
 private:
-  /// Of pairs, since the list was made.
-  double tests() const {
-    return static_cast<double>(age_) * static_cast<double>(pairs_.size() + 1);
-  }
   void adapt_skin();
 
   CandidatePairs pairs_;
@@ -57,7 +66,8 @@ private:
   double longest_skin_ = 0.0, skin_ = 0.0;  // m
   double budget_ = 0.0;                     // m, motion that leaves the list valid
   std::int64_t age_ = 0;                    // steps that the list has served
-  double tests_worth_listing_ = 0.0;        // of pairs: as much work as making the list
+  double tests_worth_listing_ = 0.0;
+  Use of_all_;
   bool stale_ = true;
 };
 

@@ -158,6 +158,7 @@ void Simulation::step(Slice& mine, std::int64_t step) {
   Profile& profile = mine.profile;
   profile.begin_step(step);
   drift(mine, step);
+  candidates_->compare_inner_lists(mine);
   barrier_->arrive_and_wait();
   profile.done(Profile::Phase::fly);
   if (!candidates_->spend_step(mine, step)) candidates_->look_again(state_, coarse_, mine, step);

@@ -45,6 +45,7 @@ public:
 
   /// Each goes so far (m), in its own direction.
   void step(double motion) {
+    inner_.heed(inner_.use());
     left_ -= motion;
     for (std::size_t i = 0; i < x_.size(); ++i) {
       x_[i] += motion * std::cos(angle_[i]);
@@ -143,4 +144,19 @@ TEST_CASE("a pair in contact is not found, and found again when the contact has 
   CHECK(cloud.overlapping_in_list() == others);
   inner.take_back(cloud.candidates(), one);
   CHECK(cloud.overlapping_in_list() == before);
+}
+
+TEST_CASE("a list of no candidates at all serves until there are some") {
+  Cloud one(1);
+  for (int step = 0; step < 50; ++step) one.step(1e-3);
+  CHECK(one.inner().pairs().size() == 0);
+  InnerPairs& inner = one.inner();
+  CoarsePositions positions;
+  positions.resize(2);
+  CandidatePairs both;
+  const CoarseUnits units(box);
+  both.add(0, 1, units.generous_square(diameter));
+  inner.start_over(outer_skin);
+  inner.keep_up(both, positions, units);
+  CHECK(inner.pairs().size() == 1);
 }
