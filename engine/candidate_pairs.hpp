@@ -36,6 +36,9 @@ struct CandidatePairs {
     second.push_back(j);
     reach2.push_back(square);
   }
+  void add_copy(const CandidatePairs& of, std::size_t pair) {
+    add(of.first[pair], of.second[pair], of.reach2[pair]);
+  }
 };
 
 }  // namespace riesel

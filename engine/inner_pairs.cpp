@@ -23,7 +23,7 @@ constexpr double most_patience = 4.0;
 }  // namespace
 
 void InnerPairs::start_over(double outer_skin) {
-  longest_skin_ = longest * outer_skin;
+  outer_skin_ = outer_skin;
   if (skin_ == 0.0) skin_ = first * outer_skin;
   stale_ = true;
 }
@@ -32,7 +32,7 @@ void InnerPairs::start_over(double outer_skin) {
 void InnerPairs::adapt_skin() {
   const double ratio = of_all_.worth_listing / of_all_.tests;
   skin_ *= std::clamp(std::cbrt(ratio * ratio), 0.5, 2.0);
-  skin_ = std::clamp(skin_, shortest / longest * longest_skin_, longest_skin_);
+  skin_ = std::clamp(skin_, shortest * outer_skin_, longest * outer_skin_);
 }
 
 void InnerPairs::keep_up(const CandidatePairs& candidates, const CoarsePositions& positions,
@@ -42,8 +42,7 @@ void InnerPairs::keep_up(const CandidatePairs& candidates, const CoarsePositions
   if (!stale_) adapt_skin();
   find_near(candidates, positions, units, skin_, candidate_);
   pairs_.clear();
-  for (const std::uint32_t p : candidate_)
-    pairs_.add(candidates.first[p], candidates.second[p], candidates.reach2[p]);
+  for (const std::uint32_t p : candidate_) pairs_.add_copy(candidates, p);
   budget_ = 0.5 * skin_;
   age_ = 0;
   tests_worth_listing_ = tests_per_candidate * static_cast<double>(candidates.size());
@@ -51,8 +50,7 @@ void InnerPairs::keep_up(const CandidatePairs& candidates, const CoarsePositions
 }
 
 void InnerPairs::take_back(const CandidatePairs& candidates, std::uint32_t candidate) {
-  pairs_.add(candidates.first[candidate], candidates.second[candidate],
-             candidates.reach2[candidate]);
+  pairs_.add_copy(candidates, candidate);
   candidate_.push_back(candidate);
 }
 

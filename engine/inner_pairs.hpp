@@ -48,7 +48,7 @@ public:
   void keep_up(const CandidatePairs& candidates, const CoarsePositions& positions,
                CoarseUnits units);
 
-  /// Of pairs in contact reach2 is negative, as in the candidates.
+  /// In no order. Of pairs in contact reach2 is negative, as in the candidates.
   const CandidatePairs& pairs() const { return pairs_; }
   /// The index among the candidates of a pair of the list.
   std::uint32_t candidate(std::size_t pair) const { return candidate_[pair]; }
@@ -62,10 +62,10 @@ private:
   void adapt_skin();
 
   CandidatePairs pairs_;
-  std::vector<std::uint32_t> candidate_;    // of each pair
-  double longest_skin_ = 0.0, skin_ = 0.0;  // m
-  double budget_ = 0.0;                     // m, motion that leaves the list valid
-  std::int64_t age_ = 0;                    // steps that the list has served
+  std::vector<std::uint32_t> candidate_;  // of each pair
+  double outer_skin_ = 0.0, skin_ = 0.0;  // m
+  double budget_ = 0.0;                   // m, motion that leaves the list valid
+  std::int64_t age_ = 0;                  // steps that the list has served
   double tests_worth_listing_ = 0.0;
   Use of_all_;
   bool stale_ = true;

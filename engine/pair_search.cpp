@@ -39,15 +39,11 @@ PairBlock pairs_from(std::size_t begin, const CandidatePairs& pairs,
   return dx * dx + dy * dy;
 }
 
-[[gnu::always_inline]] inline bool may_overlap(const PairBlock& b, std::size_t p) {
-  return squared_distance(b, p) < b.reach2[p];
-}
-
 /// Whether any of the pairs may overlap.
 [[gnu::always_inline]] inline bool any_may_overlap(PairBlock b, std::size_t count) {
   std::int32_t any = 0;
 #pragma omp simd reduction(| : any)
-  for (std::size_t p = 0; p < count; ++p) any |= may_overlap(b, p) ? 1 : 0;
+  for (std::size_t p = 0; p < count; ++p) any |= squared_distance(b, p) < b.reach2[p] ? 1 : 0;
   return any != 0;
 }
 
@@ -59,7 +55,8 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
     const PairBlock some = pairs_from(begin, pairs, positions, units);
     if (!any_may_overlap(some, count)) continue;
     for (std::size_t p = 0; p < count; ++p)
-      if (may_overlap(some, p)) hits.push_back(static_cast<std::uint32_t>(begin + p));
+      if (squared_distance(some, p) < some.reach2[p])
+        hits.push_back(static_cast<std::uint32_t>(begin + p));
   }
 }
 

@@ -65,7 +65,7 @@ class Vectorised(unittest.TestCase):
                 told = vectorised_lines(entry)
                 for pragma, number in zip(pragmas, expected):
                     # GCC names a line of the loop's head, of its body, or of what is inlined there.
-                    near = sum(n for line, n in told.items() if abs(line - pragma) <= 13)
+                    near = sum(n for line, n in told.items() if abs(line - pragma) <= 10)
                     self.assertGreaterEqual(near, number, f"{name}:{pragma}, of {dict(told)}")
 
 
