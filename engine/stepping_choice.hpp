@@ -1,9 +1,10 @@
 // Plain stepping or flights, on one thread or on all: what is fastest here and now?
 //
 // It depends on the state, the size of the system, the machine and what else runs on it. The bits
-// do not depend on the choice, so the clock may decide: each way is tried for one piece of the run
-// at its beginning, and now and then later. These later trials take a few per cent of the time at
-// most, less and less as long as they find nothing.
+// do not depend on the choice, so the clock may decide: each way is tried for one piece of the run,
+// twice at its beginning, and now and then later. These later trials take a few per cent of the
+// time at most, less and less as long as they find nothing. A machine has bad moments, in which any
+// way looks slow: another way must win twice, with a piece of the preferred one in between.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,7 @@ class SteppingChoice {
 public:
   /// At least one; the first is what to begin with.
   explicit SteppingChoice(std::vector<Way> ways)
-      : ways_(std::move(ways)), untried_(ways_.size() - 1) {}
+      : ways_(std::move(ways)), untried_(first_looks * (ways_.size() - 1)) {}
 
   /// How the next piece is to be done.
   Way way() const { return ways_[trying_ ? tried_ : preferred_]; }
@@ -44,6 +45,7 @@ public:
   }
 
 private:
+  static constexpr std::size_t first_looks = 2;
   static constexpr double shortest_patience = 0.25, longest_patience = 60.0;  // s
   /// Time between trials over the time of one.
   static constexpr double patience_per_cost = 40.0;
@@ -53,8 +55,8 @@ private:
   void go_on(double pace, double seconds) {
     pace_ = pace;
     since_trial_ += seconds;
-    trying_ = untried_ > 0 || (open() && since_trial_ >= patience_);
-    if (trying_) tried_ = next_to_try();
+    trying_ = won_once_ || untried_ > 0 || (open() && since_trial_ >= patience_);
+    if (trying_ && !won_once_) tried_ = next_to_try();
   }
 
   /// All others in turn.
@@ -66,8 +68,11 @@ private:
   void conclude(double pace, double cost) {
     trying_ = false;
     since_trial_ = 0.0;
+    const bool faster = pace < worthwhile * pace_;
+    won_once_ = faster && !won_once_;
+    if (won_once_) return;
     if (untried_ > 0) --untried_;
-    if (pace < worthwhile * pace_) {
+    if (faster) {
       preferred_ = tried_;
       patience_ = std::max(shortest_patience, patience_per_cost * cost);
     } else {
@@ -77,8 +82,9 @@ private:
 
   std::vector<Way> ways_;
   std::size_t preferred_ = 0, tried_ = 0;  // indices of ways
-  std::size_t untried_;                    // ways
+  std::size_t untried_;                    // looks at the beginning that are still to come
   bool trying_ = false;
+  bool won_once_ = false;                // so has the way that was tried last
   double pace_ = 0.0;                    // s per step, of the last piece done the preferred way
   double since_trial_ = 0.0;             // s
   double patience_ = shortest_patience;  // s, until the next trial

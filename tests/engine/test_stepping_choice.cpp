@@ -57,15 +57,41 @@ TEST_CASE("the fastest way is found, whatever was tried first") {
   CHECK(account.spent < 1.05 * account.best);
 }
 
-TEST_CASE("each way is tried at the beginning, between two pieces of the preferred one") {
+TEST_CASE("each way is tried twice at the beginning, between two pieces of the preferred one") {
   SteppingChoice choice(all);
   std::vector<Way> done;
-  for (int piece = 0; piece < 6; ++piece) {
+  for (int piece = 0; piece < 10; ++piece) {
     done.push_back(choice.way());
     choice.note(steps, choice.way() == flights ? 0.01 : 0.02, 0.0);
   }
-  CHECK(done == std::vector{flights, plain_on_two, flights, plain, flights, flights});
+  CHECK(done
+        == std::vector{flights, plain_on_two, flights, plain, flights, plain_on_two, flights, plain,
+                       flights, flights});
   CHECK(choice.preferred() == flights);
+}
+
+TEST_CASE("a way whose first trial falls into a bad moment is found all the same") {
+  SteppingChoice choice(all);
+  int trials = 0;
+  for (int piece = 0; piece < 12; ++piece) {
+    const bool is_fastest = choice.way() == plain;
+    const bool bad_moment = is_fastest && ++trials == 1;
+    choice.note(steps, is_fastest && !bad_moment ? 0.01 : 0.02, 0.0);
+  }
+  CHECK(choice.preferred() == plain);
+}
+
+TEST_CASE("the preferred way is not given up for one bad moment") {
+  SteppingChoice choice(all);
+  std::vector<Way> tried;
+  for (int piece = 0; tried.size() < 40; ++piece) {
+    const bool of_preferred = choice.way() == flights;
+    if (!of_preferred) tried.push_back(choice.way());
+    const bool bad_moment = of_preferred && piece % 7 == 0;
+    const double seconds = bad_moment ? 0.03 : of_preferred ? 0.01 : 0.02;
+    choice.note(steps, seconds, 0.0);
+    CHECK(choice.preferred() == flights);
+  }
 }
 
 TEST_CASE("where there is one way, no other is tried") {

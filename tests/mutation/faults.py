@@ -101,6 +101,10 @@ FAULTS = [
     ("new speeds not noted", "engine/candidates.hpp",
      "mine.fastest2 = std::max(mine.fastest2, squared_speed(state.box, g.ux[slot], g.uy[slot]));",
      "static_cast<void>(g);\n    static_cast<void>(slot);\n    static_cast<void>(mine);"),
+    ("another way that is taken after one win", "engine/stepping_choice.hpp",
+     "won_once_ = faster && !won_once_;", "won_once_ = false;"),
+    ("one look at each way at the beginning", "engine/stepping_choice.hpp",
+     "first_looks = 2;", "first_looks = 1;"),
     ("a pair never looked for again after its first contact", "engine/contact_loop.cpp",
      "reach2 = std::abs(reach2);", "reach2 = -std::abs(reach2);"),
 
