@@ -32,14 +32,15 @@ struct Contender {
 /// machines can be compared. At least as many as lie between several sortings, but for the largest.
 struct Plan {
   std::int64_t warm_up, steps;
-  std::int64_t settling;  ///< in which `automatic` tries each way twice, in pieces of 20 million
+  /// In which `automatic` tries each way twice, in pieces of 20 million or of 64 steps.
+  std::int64_t settling;
   int repetitions;
 
   Plan(const FlowCase& one, const Effort& effort, double grains)
       : warm_up(std::llround(std::clamp(2e6 / grains, 20.0, 1000.0))),
         steps(
             std::llround(std::max(one.work * effort.work / grains, grains > 2e6 ? 100.0 : 200.0))),
-        settling(std::llround(3.6e8 / grains)),
+        settling(std::llround(std::max(3.6e8 / grains, 1200.0))),
         repetitions(std::min(effort.repetitions, grains > 2e6   ? 2
                                                  : grains > 5e5 ? 3
                                                                 : 5)) {}

@@ -179,25 +179,25 @@ void Simulation::advance(std::int64_t steps) {
   } while (state_.step < last);
 }
 
-/// Steps between two thoughts about the stepping: many enough to be timed.
+/// Steps between two thoughts about the stepping: many enough to be timed, and for flights, which
+/// land after them.
 std::int64_t Simulation::piece() const {
-  constexpr std::int64_t particle_steps = 20'000'000;
+  constexpr std::int64_t particle_steps = 20'000'000, fewest = 64;
   if (!choice_.open()) return INT64_MAX / 2;
-  return std::max<std::int64_t>(16,
-                                particle_steps / static_cast<std::int64_t>(state_.grains.size()));
+  return std::max(fewest, particle_steps / static_cast<std::int64_t>(state_.grains.size()));
 }
 
 void Simulation::advance_piece(std::int64_t last) {
   const auto now = std::chrono::steady_clock::now;
   const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
-  const std::int64_t first = state_.step;
   const auto begin = now();
-  if (!in_trouble()) prepare();
+  if (!in_trouble() && prepared_ != choice_.way()) {
+    prepare();
+    step_up_to(std::min(last, state_.step + 1));  // in which flights make all their appointments
+  }
+  const std::int64_t first = state_.step;
   const auto start = now();
-  if (flights_)
-    advance_by_flights(last);
-  else
-    advance_plainly(last);
+  step_up_to(last);
   if (state_.step > first)
     choice_.note(state_.step - first, seconds(now() - start), seconds(start - begin));
   collect();
@@ -206,7 +206,6 @@ void Simulation::advance_piece(std::int64_t last) {
 
 /// Whoever is to step the grains starts from the state alone, as after a checkpoint.
 void Simulation::prepare() {
-  if (prepared_ == choice_.way()) return;
   prepared_ = choice_.way();
   flights_.reset();
   coarse_ = {};
@@ -219,6 +218,13 @@ void Simulation::prepare() {
     coarse_ = candidates_->when_sorted();
   }
   candidates_->slices().front().profile = Profile(profile_.on());
+}
+
+void Simulation::step_up_to(std::int64_t last) {
+  if (flights_)
+    advance_by_flights(last);
+  else
+    advance_plainly(last);
 }
 
 void Simulation::advance_plainly(std::int64_t last) {

@@ -61,6 +61,7 @@ private:
   std::int64_t piece() const;
   void advance_piece(std::int64_t last);
   void prepare();
+  void step_up_to(std::int64_t last);
   void advance_plainly(std::int64_t last);
   void advance_by_flights(std::int64_t last);
   void step(Slice& mine, std::int64_t step);
