@@ -1,9 +1,11 @@
 // The courses of grains: the straight paths, in the falling frame, on which they are expected.
 //
-// While flights go on the store (Grains) holds the course of each grain: where it was when the
-// course was set, and its displacement per step since. A flying grain keeps to its course exactly.
-// A deflected one, which takes part in a contact, does not; where it is stands elsewhere
-// (DeflectedGrains), at a place that is noted here.
+// While flights go on the store (Grains) holds the course of each grain: its displacement per step,
+// and where it would have been in one step for all, the origin, had it always gone like this. So
+// two courses differ by a straight line in any step, whenever they were set: gravity and the time
+// since then do not enter. Integers make the detour over the origin exact. A flying grain keeps to
+// its course. A deflected one, which takes part in a contact, does not; where it is stands
+// elsewhere (DeflectedGrains), at a place that is noted here.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -28,29 +30,30 @@ public:
   static constexpr std::int32_t flying = -1;
 
   explicit Courses(State& state)
-      : grains_(state.grains),
-        fall_(fall_per_step(state)),
-        since_(grains_.size()),
-        place_(grains_.size()) {}
+      : grains_(state.grains), fall_(fall_per_step(state)), place_(grains_.size()) {}
 
   /// The grains have just been sorted; all are at `step`. To be called once for all.
-  void start_over(std::int64_t step) { sorted_at_ = step; }
-  /// These grains fly. A course must be set anew, or all be started over, within 2^31 steps.
+  void start_over(std::int64_t step) {
+    sorted_at_ = step;
+    set_origin(step);
+  }
+  /// The store holds all grains as they are in `step`, which is the origin from now on. To be
+  /// called once for all.
+  void set_origin(std::int64_t step) { origin_ = step; }
+  /// These grains fly.
   void start_over(SlotRange slots) {
-    std::fill_n(since_.begin() + static_cast<std::ptrdiff_t>(slots.begin), slots.size(), 0);
     std::fill_n(place_.begin() + static_cast<std::ptrdiff_t>(slots.begin), slots.size(), flying);
   }
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
+  std::int64_t origin() const { return origin_; }        ///< step
   const Fall& fall() const { return fall_; }             ///< in a step
 
-  /// When the course was set, in steps after sorted_at().
-  std::int32_t since(std::uint32_t slot) const { return since_[slot]; }
   /// Where the grain is in `step` if it keeps to its course.
   Fixed x(std::uint32_t slot, std::int64_t step) const {
-    return along(grains_.x[slot], grains_.ux[slot], fall_.x, steps(slot, step), step);
+    return wrapped_sum(grains_.x[slot], way(grains_.ux[slot], fall_.x, step));
   }
   Fixed y(std::uint32_t slot, std::int64_t step) const {
-    return along(grains_.y[slot], grains_.uy[slot], fall_.y, steps(slot, step), step);
+    return wrapped_sum(grains_.y[slot], way(grains_.uy[slot], fall_.y, step));
   }
   Motion motion(std::uint32_t slot, std::int64_t step) const {
     return {.x = x(slot, step),
@@ -64,18 +67,22 @@ public:
   }
 
   /// From `step` on the grain is expected to go on like this.
-  void set(std::uint32_t slot, const Motion& m, std::int64_t step) {
+  void set(std::uint32_t slot, Motion m, std::int64_t step) {
+    m.x = wrapped_difference(m.x, way(m.ux, fall_.x, step));
+    m.y = wrapped_difference(m.y, way(m.uy, fall_.y, step));
+    put(slot, m);
+  }
+  /// The same from the origin on.
+  void put(std::uint32_t slot, const Motion& m) {
     grains_.x[slot] = m.x;
     grains_.y[slot] = m.y;
     grains_.ux[slot] = m.ux;
     grains_.uy[slot] = m.uy;
     grains_.kick_x[slot] = m.kick_x;
     grains_.kick_y[slot] = m.kick_y;
-    if (grains_.rotate()) {
-      grains_.spin[slot] = m.spin;
-      grains_.spin_kick[slot] = m.spin_kick;
-    }
-    since_[slot] = static_cast<std::int32_t>(step - sorted_at_);
+    if (!grains_.rotate()) return;
+    grains_.spin[slot] = m.spin;
+    grains_.spin_kick[slot] = m.spin_kick;
   }
 
   /// Where the deflected grain stands, or `flying`.
@@ -85,19 +92,15 @@ public:
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
 
 private:
-  /// Along one axis, after the last n steps before `step`.
-  static Fixed along(Fixed from, Fixed u, Fixed fall, std::int64_t n, std::int64_t step) {
-    return wrapped_sum(from, wrapped_sum(wrapped_product(n, u),
-                                         wrapped_product(sum_of_steps(step - n, step), fall)));
-  }
-  std::int64_t steps(std::uint32_t slot, std::int64_t step) const {
-    return step - sorted_at_ - since_[slot];
+  /// Along one axis, from the origin to `step`.
+  Fixed way(Fixed u, Fixed fall, std::int64_t step) const {
+    return wrapped_sum(wrapped_product(step - origin_, u),
+                       wrapped_product(sum_of_steps(origin_, step), fall));
   }
 
   Grains& grains_;
   const Fall fall_;
-  std::int64_t sorted_at_ = 0;
-  AlignedVector<std::int32_t> since_;  // steps after sorted_at_
+  std::int64_t sorted_at_ = 0, origin_ = 0;  // steps
   AlignedVector<std::int32_t> place_;
 };
 

@@ -70,7 +70,9 @@ bool FlightRegion::take_off(std::int64_t step) {
     under_way_ = true;
     return !trouble_;
   }
+  if (index_ == 0) airspace_.courses.set_origin(step);
   border_.mine().new_courses.clear();
+  airspace_.barrier.arrive_and_wait();
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place)
     if (deflected_.in_use(place) && border_.owns(deflected_.slot(place))) set_course(place, step);
   announce(step);
@@ -85,16 +87,16 @@ void FlightRegion::land(std::int64_t step) {
   put_down(step);
 }
 
-/// The courses of deflected grains are given up for their motion.
+/// The store becomes the state of `step`: the courses of deflected grains are given up for their
+/// motion.
 void FlightRegion::put_down(std::int64_t step) {
   for (std::size_t i = slice_.begin; i < slice_.end; ++i) {
     const auto slot = static_cast<std::uint32_t>(i);
     const std::int32_t place = airspace_.courses.place(slot);
-    airspace_.courses.set(slot,
+    airspace_.courses.put(slot,
                           place == Courses::flying
                               ? airspace_.courses.motion(slot, step)
-                              : deflected_.motion(static_cast<DeflectedGrains::Place>(place)),
-                          step);
+                              : deflected_.motion(static_cast<DeflectedGrains::Place>(place)));
   }
 }
 

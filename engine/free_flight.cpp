@@ -44,47 +44,51 @@ Paths paths_of(const Grains& g) {
           .radius = g.radius.data()};
 }
 
-/// Some pairs: slots, steps since the courses were set, how far the two may be from them together
-/// (m), and whether they may go farther when one more is deflected.
-struct Lanes {
-  using Integers = std::array<std::int64_t, lanes>;
-
-  alignas(cache_line) Integers first, second, steps_first, steps_second, exact;
-  std::array<double, lanes> stray;
+/// The candidate pairs of a slice, and where its deflected grains stand.
+struct PairsOfSlice {
+  const std::uint32_t *first, *second;
+  const std::int32_t* place;  // by slot
+  std::int64_t begin, end;    // own slots: those of others may be changing their place
 };
 
 struct Kinematics {
   double metre_x, metre_y;
-  Fall fall;
-  std::int64_t now;
+  std::int64_t steps;  // from the origin of the courses
   double tolerance;
 };
 
-RIESEL_VECTOR_KERNEL void foresee_lanes(const Lanes& pairs, Paths c, Kinematics k,
-                                        std::int64_t* free_steps, std::int64_t* exact) {
+/// The pairs which[0] to which[lanes - 1].
+RIESEL_VECTOR_KERNEL void foresee_lanes(const std::uint32_t* which, PairsOfSlice p, Paths c,
+                                        Kinematics k, std::int64_t* free_steps,
+                                        std::int64_t* exact) {
 #pragma omp simd
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::int64_t i = pairs.first[lane], j = pairs.second[lane];
-    const std::int64_t steps_i = pairs.steps_first[lane], steps_j = pairs.steps_second[lane];
-    const Fixed falls = wrapped_difference(sum_of_steps(k.now - steps_j, k.now),
-                                           sum_of_steps(k.now - steps_i, k.now));
-    const Fixed x_i = wrapped_sum(c.x[i], wrapped_product(steps_i, c.ux[i]));
-    const Fixed x_j = wrapped_sum(c.x[j], wrapped_product(steps_j, c.ux[j]));
-    const Fixed y_i = wrapped_sum(c.y[i], wrapped_product(steps_i, c.uy[i]));
-    const Fixed y_j = wrapped_sum(c.y[j], wrapped_product(steps_j, c.uy[j]));
-    const Fixed x_ij = wrapped_sum(wrapped_difference(x_j, x_i), wrapped_product(falls, k.fall.x));
-    const Fixed y_ij = wrapped_sum(wrapped_difference(y_j, y_i), wrapped_product(falls, k.fall.y));
+    const std::int64_t pair = which[lane];
+    const std::int64_t i = p.first[pair], j = p.second[pair];
+    const Fixed ux_ij = wrapped_difference(c.ux[j], c.ux[i]);
+    const Fixed uy_ij = wrapped_difference(c.uy[j], c.uy[i]);
+    const Fixed x_ij =
+        wrapped_sum(wrapped_difference(c.x[j], c.x[i]), wrapped_product(k.steps, ux_ij));
+    const Fixed y_ij =
+        wrapped_sum(wrapped_difference(c.y[j], c.y[i]), wrapped_product(k.steps, uy_ij));
+
+    // As strays_of_pair(), without the conditions of which GCC 12 makes no vectors.
+    const std::int64_t beyond = (j - p.begin) | (p.end - 1 - j);  // negative: a foreign grain
+    const std::int64_t foreign = beyond < 0 ? 1 : 0;
+    const std::int64_t off_i = p.place[i] - Courses::flying;
+    const std::int64_t off_j = (p.place[beyond < 0 ? p.begin : j] - Courses::flying) | foreign;
+    const std::int64_t strays = (off_i != 0 ? 1 : 0) + (off_j != 0 ? 1 : 0);
 
     const double x = real(x_ij) * k.metre_x;
     const double y = real(y_ij) * k.metre_y;
-    const double ux = real(wrapped_difference(c.ux[j], c.ux[i])) * k.metre_x;
-    const double uy = real(wrapped_difference(c.uy[j], c.uy[i])) * k.metre_y;
+    const double ux = real(ux_ij) * k.metre_x;
+    const double uy = real(uy_ij) * k.metre_y;
     const double reach = (c.radius[i] + c.radius[j]) * generous;
     const double patient = first_touch(x, y, ux, uy, reach + most_strays * k.tolerance);
-    const double closer = first_touch(x, y, ux, uy, reach + pairs.stray[lane]);
+    const double closer = first_touch(x, y, ux, uy, reach + real(strays) * k.tolerance);
     free_steps[lane] = Forecast::whole_steps((patient >= few_steps ? patient : closer) * cautious);
-    const std::int64_t is_exact = pairs.exact[lane];
-    exact[lane] = patient >= few_steps ? 0 : is_exact;
+    const std::int64_t exact_if_close = is_exact(strays) ? 1 : 0;
+    exact[lane] = patient >= few_steps ? 0 : exact_if_close;
   }
 }
 
@@ -148,27 +152,25 @@ void foresee(const Slice& slice, std::span<const std::uint32_t> which, const Sta
     result.exact.resize(2 * room);
   }
   const Paths paths = paths_of(state.grains);
+  const PairsOfSlice pairs{.first = slice.pairs.first.data(),
+                           .second = slice.pairs.second.data(),
+                           .place = courses.places(),
+                           .begin = static_cast<std::int64_t>(slice.begin),
+                           .end = static_cast<std::int64_t>(slice.end)};
   const Kinematics kinematics{.metre_x = state.box.quantum_x(),
                               .metre_y = state.box.quantum_y(),
-                              .fall = courses.fall(),
-                              .now = now,
+                              .steps = now - courses.origin(),
                               .tolerance = tolerance};
-  const std::int64_t since_sorted = now - courses.sorted_at();
-  Lanes pairs{};
-  for (std::size_t block = 0; block < which.size(); block += lanes) {
-    for (std::size_t lane = 0; lane < std::min(lanes, which.size() - block); ++lane) {
-      const std::uint32_t pair = which[block + lane];
-      const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
-      pairs.first[lane] = i;
-      pairs.second[lane] = j;
-      pairs.steps_first[lane] = since_sorted - courses.since(i);
-      pairs.steps_second[lane] = since_sorted - courses.since(j);
-      const int strays = strays_of_pair(slice, courses, pair);
-      pairs.stray[lane] = strays * tolerance;
-      pairs.exact[lane] = is_exact(strays) ? 1 : 0;
-    }
-    foresee_lanes(pairs, paths, kinematics, &result.free_steps[block], &result.exact[block]);
-  }
+  const auto foresee_block = [&](const std::uint32_t* some, std::size_t block) {
+    foresee_lanes(some, pairs, paths, kinematics, &result.free_steps[block], &result.exact[block]);
+  };
+  const std::size_t whole = which.size() / lanes * lanes;
+  for (std::size_t block = 0; block < whole; block += lanes) foresee_block(&which[block], block);
+  if (whole == which.size()) return;
+  std::array<std::uint32_t, lanes> rest;
+  rest.fill(which.back());
+  std::copy(which.begin() + static_cast<std::ptrdiff_t>(whole), which.end(), rest.begin());
+  foresee_block(rest.data(), whole);
 }
 
 }  // namespace riesel

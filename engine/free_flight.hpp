@@ -47,7 +47,7 @@ inline int strays_of_pair(const Slice& slice, const Courses& courses, std::uint3
 
 /// Whether what is foreseen for a pair with so many strays holds only as long as no other grain of
 /// it is deflected.
-inline bool is_exact(int strays) { return strays < most_strays; }
+inline bool is_exact(std::int64_t strays) { return strays < most_strays; }
 
 /// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on.
 /// A deflected grain may be off its course by `tolerance` (m). Where there is time enough, all
