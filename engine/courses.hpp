@@ -72,7 +72,7 @@ public:
     m.y = wrapped_difference(m.y, way(m.uy, fall_.y, step));
     put(slot, m);
   }
-  /// The same from the origin on.
+  /// The same from the origin on, or from the step that is about to become it.
   void put(std::uint32_t slot, const Motion& m) {
     grains_.x[slot] = m.x;
     grains_.y[slot] = m.y;
