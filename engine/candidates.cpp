@@ -14,9 +14,17 @@ namespace riesel {
 
 namespace {
 
-/// Below this part of the full budget it is better to sort anew than to look at displacements again
-/// and again.
-constexpr double smallest_useful_budget = 0.2;
+/// If less than this part of the room for displacements is left, it is better to sort anew than to
+/// look at them again and again.
+constexpr double smallest_useful_part = 0.2;
+
+/// While slices are ahead of each other grains may need this part of that room, if nobody becomes
+/// more than twice as fast as the fastest, and another part is there in case somebody does.
+constexpr double part_ahead = 0.25, part_in_case = 0.1;
+
+/// So many rows of cells in each slice are enough for pairs of neighbouring slices only, also of
+/// grains that have strayed by the height of a row.
+constexpr std::size_t least_rows_of_slice = 4;
 
 template <class Visit>
 void for_each_contact_of(const Slice& slice, Visit visit) {
@@ -61,6 +69,13 @@ std::optional<std::uint32_t> near_wall_in(const Slice& slice, std::uint32_t slot
   return std::nullopt;
 }
 
+/// The slice that owns `slot`, or none.
+Slice* owner_in(std::span<Slice> share, std::uint32_t slot) {
+  const auto owner = std::partition_point(share.begin(), share.end(),
+                                          [&](const Slice& slice) { return slice.end <= slot; });
+  return owner != share.end() && owner->owns(slot) ? &*owner : nullptr;
+}
+
 double largest(const std::vector<Slice>& slices, double Slice::*member) {
   double most = 0.0;
   for (const Slice& slice : slices) most = std::max(most, slice.*member);
@@ -69,10 +84,12 @@ double largest(const std::vector<Slice>& slices, double Slice::*member) {
 
 }  // namespace
 
-Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter)
+Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter,
+                       std::size_t slices_per_thread)
     : slip_(slip),
       units_(state.box),
-      slices_(static_cast<std::size_t>(threads)),
+      threads_(static_cast<std::size_t>(threads)),
+      slices_(threads_ * slices_per_thread),
       fall_(fall_per_step(state)) {
   const Grains& grains = state.grains;
   max_radius_ = *std::max_element(grains.radius.begin(), grains.radius.end());
@@ -94,81 +111,99 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
 
 #pragma omp parallel num_threads(threads)
   {
-    Slice& mine = slices_[static_cast<std::size_t>(omp_get_thread_num())];
+    const std::span<Slice> mine = share(static_cast<std::size_t>(omp_get_thread_num()));
     renew(state, mine, state.step);
-    forget_contacts(mine);
+    for (Slice& slice : mine) forget_contacts(slice);
     keep(state, mine, state.contacts);
   }
   if (kept() < state.contacts.size())
     throw std::invalid_argument("a contact between bodies that are far from each other");
 }
 
-void Candidates::compare_inner_lists(Slice& mine) const {
+bool Candidates::in_trouble() const {
+  return std::any_of(slices_.begin(), slices_.end(),
+                     [](const Slice& slice) { return slice.failed(); });
+}
+
+void Candidates::compare_inner_lists(std::span<Slice> share) const {
   InnerPairs::Use all;
   for (const Slice& slice : slices_) {
     const InnerPairs::Use one = slice.inner.use();
     all.tests += one.tests;
     all.worth_listing += one.worth_listing;
   }
-  mine.inner.heed(all);
+  for (Slice& mine : share) mine.inner.heed(all);
 }
 
-bool Candidates::spend_step(Slice& mine, std::int64_t step) const {
-  const double motion = std::sqrt(largest(slices_, &Slice::fastest2));
-  mine.budget -= motion;
-  mine.inner.spend(motion);
-  return mine.budget >= 0.0 && step <= hold_until_;
+double Candidates::fastest() const { return std::sqrt(largest(slices_, &Slice::fastest2)); }
+
+std::int64_t Candidates::ready_for(State& state, CoarsePositions& coarse, std::span<Slice> share,
+                                   std::int64_t step, std::int64_t wanted) {
+  const double room = 0.5 * skin_, speed = 2.0 * fastest();
+  const double further = std::min(part_ahead * room / speed, static_cast<double>(wanted - 1));
+  const std::int64_t steps = slices_are_thick_ ? 1 + static_cast<std::int64_t>(further) : 1;
+  const double ahead = steps > 1 ? speed * static_cast<double>(steps - 1) + part_in_case * room : 0.0;
+  if (largest(slices_, &Slice::gone) + ahead > room || step > hold_until_)
+    look_again(state, coarse, share, step, ahead);
+  return std::clamp<std::int64_t>(hold_until_ - step + 1, 1, steps);
 }
 
-bool Candidates::look_again(State& state, CoarsePositions& coarse, Slice& mine, std::int64_t step) {
-  mine.profile.begin_build();
+/// Sorts anew if somebody has gone so far that there is not enough room for what is ahead (m).
+void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Slice> share,
+                            std::int64_t step, double ahead) {
+  Profile& profile = share.front().profile;
+  profile.begin_build();
 #pragma omp barrier
-  measure_displacements(coarse, mine, step);
-  measure_speeds(state, mine);
-#pragma omp barrier
-  const double left = 0.5 * skin_ - largest(slices_, &Slice::farthest);
-  if (left > smallest_useful_budget * 0.5 * skin_ && step <= hold_until_) {
-    mine.budget = left;
-    mine.profile.done_build();
-    return false;
+  for (Slice& mine : share) {
+    measure_displacements(coarse, mine, step);
+    measure_speeds(state, mine);
   }
-  sort_anew(state, mine, step);
-  std::copy(&when_sorted_.x[mine.begin], &when_sorted_.x[mine.end], &coarse.x[mine.begin]);
-  std::copy(&when_sorted_.y[mine.begin], &when_sorted_.y[mine.end], &coarse.y[mine.begin]);
 #pragma omp barrier
-  mine.profile.done_build();
-  return true;
+  const double room = 0.5 * skin_, left = room - largest(slices_, &Slice::farthest);
+  if (left > std::max(smallest_useful_part * room, ahead) && step <= hold_until_) {
+    for (Slice& mine : share) mine.gone = mine.farthest;
+  } else {
+    sort_anew(state, share, step);
+    for (const Slice& mine : share) {
+      std::copy(&when_sorted_.x[mine.begin], &when_sorted_.x[mine.end], &coarse.x[mine.begin]);
+      std::copy(&when_sorted_.y[mine.begin], &when_sorted_.y[mine.end], &coarse.y[mine.begin]);
+    }
+#pragma omp barrier
+  }
+  profile.done_build();
 }
 
-void Candidates::sort_anew(State& state, Slice& mine, std::int64_t step) {
-  for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
+void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t step) {
+  for (Slice& mine : share)
+    for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
 #pragma omp barrier  // all grains are at this step
-  renew(state, mine, step);
-  forget_contacts(mine);
-  for (const Slice& slice : slices_) keep(state, mine, slice.lasting);
+  renew(state, share, step);
+  for (Slice& mine : share) forget_contacts(mine);
+  for (const Slice& slice : slices_) keep(state, share, slice.lasting);
 #pragma omp barrier
 #pragma omp single
   end_lost_contacts(state);
-  mine.lasting = {};  // between sortings the memory serves others
+  for (Slice& mine : share) mine.lasting = {};  // between sortings the memory serves others
 }
 
-void Candidates::renew(State& state, Slice& mine, std::int64_t step) {
+void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
   cells_.sort(state, 2.0 * max_radius_ + skin_);
 #pragma omp single
   start_over(state, step);
-  for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    when_sorted_.x[i] = upper_half(state.grains.x[i]);
-    when_sorted_.y[i] = upper_half(state.grains.y[i]);
+  for (std::size_t slot = share.front().begin; slot < share.back().end; ++slot) {
+    when_sorted_.x[slot] = upper_half(state.grains.x[slot]);
+    when_sorted_.y[slot] = upper_half(state.grains.y[slot]);
+    slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
   }
 #pragma omp barrier
-  list_pairs(state, mine);
-  list_near_walls(state, mine);
-  list_received(state.grains, mine);
-  for (std::size_t slot = mine.begin; slot < mine.end; ++slot)
-    slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
-  measure_speeds(state, mine);
-  mine.budget = 0.5 * skin_;
-  mine.inner.start_over(skin_);
+  for (Slice& mine : share) {
+    list_pairs(state, mine);
+    list_near_walls(state, mine);
+    list_received(state.grains, mine);
+    measure_speeds(state, mine);
+    mine.gone = 0.0;
+    mine.inner.start_over(skin_);
+  }
 #pragma omp barrier
 }
 
@@ -182,6 +217,11 @@ void Candidates::start_over(const State& state, std::int64_t step) {
     slices_[s].begin = grains.size() * s / slices_.size();
     slices_[s].end = grains.size() * (s + 1) / slices_.size();
   }
+  slices_are_thick_ =
+      slices_.size() > 2 && std::all_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
+        return slice.end > slice.begin
+               && cells_.row_of(slice.end - 1) - cells_.row_of(slice.begin) > least_rows_of_slice;
+      });
   sorted_at_ = step;
   hold_until_ = step + steps_to_walls_;
   drift_.x = wrapped_difference(0, fall_.times(step).x);
@@ -249,20 +289,19 @@ Candidates::Displacement Candidates::common_motion(std::int64_t step) const {
   return {along(drift_.x, fall_.x), along(drift_.y, fall_.y)};
 }
 
+/// m, rounded up.
+double Candidates::distance(float squared_displacement) const {
+  const double resolution = 2.0 * (static_cast<double>(units_.x) + static_cast<double>(units_.y));
+  return std::sqrt(static_cast<double>(squared_displacement)) * (1.0 + 1e-6) + resolution;
+}
+
 void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& mine,
                                        std::int64_t step) const {
-  const Displacement common = common_motion(step);
-  const std::int32_t common_x = upper_half(common.x), common_y = upper_half(common.y);
+  const CoarseMotion common = coarse_motion(step);
   float farthest2 = 0.0F;
-  for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    const std::int32_t x = coarse_difference(coarse.x[i], when_sorted_.x[i]);
-    const std::int32_t y = coarse_difference(coarse.y[i], when_sorted_.y[i]);
-    const float dx = static_cast<float>(coarse_difference(x, common_x)) * units_.x;
-    const float dy = static_cast<float>(coarse_difference(y, common_y)) * units_.y;
-    farthest2 = std::max(farthest2, dx * dx + dy * dy);
-  }
-  const double resolution = 2.0 * (static_cast<double>(units_.x) + static_cast<double>(units_.y));
-  mine.farthest = std::sqrt(static_cast<double>(farthest2)) * (1.0 + 1e-6) + resolution;
+  for (std::size_t i = mine.begin; i < mine.end; ++i)
+    farthest2 = std::max(farthest2, squared_displacement(coarse, i, common));
+  mine.farthest = distance(farthest2);
 }
 
 /// With or without the kicks in the store: in the middle of a step the last ones are taken up
@@ -297,18 +336,29 @@ std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice,
   return !found && slice.owns(b) ? pair_in(slice, b, a) : found;
 }
 
-/// Goes on with those of the contacts that belong to `mine`.
-void Candidates::keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const {
+/// Goes on with those of the contacts that belong to the slices of `share`.
+void Candidates::keep(const State& state, std::span<Slice> share,
+                      const std::vector<Contact>& contacts) const {
   for (const Contact& contact : contacts) {
-    const auto candidate = candidate_in(mine, contact);
-    if (!candidate) continue;
-    const bool of_wall = contact.name.wall != no_wall;
-    const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
-                                    : meeting_of_pair(mine, state.grains, *candidate);
-    note_lasting(mine, meeting);
-    (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
-    ++mine.kept;
+    Slice* const one = owner_in(share, slot_of_[static_cast<std::size_t>(contact.name.grain)]);
+    Slice* const other =
+        contact.name.wall == no_wall
+            ? owner_in(share, slot_of_[static_cast<std::size_t>(contact.name.partner)])
+            : one;
+    if (one != nullptr) keep(state, *one, contact);
+    if (other != nullptr && other != one) keep(state, *other, contact);
   }
+}
+
+void Candidates::keep(const State& state, Slice& mine, const Contact& contact) const {
+  const auto candidate = candidate_in(mine, contact);
+  if (!candidate) return;
+  const bool of_wall = contact.name.wall != no_wall;
+  const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
+                                  : meeting_of_pair(mine, state.grains, *candidate);
+  note_lasting(mine, meeting);
+  (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
+  ++mine.kept;
 }
 
 std::size_t Candidates::kept() const {

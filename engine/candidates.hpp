@@ -4,8 +4,12 @@
 // The pairs listed are those closer than the sum of radii plus a skin. They hold as long as no
 // grain has moved by half the skin, measured from the common motion of all grains, which brings no
 // two of them together: the common fall never triggers a renewal. Instead of looking at all grains
-// in every step, a bound is kept on the largest speed (only contacts raise it) and subtracted from
-// a budget of displacement; when the budget is used up, the true displacements are looked at.
+// in every step, a bound is kept on the largest speed (only contacts raise it), and how far it may
+// have brought a grain is added up; when that is too far, the true displacements are looked at.
+//
+// Slices may be ahead of each other by some steps (PlainSteps). Nobody can sort meanwhile, and that
+// the candidates hold for so long is only expected. A grain that goes farther is a stray: whoever
+// it overlaps is looked for by itself.
 //
 // To walls the common motion does bring grains, if gravity is not along them: what is listed as
 // near a wall has half a skin more for it, and holds as long as the common fall takes no more.
@@ -18,8 +22,10 @@
 #include "engine/state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace riesel {
@@ -35,29 +41,48 @@ public:
   /// Sorts `state` and takes over its contacts. Throws std::invalid_argument if the box is too
   /// short for the nearest image to be unique, wall grains are too close together, or a contact of
   /// the state cannot be one.
-  Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter);
+  Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter,
+             std::size_t slices_per_thread = 1);
 
   std::vector<Slice>& slices() { return slices_; }
   const std::vector<Slice>& slices() const { return slices_; }
+  /// The slices of one thread.
+  std::span<Slice> share(std::size_t member) {
+    const std::size_t each = slices_.size() / threads_;
+    return std::span(slices_).subspan(member * each, each);
+  }
   CoarseUnits units() const { return units_; }
+  /// The run cannot go on.
+  bool in_trouble() const;
 
-  /// Tells the inner list of `mine` how all have been used: before the barrier of a step, when
+  /// Tells the inner lists of `share` how all have been used: before the barrier of a step, when
   /// nobody searches.
-  void compare_inner_lists(Slice& mine) const;
+  void compare_inner_lists(std::span<Slice> share) const;
 
-  /// Spends the motion of `step` of the budget. True if the candidates hold for sure; else
-  /// look_again() must be called before they are used. All threads of a team, called after a
-  /// barrier, get the same answer.
-  bool spend_step(Slice& mine, std::int64_t step) const;
+  /// The grains of `mine` have moved by a step.
+  static void count_motion(Slice& mine) { mine.gone += std::sqrt(mine.fastest2); }
+  /// m per step, of any grain, relative to the drift.
+  double fastest() const;
 
-  /// Looks at the true displacements, and sorts anew if they are too large: then true. `state` and
-  /// `coarse`, the positions of its grains, must be those of step `step`. To be called by all
-  /// threads of a team; what it changes is complete when it returns.
-  bool look_again(State& state, CoarsePositions& coarse, Slice& mine, std::int64_t step);
+  /// For how many steps the candidates may be used before this is called again: at least `step`
+  /// itself, for which they hold for sure, at most `wanted`. Looks at the true displacements if
+  /// need be, and sorts anew if they are too large. If it is more than one step, the second grain
+  /// of a pair is in the slice of the first or in the next, and catch_strays() must be called
+  /// before each search. `state` and `coarse`, the positions of its grains, must be those of
+  /// `step`. To be called by all threads of a team after a barrier; all get the same answer, and
+  /// what it changes is complete when it returns.
+  std::int64_t ready_for(State& state, CoarsePositions& coarse, std::span<Slice> share,
+                         std::int64_t step, std::int64_t wanted);
 
-  /// Sorts and lists all candidates anew; else as look_again(). The coarse positions are those of
-  /// when_sorted() then.
-  void sort_anew(State& state, Slice& mine, std::int64_t step);
+  /// Adds to the candidates of `mine` whoever overlaps a grain that has gone farther than they hold
+  /// for. The grains of `mine` and of `next`, the slice after it, are at this step.
+  void catch_strays(const State& state, const CoarsePositions& coarse, Slice& mine,
+                    const Slice& next, std::int64_t step) const;
+
+  /// Sorts and lists all candidates anew. `state` is at this step. The coarse positions are those
+  /// of when_sorted() then. To be called by all threads of a team; what it changes is complete
+  /// when it returns.
+  void sort_anew(State& state, std::span<Slice> share, std::int64_t step);
 
   /// The candidates hold until this step, and while no grain has moved by half the skin from where
   /// it was when they were listed, relative to a common motion: free fall with a displacement per
@@ -89,16 +114,36 @@ public:
   std::vector<Contact> contacts() const;
 
 private:
-  void renew(State& state, Slice& mine, std::int64_t step);
+  void look_again(State& state, CoarsePositions& coarse, std::span<Slice> share, std::int64_t step,
+                  double ahead);
+  void renew(State& state, std::span<Slice> share, std::int64_t step);
   void start_over(const State& state, std::int64_t step);
   void list_pairs(const State& state, Slice& mine);
   void list_near_walls(const State& state, Slice& mine) const;
   static void list_received(const Grains& grains, Slice& mine);
   void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;
+  struct CoarseMotion {
+    std::int32_t x, y;
+  };
+  CoarseMotion coarse_motion(std::int64_t step) const {
+    const Displacement common = common_motion(step);
+    return {upper_half(common.x), upper_half(common.y)};
+  }
+  /// m^2, from where the grain was when sorted, relative to the common motion.
+  float squared_displacement(const CoarsePositions& coarse, std::size_t slot,
+                             const CoarseMotion& common) const {
+    const std::int32_t x = coarse_difference(coarse.x[slot], when_sorted_.x[slot]);
+    const std::int32_t y = coarse_difference(coarse.y[slot], when_sorted_.y[slot]);
+    const float dx = static_cast<float>(coarse_difference(x, common.x)) * units_.x;
+    const float dy = static_cast<float>(coarse_difference(y, common.y)) * units_.y;
+    return dx * dx + dy * dy;
+  }
+  double distance(float squared_displacement) const;
   void measure_speeds(const State& state, Slice& mine) const;
 
   std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
-  void keep(const State& state, Slice& mine, const std::vector<Contact>& contacts) const;
+  void keep(const State& state, std::span<Slice> share, const std::vector<Contact>& contacts) const;
+  void keep(const State& state, Slice& mine, const Contact& contact) const;
   std::size_t kept() const;
   void end_lost_contacts(const State& state);
 
@@ -108,7 +153,9 @@ private:
   CoarseUnits units_;
   Cells cells_;
   CoarsePositions when_sorted_;
+  std::size_t threads_;
   std::vector<Slice> slices_;
+  bool slices_are_thick_ = false;  // so that pairs are as ready_for() says
   std::vector<std::uint32_t> slot_of_;  // by id
 
   Fall fall_;                        // in a step

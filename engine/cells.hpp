@@ -33,7 +33,7 @@ public:
   template <class Visit>
   void for_each_later_range(std::size_t slot, Visit visit) const {
     const std::size_t cell = cell_of_slot_[slot];
-    const std::size_t row = cell / columns_;
+    const std::size_t row = row_of(slot);
     const std::size_t column = cell - row * columns_;
     const std::size_t left = column == 0 ? 0 : column - 1;
     const std::size_t right = column + 1 == columns_ ? column : column + 1;
@@ -42,6 +42,8 @@ public:
     const std::size_t next = row + 1 == rows_ ? 0 : row + 1;
     visit(SlotRange{start_[next * columns_ + left], start_[next * columns_ + right + 1]});
   }
+
+  std::size_t row_of(std::size_t slot) const { return cell_of_slot_[slot] / columns_; }
 
 private:
   void lay_out(const State& state, double range);

@@ -71,8 +71,8 @@ void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting)
   contacts.begin(meeting);
 }
 
-void resolve_contacts(Slice& slice, const State& state, const ContactModel& model) {
-  const StepUnits units(state);
+void resolve_contacts(Slice& slice, const State& state, const StepUnits& units,
+                      const ContactModel& model) {
   begin_pairs(slice, state.grains, units);
   begin_at_walls(slice, state, units);
   for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts}) {

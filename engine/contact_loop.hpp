@@ -74,7 +74,8 @@ void for_each_kick(const Slice& slice, GiveKick kick) {
 }
 
 /// One step of the contacts of `slice`: those that last, and those that begin among its hits. The
-/// grains are at the step of `state`; the kicks are in the contacts then.
-void resolve_contacts(Slice& slice, const State& state, const ContactModel& model);
+/// grains that these concern are at the step of `units`; the kicks are in the contacts then.
+void resolve_contacts(Slice& slice, const State& state, const StepUnits& units,
+                      const ContactModel& model);
 
 }  // namespace riesel

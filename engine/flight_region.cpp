@@ -141,7 +141,7 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
 void FlightRegion::renew(std::int64_t step) {
   slice_.profile.begin_build();
   land(step);
-  airspace_.candidates.sort_anew(airspace_.state, slice_, step);
+  airspace_.candidates.sort_anew(airspace_.state, std::span(&slice_, 1), step);
   begin(step, step);
   slice_.profile.done_build();
 }

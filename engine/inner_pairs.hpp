@@ -39,8 +39,8 @@ public:
     return {.tests = static_cast<double>(age_ + 1) * static_cast<double>(pairs_.size() + 1),
             .worth_listing = tests_worth_listing_};
   }
-  /// The use that all slices have made of their lists decides when all make new ones: in the same
-  /// step, so that none waits for another. To be told before each step.
+  /// Where slices do each step together, the use that all have made of their lists decides when all
+  /// make new ones: in the same step, so that none waits for another. To be told before each step.
   void heed(const Use& of_all) { of_all_ = of_all; }
 
   /// Lists anew what is close at `positions`, the present ones, if the list holds no longer, or if

@@ -15,7 +15,7 @@ void give_away_kicks(Slice& mine, std::size_t others) {
   });
 }
 
-void receive_kicks(Grains& grains, const std::vector<Slice>& givers, Slice& mine) {
+void receive_kicks(Grains& grains, std::span<const Slice> givers, Slice& mine) {
   for (const Kick& old : mine.received) grains.kick_x[old.slot] = grains.kick_y[old.slot] = 0;
   if (grains.rotate())
     for (const Kick& old : mine.received) grains.spin_kick[old.slot] = 0;

@@ -5,7 +5,7 @@
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 
-#include <vector>
+#include <span>
 
 namespace riesel {
 
@@ -23,11 +23,11 @@ void take_up_kicks(Grains& grains, const Slice& mine, TakenUp taken_up) {
     grains.spin[kick.slot] = wrapped_sum(grains.spin[kick.slot], kick.by.spin);
 }
 
-/// Lists what the contacts of `mine` gave to grains of other slices in this step, for their
-/// threads; there are so many others.
+/// Lists what the contacts of `mine` gave to grains of other slices in this step, for whoever steps
+/// them; there are so many others.
 void give_away_kicks(Slice& mine, std::size_t others);
 
-/// Collects what the contacts of all slices gave to the grains of `mine` in this step.
-void receive_kicks(Grains& grains, const std::vector<Slice>& givers, Slice& mine);
+/// Collects what the contacts of `mine` and of the givers gave to the grains of `mine` in this step.
+void receive_kicks(Grains& grains, std::span<const Slice> givers, Slice& mine);
 
 }  // namespace riesel

@@ -1,11 +1,8 @@
 #include "engine/simulation.hpp"
 
-#include "engine/contact_loop.hpp"
 #include "engine/flights.hpp"
-#include "engine/kicks.hpp"
 #include "engine/observables.hpp"
 #include "engine/require.hpp"
-#include "engine/vector_kernel.hpp"
 
 #include <omp.h>
 
@@ -61,16 +58,6 @@ State ready(State state) {
   check_contacts(state);
   if (state.step == 0) state.origin = origin_of(state);
   return state;
-}
-
-/// Moves `count` grains by one step along one axis.
-RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, Fixed* position,
-                              std::int32_t* coarse) {
-#pragma omp simd
-  for (std::size_t i = 0; i < count; ++i) {
-    position[i] = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
-    coarse[i] = upper_half(position[i]);
-  }
 }
 
 /// OpenMP may grant fewer threads than asked for, and every slice needs one.
@@ -135,11 +122,12 @@ int useful_threads(std::size_t grains) {
   return static_cast<int>(std::clamp<std::size_t>(grains / grains_per_thread, 1, most));
 }
 
-Simulation::Simulation(State state, const ContactModel& model, int threads, Stepping stepping)
+Simulation::Simulation(State state, const ContactModel& model, int threads, Stepping stepping,
+                       const Askew& askew)
     : state_(ready(std::move(state))),
       model_(model),
-      fall_(fall_per_step(state_)),
       threads_(team_size(threads)),
+      askew_(askew),
       choice_(ways(stepping, state_, threads_)),
       wall_watch_(state_, model_) {
   prepare();
@@ -149,27 +137,11 @@ Simulation::~Simulation() = default;
 
 void Simulation::start_profile() {
   profile_ = Profile(true);
-  candidates_->slices().front().profile = profile_;
+  profile_first_thread();
 }
 
-/// One step of all grains, by all threads together, each with its slice: the leapfrog form of
-/// velocity Verlet.
-void Simulation::step(Slice& mine, std::int64_t step) {
-  Profile& profile = mine.profile;
-  profile.begin_step(step);
-  drift(mine, step);
-  candidates_->compare_inner_lists(mine);
-  barrier_->arrive_and_wait();
-  profile.done(Profile::Phase::fly);
-  if (!candidates_->spend_step(mine, step)) candidates_->look_again(state_, coarse_, mine, step);
-  find_overlapping(mine, state_, coarse_, candidates_->units());
-  profile.done(Profile::Phase::search);
-  resolve_contacts(mine, state_, model_);
-  give_away_kicks(mine, candidates_->slices().size() - 1);
-  profile.done(Profile::Phase::forces);
-  barrier_->arrive_and_wait();
-  receive_kicks(state_.grains, candidates_->slices(), mine);
-  profile.done(Profile::Phase::receive);
+void Simulation::profile_first_thread() {
+  for (Slice& slice : candidates_->share(0)) slice.profile = Profile(profile_.on());
 }
 
 void Simulation::advance(std::int64_t steps) {
@@ -191,7 +163,7 @@ void Simulation::advance_piece(std::int64_t last) {
   const auto now = std::chrono::steady_clock::now;
   const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
   const auto begin = now();
-  if (!in_trouble() && prepared_ != choice_.way()) {
+  if (!candidates_->in_trouble() && prepared_ != choice_.way()) {
     prepare();
     step_up_to(std::min(last, state_.step + 1));  // in which flights make all their appointments
   }
@@ -208,16 +180,19 @@ void Simulation::advance_piece(std::int64_t last) {
 void Simulation::prepare() {
   prepared_ = choice_.way();
   flights_.reset();
-  coarse_ = {};
-  const double skin = prepared_->by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
-  candidates_ = std::make_unique<Candidates>(state_, model_.slip, prepared_->threads, skin);
+  plain_steps_.reset();
+  const int threads = prepared_->threads;
   if (prepared_->by_flights) {
+    candidates_ =
+        std::make_unique<Candidates>(state_, model_.slip, threads, Flights::skin_per_diameter);
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
   } else {
-    barrier_ = std::make_unique<TeamBarrier>(prepared_->threads);
-    coarse_ = candidates_->when_sorted();
+    candidates_ = std::make_unique<Candidates>(
+        state_, model_.slip, threads, Candidates::short_skin,
+        askew_.slices_per_thread(state_.grains.size(), threads));
+    plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, threads, askew_);
   }
-  candidates_->slices().front().profile = Profile(profile_.on());
+  profile_first_thread();
 }
 
 void Simulation::step_up_to(std::int64_t last) {
@@ -228,11 +203,9 @@ void Simulation::step_up_to(std::int64_t last) {
 }
 
 void Simulation::advance_plainly(std::int64_t last) {
-  const std::int64_t first = state_.step + 1;  // before the team starts: a step changes state_.step
-  as_a_team(prepared_->threads, [&](std::size_t member) {
-    Slice& mine = candidates_->slices()[member];
-    for (std::int64_t next = first; next <= last && !in_trouble(); ++next) step(mine, next);
-  });
+  const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
+  as_a_team(prepared_->threads,
+            [&](std::size_t member) { plain_steps_->advance(member, now, last); });
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {
@@ -243,23 +216,6 @@ void Simulation::advance_by_flights(std::int64_t last) {
     while (go_on && done < last) go_on = flights_->step(member, ++done);
     flights_->land(member, done);
   });
-}
-
-/// Velocities take up the last kicks, positions move on to step `step`.
-void Simulation::drift(Slice& mine, std::int64_t step) {
-  Grains& g = state_.grains;
-  take_up_kicks(g, mine, [&](std::uint32_t slot) { candidates_->note_speed(state_, mine, slot); });
-  const std::size_t count = mine.end - mine.begin;
-  const Fall fallen = fall_.times(step);
-  fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
-  fly(count, fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]);
-#pragma omp master
-  state_.step = step;
-}
-
-bool Simulation::in_trouble() const {
-  return std::any_of(candidates_->slices().begin(), candidates_->slices().end(),
-                     [](const Slice& slice) { return slice.failed(); });
 }
 
 /// Completes the state with what the slices know of contacts.

@@ -3,9 +3,9 @@
 
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
+#include "engine/plain_steps.hpp"
 #include "engine/state.hpp"
 #include "engine/stepping_choice.hpp"
-#include "engine/team_barrier.hpp"
 #include "engine/wall_watch.hpp"
 
 #include <cstdint>
@@ -38,7 +38,7 @@ public:
   /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its
   /// invariants do not hold or the box is too small for the nearest image to be unique.
   Simulation(State state, const ContactModel& model, int threads,
-             Stepping stepping = Stepping::automatic);
+             Stepping stepping = Stepping::automatic, const Askew& askew = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
@@ -61,27 +61,24 @@ private:
   std::int64_t piece() const;
   void advance_piece(std::int64_t last);
   void prepare();
+  void profile_first_thread();
   void step_up_to(std::int64_t last);
   void advance_plainly(std::int64_t last);
   void advance_by_flights(std::int64_t last);
-  void step(Slice& mine, std::int64_t step);
-  void drift(Slice& mine, std::int64_t step);
-  bool in_trouble() const;
   void collect();
   void fail_if_in_trouble() const;
 
   State state_;
   ContactModel model_;
-  Fall fall_;  // in a step
   const int threads_;
+  const Askew askew_;
   SteppingChoice choice_;
-  std::optional<Way> prepared_;  // what the candidates, the barrier and the flights are there for
+  std::optional<Way> prepared_;  // what the candidates and one of the two below are there for
   Profile profile_;
   std::unique_ptr<Candidates> candidates_;
-  std::unique_ptr<TeamBarrier> barrier_;  // of the threads of plain stepping
-  CoarsePositions coarse_;                // of all grains, for plain stepping
-  const WallWatch wall_watch_;
+  std::unique_ptr<PlainSteps> plain_steps_;
   std::unique_ptr<Flights> flights_;  // while stepping by windows
+  const WallWatch wall_watch_;
 };
 
 }  // namespace riesel

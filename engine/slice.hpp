@@ -1,4 +1,5 @@
-// The share of one thread: a range of slots and all that is derived from it between two sortings.
+// A range of slots and all that is derived from it between two sortings: the share of one thread,
+// or a part of it.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -52,16 +53,17 @@ struct alignas(cache_line) Slice {
   std::vector<Kick> received;    ///< of this step, by contacts of any slice on grains of the slice
   std::vector<Contact> lasting;  ///< contacts of the slice that are to outlive a sorting
   std::size_t kept = 0;          ///< how many of all those the slice has after it
-  double budget = 0.0;  ///< m, displacement that leaves the candidates valid; equal in all slices
-  Profile profile;      ///< of the thread's work
-  Tally tally;          ///< of contacts that began or ended in the last advance
+  Profile profile;               ///< of what its thread does with it
+  Tally tally;                   ///< of contacts that began or ended in the last advance
 
   alignas(cache_line) std::vector<Kick> given_away;  ///< of this step, on grains of other slices
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
+  double gone = 0.0;      ///< m, bound on it: what it was at the last look, and the motion since
   bool failed() const { return trouble || lost; }
   std::optional<ContactName> trouble;  ///< the first contact whose force is no usable number
-  std::optional<std::int32_t> lost;    ///< id of a grain that has left the representable space
+  /// id of a grain that has left the representable space, or the reach of those who look for it
+  std::optional<std::int32_t> lost;
 
   bool owns(std::uint32_t slot) const { return slot - begin < end - begin; }
 };

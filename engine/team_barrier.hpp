@@ -15,6 +15,15 @@
 
 namespace riesel {
 
+/// Tells the core that this is a loop of waiting.
+inline void pause_core() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  __asm__ __volatile__("yield");
+#endif
+}
+
 /// Has a cache line for itself.
 class alignas(cache_line) TeamBarrier {
 public:
@@ -34,22 +43,13 @@ public:
     }
     for (int look = 0; look < looks; ++look) {
       if (passed_.load(std::memory_order_acquire) != passed) return;
-      pause();
+      pause_core();
     }
     passed_.wait(passed, std::memory_order_acquire);
   }
 
 private:
   static constexpr int looks = 500;  // 5 to 20 microseconds
-
-  /// Tells the core that this is a loop of waiting.
-  static void pause() {
-#if defined(__x86_64__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    __asm__ __volatile__("yield");
-#endif
-  }
 
   const int members_;
   std::atomic<int> arrived_{0};

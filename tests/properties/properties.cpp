@@ -24,12 +24,17 @@ struct Leg {
   Stepping stepping;
   int threads;
   bool shuffle, observe, profile, through_file;
+  Askew askew;  // in plain stepping
   std::int64_t steps;
 
   std::string name() const {
     static constexpr std::array names{"plain", "windows", "automatic"};
     return std::string(names.at(static_cast<std::size_t>(stepping))) + " x "
-           + std::to_string(threads) + (shuffle ? ", shuffled" : "") + (observe ? ", observed" : "")
+           + std::to_string(threads)
+           + (askew.fewest == 0 ? ", askew by " + std::to_string(askew.steps) + " in slices of "
+                                      + std::to_string(askew.slice)
+                                : "")
+           + (shuffle ? ", shuffled" : "") + (observe ? ", observed" : "")
            + (profile ? ", profiled" : "") + (through_file ? ", through a file" : "") + ", "
            + std::to_string(steps) + " steps";
   }
@@ -46,6 +51,10 @@ Leg random_leg(Dice& dice, std::int64_t left) {
   leg.observe = dice.below(2) == 0;
   leg.profile = dice.below(4) == 0;
   leg.through_file = dice.below(6) == 0;
+  if (dice.below(2) == 0)
+    leg.askew = {.slice = static_cast<std::size_t>(1 + dice.below(60)),
+                 .steps = 2 + dice.below(10),
+                 .fewest = 0};
   leg.steps = dice.below(3) == 0 ? left : 1 + dice.below(left);
   return leg;
 }
@@ -61,7 +70,7 @@ State travel(State state, const ContactModel& model, const Leg& leg, Dice& dice,
   if (leg.through_file) state = through_checkpoint(state, scratch);
   if (leg.shuffle) state = shuffled(std::move(state), 7);
   const std::int64_t last = state.step + leg.steps;
-  Simulation simulation(std::move(state), model, leg.threads, leg.stepping);
+  Simulation simulation(std::move(state), model, leg.threads, leg.stepping, leg.askew);
   if (leg.profile) simulation.start_profile();
   while (simulation.state().step < last) {
     simulation.advance(std::min(last - simulation.state().step, 1 + dice.below(300)));

@@ -1,0 +1,155 @@
+#include "engine/plain_steps.hpp"
+
+#include "engine/contact_loop.hpp"
+#include "engine/kicks.hpp"
+#include "engine/pair_search.hpp"
+#include "engine/vector_kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+namespace riesel {
+
+namespace {
+
+/// Moves `count` grains by one step along one axis.
+RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, Fixed* position,
+                              std::int32_t* coarse) {
+#pragma omp simd
+  for (std::size_t i = 0; i < count; ++i) {
+    position[i] = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
+    coarse[i] = upper_half(position[i]);
+  }
+}
+
+}  // namespace
+
+PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& candidates, int threads,
+                       const Askew& askew)
+    : state_(state),
+      model_(model),
+      candidates_(candidates),
+      fall_(fall_per_step(state)),
+      most_steps_askew_(askew.steps),
+      coarse_(candidates.when_sorted()),
+      progress_(candidates.slices().size()),
+      barrier_(threads) {}
+
+void PlainSteps::advance(std::size_t member, std::int64_t now, std::int64_t last) {
+  const std::span<Slice> share = candidates_.share(member);
+  while (now < last && !candidates_.in_trouble()) {
+    const std::int64_t next = now + 1;
+    for (Slice& mine : share) move(mine, next);
+    candidates_.compare_inner_lists(share);
+#pragma omp master
+    state_.step = next;
+    barrier_.arrive_and_wait();
+    now += candidates_.ready_for(state_, coarse_, share, next,
+                                 std::min(most_steps_askew_, last - now));
+    if (now == next)
+      step_together(share, next);
+    else
+      step_askew(share, next, now);
+  }
+}
+
+void PlainSteps::move(Slice& mine, std::int64_t step) {
+  mine.profile.begin_step(step);
+  Grains& g = state_.grains;
+  take_up_kicks(g, mine, [&](std::uint32_t slot) { candidates_.note_speed(state_, mine, slot); });
+  const std::size_t count = mine.end - mine.begin;
+  const Fall fallen = fall_.times(step);
+  fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
+  fly(count, fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]);
+  Candidates::count_motion(mine);
+  mine.profile.done(Profile::Phase::fly);
+}
+
+/// `motion` (m): no grain in a pair of the slice has moved farther in this step.
+void PlainSteps::touch(Slice& mine, std::int64_t step, double motion) {
+  mine.profile.begin_step(step);
+  mine.inner.spend(motion);
+  find_overlapping(mine, state_, coarse_, candidates_.units());
+  mine.profile.done(Profile::Phase::search);
+  StepUnits units(state_);
+  units.move_to(step);
+  resolve_contacts(mine, state_, units, model_);
+  give_away_kicks(mine, candidates_.slices().size() - 1);
+  mine.profile.done(Profile::Phase::forces);
+}
+
+void PlainSteps::receive(Slice& mine, std::int64_t step, std::span<const Slice> givers) {
+  mine.profile.begin_step(step);
+  receive_kicks(state_.grains, givers, mine);
+  mine.profile.done(Profile::Phase::receive);
+}
+
+void PlainSteps::step_together(std::span<Slice> share, std::int64_t step) {
+  const double motion = candidates_.fastest();
+  for (Slice& mine : share) touch(mine, step, motion);
+  barrier_.arrive_and_wait();
+  for (Slice& mine : share) receive(mine, step, candidates_.slices());
+}
+
+/// From the first step, to which all slices have moved, to the last, in which all have received.
+void PlainSteps::step_askew(std::span<Slice> share, std::int64_t first, std::int64_t last) {
+  constexpr int looks = 500;  // some microseconds
+  const auto begin = static_cast<std::size_t>(share.data() - candidates_.slices().data());
+  const auto end = begin + share.size();
+  for (std::size_t slice = begin; slice < end; ++slice) {
+    progress_[slice].moved = first;
+    progress_[slice].touched = first - 1;
+    progress_[slice].done = false;
+  }
+  barrier_.arrive_and_wait();
+  int idle = 0;
+  while (std::any_of(&progress_[begin], &progress_[begin] + share.size(),
+                     [](const Progress& p) { return !p.done; })) {
+    bool any = false;
+    for (std::size_t slice = begin; slice < end; ++slice)
+      for (std::size_t s = slice; go_on(s, last); --s) {
+        any = true;
+        if (s == begin) break;
+      }
+    idle = any ? 0 : idle + 1;
+    if (idle > looks)
+      std::this_thread::yield();
+    else if (idle > 0)
+      pause_core();
+  }
+#pragma omp master
+  state_.step = last;
+  barrier_.arrive_and_wait();
+}
+
+/// Does what this slice can do now, up to its part of step `last`; false if that is nothing.
+bool PlainSteps::go_on(std::size_t slice, std::int64_t last) {
+  std::vector<Slice>& slices = candidates_.slices();
+  const std::size_t before = slice == 0 ? slices.size() - 1 : slice - 1;
+  const std::size_t after = slice + 1 == slices.size() ? 0 : slice + 1;
+  Slice &mine = slices[slice], &next = slices[after];
+  Progress& progress = progress_[slice];
+  bool any = false;
+  while (!progress.done) {
+    const std::int64_t step = progress.moved;
+    if (progress.touched < step) {
+      if (progress_[after].moved < step) return any;
+      // The next slice stays at this step until this one has touched.
+      candidates_.catch_strays(state_, coarse_, mine, next, step);
+      touch(mine, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
+      progress.touched = step;
+      any = true;
+    }
+    if (progress_[before].touched < step) return any;
+    receive(mine, step, std::span(&slices[before], 1));
+    any = true;
+    progress.done = step == last;
+    if (step == last) break;
+    move(mine, step + 1);
+    progress.moved = step + 1;
+  }
+  return any;
+}
+
+}  // namespace riesel

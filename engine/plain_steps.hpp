@@ -1,0 +1,81 @@
+// Plain stepping: all grains in each step, the leapfrog form of velocity Verlet.
+//
+// A slice does a step in three parts. It moves: velocities take up the last kicks, positions go on.
+// It touches: contacts are looked for and give their kicks. It receives: the kicks reach its grains.
+// To touch it needs the positions of its neighbours, to receive their kicks.
+//
+// Each thread has one slice, and all do each part together, where the grains fit into the caches.
+// Where they do not, a step waits for memory, and several steps with one part of the system cost
+// little more than one. So many grains have many slices, one after the other along the tube, and
+// these go askew: as soon as one has moved, the one before it can touch, receive and move to the
+// next step, then the one before that, and so on, while all of them are still in the cache. A
+// slice is up to so many steps ahead of the next as the candidates are known to hold. The results
+// are the same, as the sums of integers do not depend on order.
+#pragma once
+
+#include "engine/aligned.hpp"
+#include "engine/candidates.hpp"
+#include "engine/contact_law.hpp"
+#include "engine/state.hpp"
+#include "engine/team_barrier.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace riesel {
+
+/// How slices go askew. The results do not depend on it.
+struct Askew {
+  /// Grains of a slice: eight slices are some megabytes, as a part of the last cache is.
+  std::size_t slice = 8000;
+  std::int64_t steps = 8;  ///< that a slice is ahead at most
+  /// With fewer grains all slices do each step together: they fit into the caches as they are.
+  std::size_t fewest = 250'000;
+
+  /// How many slices each of the threads is to have.
+  std::size_t slices_per_thread(std::size_t grains, int threads) const {
+    const std::size_t each = grains / static_cast<std::size_t>(threads);
+    return grains < fewest ? 1 : std::max<std::size_t>(1, each / slice);
+  }
+};
+
+class PlainSteps {
+public:
+  /// Nobody else uses the candidates afterwards. Keeps references.
+  PlainSteps(State& state, const ContactModel& model, Candidates& candidates, int threads,
+             const Askew& askew);
+
+  /// From step `now`, that of the state, to `last`, or until the run cannot go on: then it may be
+  /// some steps farther than where that became known. To be called by all threads of a team with
+  /// the same steps; `member` is the number of the thread.
+  void advance(std::size_t member, std::int64_t now, std::int64_t last);
+
+private:
+  /// How far a slice is that goes askew; on a cache line of its own.
+  struct alignas(cache_line) Progress {
+    std::atomic<std::int64_t> moved, touched;
+    bool done;
+  };
+
+  void move(Slice& mine, std::int64_t step);
+  void touch(Slice& mine, std::int64_t step, double motion);
+  void receive(Slice& mine, std::int64_t step, std::span<const Slice> givers);
+  void step_together(std::span<Slice> share, std::int64_t step);
+  void step_askew(std::span<Slice> share, std::int64_t first, std::int64_t last);
+  bool go_on(std::size_t slice, std::int64_t last);
+
+  State& state_;
+  const ContactModel& model_;
+  Candidates& candidates_;
+  const Fall fall_;  // in a step
+  const std::int64_t most_steps_askew_;
+  CoarsePositions coarse_;  // of all grains
+  std::vector<Progress> progress_;
+  TeamBarrier barrier_;
+};
+
+}  // namespace riesel

@@ -1,0 +1,65 @@
+// Grains that have gone farther than the candidates hold for, while slices are ahead of each other.
+//
+// That takes a grain that becomes more than twice as fast as any within a few steps: seldom, and
+// never for long, as all are sorted anew before the slices go on. So nothing here is made for
+// speed.
+#include "engine/candidates.hpp"
+
+#include <algorithm>
+
+namespace riesel {
+
+namespace {
+
+bool is_candidate(const CandidatePairs& pairs, std::uint32_t i, std::uint32_t j) {
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if ((pairs.first[p] == i && pairs.second[p] == j)
+        || (pairs.first[p] == j && pairs.second[p] == i))
+      return true;
+  return false;
+}
+
+/// The first of the two is in the slice.
+void add_candidate(Slice& mine, std::uint32_t i, std::uint32_t j, float reach2) {
+  if (is_candidate(mine.pairs, i, j)) return;
+  mine.pairs.add(i, j, reach2);
+  mine.inner.take_back(mine.pairs, static_cast<std::uint32_t>(mine.pairs.size() - 1));
+}
+
+void add_walls(Slice& mine, std::uint32_t slot, std::size_t walls) {
+  for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(walls); ++wall)
+    if (std::none_of(mine.near_walls.begin(), mine.near_walls.end(), [&](const NearWall& near) {
+          return near.slot == slot && near.wall == wall;
+        }))
+      mine.near_walls.push_back({slot, wall});
+}
+
+}  // namespace
+
+void Candidates::catch_strays(const State& state, const CoarsePositions& coarse, Slice& mine,
+                              const Slice& next, std::int64_t step) const {
+  if (std::max(mine.gone, next.gone) <= 0.5 * skin_) return;
+  const Grains& g = state.grains;
+  const CoarseMotion common = coarse_motion(step);
+  const auto look = [&](std::uint32_t stray, const Slice& among) {
+    for (auto j = static_cast<std::uint32_t>(among.begin); j < among.end; ++j) {
+      const float reach2 = units_.generous_square(g.radius[stray] + g.radius[j]);
+      if (j == stray || !(coarse.squared_distance(stray, j, units_) < reach2)) continue;
+      add_candidate(mine, mine.owns(stray) ? stray : j, mine.owns(stray) ? j : stray, reach2);
+    }
+  };
+  for (const Slice* home : {static_cast<const Slice*>(&mine), &next})
+    for (auto slot = static_cast<std::uint32_t>(home->begin); slot < home->end; ++slot) {
+      const double gone = distance(squared_displacement(coarse, slot, common));
+      if (gone <= 0.5 * skin_) continue;
+      // Farther than a row of cells it may be where no neighbour of its slice looks.
+      if (gone > 2.0 * max_radius_ + skin_) mine.lost = g.id[slot];
+      look(slot, mine);
+      if (home == &mine) {
+        look(slot, next);
+        add_walls(mine, slot, state.walls.size());
+      }
+    }
+}
+
+}  // namespace riesel

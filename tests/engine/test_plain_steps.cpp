@@ -1,0 +1,149 @@
+// Slices that go askew, each some steps ahead of the next: the same bits, and no contact missed by
+// grains that go farther meanwhile than anybody expects.
+#include "engine/plain_steps.hpp"
+#include "engine/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/same_states.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <string>
+
+using namespace systems;
+using Catch::Matchers::Contains;
+using same_states::same;
+
+namespace {
+
+constexpr Askew small_slices{.slice = 40, .steps = 8, .fewest = 0};
+
+State askew(const State& state, const ContactModel& model, std::int64_t steps, int threads,
+            const Askew& how = small_slices) {
+  Simulation simulation(state, model, threads, Stepping::plain, how);
+  simulation.advance(steps);
+  return simulation.state();
+}
+
+/// Steps from the start of `state` that can be done without another look.
+std::int64_t steps_ahead(State state, std::size_t slices) {
+  Candidates candidates(state, CappedSlip{}, 1, Candidates::short_skin, slices);
+  CoarsePositions coarse = candidates.when_sorted();
+  return candidates.ready_for(state, coarse, candidates.share(0), state.step, small_slices.steps);
+}
+
+/// A long piece of a corrugated tube.
+State long_tube(double polydispersity, double inertia = 0.0) {
+  State state = empty_box(8e-3, 120e-3);
+  state.gravity = {.x = 1.0, .y = 10.0};
+  state.grains.inertia = inertia;
+  add_walls(state, 100);
+  Dice dice(81);
+  throw_grains(state, 400,
+               {.left = 0.0,
+                .right = state.box.width,
+                .low = 0.0,
+                .high = state.box.length,
+                .speed = 2.0,
+                .common_vy = 2.0,
+                .polydispersity = polydispersity},
+               dice);
+  return state;
+}
+
+constexpr double diameter = 2.0 * radius;
+
+/// Grains at rest, in the middle of which pairs that overlap fly apart: towards other grains and
+/// walls that are no candidates, in a time in which steps are long. `overlap` in diameters.
+State springs(double overlap) {
+  constexpr int rows = 60;
+  State state = empty_box(10e-3, rows * 4e-3);
+  add_walls(state, rows * 8);
+  Dice dice(82);
+  const double beyond_skin = Candidates::short_skin * diameter;
+  for (int row = 0; row < rows; ++row) {
+    const double y = row * 4e-3;
+    // The first grain of the pair as far from the wall as it may be without being near it.
+    const double x = wall_radius + radius + dice.between(0.5, 0.8) * beyond_skin;
+    const double second = x + (1.0 - overlap) * diameter;
+    add_grain(state, grain(x, y, 0.0, 0.0));
+    add_grain(state, grain(second, y, 0.0, 0.0));
+    add_grain(state,
+              grain(second + diameter + dice.between(1.01, 1.3) * beyond_skin, y, 0.0, 0.0));
+  }
+  return state;
+}
+
+/// With a collision of some three steps.
+ContactModel hard_model() {
+  return {LinearLaw{0.5 * mass / (time_step * time_step), 0.0}, CappedSlip{}, friction,
+          Attraction::keep};
+}
+
+}  // namespace
+
+TEST_CASE("slices of a long tube go ahead of each other") {
+  CHECK(steps_ahead(long_tube(0.1), 10) == small_slices.steps);
+  CHECK(steps_ahead(springs(0.2), 4) == small_slices.steps);
+}
+
+TEST_CASE("slices do each step together where pairs may be of slices that are no neighbours") {
+  CHECK(steps_ahead(long_tube(0.1), 1) == 1);
+  CHECK(steps_ahead(long_tube(0.1), 2) == 1);
+  CHECK(steps_ahead(long_tube(0.1), 40) == 1);  // two or three rows of cells each
+}
+
+TEST_CASE("slices do each step together where grains are too fast for more") {
+  State state = long_tube(0.1);
+  state.grains.ux[7] = state.box.fixed_x(0.2 * Candidates::short_skin * diameter);
+  CHECK(steps_ahead(state, 10) == 1);
+}
+
+TEST_CASE("slices that go askew give the same bits on any number of threads") {
+  const State start = long_tube(0.2);
+  const State expected = advanced(start, paper_model(), 600, 1, Stepping::plain);
+  REQUIRE(expected.tally.grains.begun > 200);
+  REQUIRE(expected.tally.walls.begun > 40);
+  const int threads = GENERATE(1, 2, 3, 4);
+  CHECK(same(askew(start, paper_model(), 600, threads), expected));
+}
+
+TEST_CASE("slices of grains that rotate go askew with the same bits") {
+  const State start = long_tube(0.1, disc);
+  const State expected = advanced(start, rolling_model(), 400, 1, Stepping::plain);
+  CHECK(same(askew(start, rolling_model(), 400, 1), expected));
+  CHECK(same(askew(start, rolling_model(), 400, 2), expected));
+}
+
+TEST_CASE("calls that end at any step, and any lead, give the same bits") {
+  const State start = long_tube(0.0);
+  const State expected = advanced(start, paper_model(), 300, 1, Stepping::plain);
+  const std::int64_t lead = GENERATE(2, 3, 16);
+  Simulation simulation(start, paper_model(), 2, Stepping::plain,
+                        {.slice = 40, .steps = lead, .fewest = 0});
+  for (const std::int64_t steps : {1, 2, 7, 8, 9, 23, 50, 200}) simulation.advance(steps);
+  CHECK(same(simulation.state(), expected));
+}
+
+TEST_CASE("strays touch grains and walls that are no candidates") {
+  const double overlap = GENERATE(0.1, 0.15, 0.2);
+  const State start = springs(overlap);
+  const State expected = advanced(start, hard_model(), 24, 1, Stepping::plain);
+  const int threads = GENERATE(1, 2);
+  CHECK(same(askew(start, hard_model(), 24, threads), expected));
+}
+
+TEST_CASE("the strays of the test before touch somebody while slices are askew") {
+  const State after = advanced(springs(0.2), hard_model(), small_slices.steps, 1, Stepping::plain);
+  CHECK(after.tally.grains.begun > 65);  // more than the 60 pairs
+  CHECK(after.tally.walls.begun > 5);
+}
+
+TEST_CASE("a grain that is thrown beyond its neighbours at once is reported lost") {
+  const State start = springs(0.9);
+  const int threads = GENERATE(1, 2);
+  try {
+    askew(start, hard_model(), 24, threads);
+    FAIL("no failure");
+  } catch (const RunFailure& failure) {
+    CHECK_THAT(std::string(failure.what()), Contains("has left") && Contains("shorter time step"));
+  }
+}
