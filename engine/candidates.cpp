@@ -142,7 +142,8 @@ std::int64_t Candidates::ready_for(State& state, CoarsePositions& coarse, std::s
   const double room = 0.5 * skin_, speed = 2.0 * fastest();
   const double further = std::min(part_ahead * room / speed, static_cast<double>(wanted - 1));
   const std::int64_t steps = slices_are_thick_ ? 1 + static_cast<std::int64_t>(further) : 1;
-  const double ahead = steps > 1 ? speed * static_cast<double>(steps - 1) + part_in_case * room : 0.0;
+  const double ahead =
+      steps > 1 ? speed * static_cast<double>(steps - 1) + part_in_case * room : 0.0;
   if (largest(slices_, &Slice::gone) + ahead > room || step > hold_until_)
     look_again(state, coarse, share, step, ahead);
   return std::clamp<std::int64_t>(hold_until_ - step + 1, 1, steps);

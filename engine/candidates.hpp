@@ -155,7 +155,7 @@ private:
   CoarsePositions when_sorted_;
   std::size_t threads_;
   std::vector<Slice> slices_;
-  bool slices_are_thick_ = false;  // so that pairs are as ready_for() says
+  bool slices_are_thick_ = false;       // so that pairs are as ready_for() says
   std::vector<std::uint32_t> slot_of_;  // by id
 
   Fall fall_;                        // in a step

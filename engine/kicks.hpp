@@ -27,7 +27,8 @@ void take_up_kicks(Grains& grains, const Slice& mine, TakenUp taken_up) {
 /// them; there are so many others.
 void give_away_kicks(Slice& mine, std::size_t others);
 
-/// Collects what the contacts of `mine` and of the givers gave to the grains of `mine` in this step.
+/// Collects what the contacts of `mine` and of the givers gave to the grains of `mine` in this
+/// step.
 void receive_kicks(Grains& grains, std::span<const Slice> givers, Slice& mine);
 
 }  // namespace riesel

@@ -1,8 +1,8 @@
 // Plain stepping: all grains in each step, the leapfrog form of velocity Verlet.
 //
 // A slice does a step in three parts. It moves: velocities take up the last kicks, positions go on.
-// It touches: contacts are looked for and give their kicks. It receives: the kicks reach its grains.
-// To touch it needs the positions of its neighbours, to receive their kicks.
+// It touches: contacts are looked for and give their kicks. It receives: the kicks reach its
+// grains. To touch it needs the positions of its neighbours, to receive their kicks.
 //
 // Each thread has one slice, and all do each part together, where the grains fit into the caches.
 // Where they do not, a step waits for memory, and several steps with one part of the system cost
@@ -30,11 +30,11 @@ namespace riesel {
 
 /// How slices go askew. The results do not depend on it.
 struct Askew {
-  /// Grains of a slice: eight slices are some megabytes, as a part of the last cache is.
-  std::size_t slice = 8000;
-  std::int64_t steps = 8;  ///< that a slice is ahead at most
+  /// Grains of a slice: as many slices as it is ahead by steps fit into a part of the last cache.
+  std::size_t slice = 4000;
+  std::int64_t steps = 16;  ///< that a slice is ahead at most
   /// With fewer grains all slices do each step together: they fit into the caches as they are.
-  std::size_t fewest = 250'000;
+  std::size_t fewest = 200'000;
 
   /// How many slices each of the threads is to have.
   std::size_t slices_per_thread(std::size_t grains, int threads) const {

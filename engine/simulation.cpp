@@ -187,9 +187,9 @@ void Simulation::prepare() {
         std::make_unique<Candidates>(state_, model_.slip, threads, Flights::skin_per_diameter);
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
   } else {
-    candidates_ = std::make_unique<Candidates>(
-        state_, model_.slip, threads, Candidates::short_skin,
-        askew_.slices_per_thread(state_.grains.size(), threads));
+    candidates_ =
+        std::make_unique<Candidates>(state_, model_.slip, threads, Candidates::short_skin,
+                                     askew_.slices_per_thread(state_.grains.size(), threads));
     plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, threads, askew_);
   }
   profile_first_thread();

@@ -66,8 +66,7 @@ State springs(double overlap) {
     const double second = x + (1.0 - overlap) * diameter;
     add_grain(state, grain(x, y, 0.0, 0.0));
     add_grain(state, grain(second, y, 0.0, 0.0));
-    add_grain(state,
-              grain(second + diameter + dice.between(1.01, 1.3) * beyond_skin, y, 0.0, 0.0));
+    add_grain(state, grain(second + diameter + dice.between(1.01, 1.3) * beyond_skin, y, 0.0, 0.0));
   }
   return state;
 }

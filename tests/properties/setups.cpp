@@ -112,7 +112,8 @@ ContactModel random_model(Dice& dice) {
 
 SetUp random_set_up(std::uint64_t seed) {
   Dice dice(seed);
-  const double width = dice.between(4e-3, 15e-3), length = stretch(seed) * dice.between(4e-3, 20e-3);
+  const double width = dice.between(4e-3, 15e-3),
+               length = stretch(seed) * dice.between(4e-3, 20e-3);
   SetUp set_up{.start = empty_box(width, length),
                .model = random_model(dice),
                .steps = 100 + dice.below(600),
