@@ -146,7 +146,8 @@ std::int64_t Candidates::ready_for(State& state, CoarsePositions& coarse, std::s
       steps > 1 ? speed * static_cast<double>(steps - 1) + part_in_case * room : 0.0;
   if (largest(slices_, &Slice::gone) + ahead > room || step > hold_until_)
     look_again(state, coarse, share, step, ahead);
-  return std::clamp<std::int64_t>(hold_until_ - step + 1, 1, steps);
+  // The grains may have been sorted since.
+  return slices_are_thick_ ? std::clamp<std::int64_t>(hold_until_ - step + 1, 1, steps) : 1;
 }
 
 /// Sorts anew if somebody has gone so far that there is not enough room for what is ahead (m).

@@ -50,23 +50,38 @@ State long_tube(double polydispersity, double inertia = 0.0) {
 }
 
 constexpr double diameter = 2.0 * radius;
+constexpr double beyond_skin = Candidates::short_skin * diameter;
+constexpr int groups = 61;  // of three grains, so that some are shared by two slices
 
-/// Grains at rest, in the middle of which pairs that overlap fly apart: towards other grains and
-/// walls that are no candidates, in a time in which steps are long. `overlap` in diameters.
-State springs(double overlap) {
-  constexpr int rows = 60;
-  State state = empty_box(10e-3, rows * 4e-3);
-  add_walls(state, rows * 8);
+State at_rest() {
+  State state = empty_box(10e-3, groups * 5e-3);
+  add_walls(state, groups * 10);
+  return state;
+}
+
+/// Pairs that overlap and fly apart: towards a third grain and a wall that are no candidates.
+/// `overlap` in diameters.
+State springs_across(double overlap) {
+  State state = at_rest();
   Dice dice(82);
-  const double beyond_skin = Candidates::short_skin * diameter;
-  for (int row = 0; row < rows; ++row) {
-    const double y = row * 4e-3;
-    // The first grain of the pair as far from the wall as it may be without being near it.
-    const double x = wall_radius + radius + dice.between(0.5, 0.8) * beyond_skin;
-    const double second = x + (1.0 - overlap) * diameter;
-    add_grain(state, grain(x, y, 0.0, 0.0));
-    add_grain(state, grain(second, y, 0.0, 0.0));
-    add_grain(state, grain(second + diameter + dice.between(1.01, 1.3) * beyond_skin, y, 0.0, 0.0));
+  for (int group = 0; group < groups; ++group) {
+    const double y = group * 5e-3;
+    const double first = wall_radius + radius + dice.between(0.5, 0.8) * beyond_skin;
+    const double second = first + (1.0 - overlap) * diameter;
+    const double third = second + diameter + dice.between(1.01, 1.3) * beyond_skin;
+    for (const double x : {first, second, third}) add_grain(state, grain(x, y, 0.0, 0.0));
+  }
+  return state;
+}
+
+/// The same along the tube, where the third grain may be in another slice, on either side.
+State springs_along(double overlap, double side) {
+  State state = at_rest();
+  for (int group = 0; group < groups; ++group) {
+    const double first = group * 5e-3;
+    const double second = first + side * (diameter + 1.02 * beyond_skin);
+    const double third = second + side * (1.0 - overlap) * diameter;
+    for (const double y : {first, second, third}) add_grain(state, grain(5e-3, y, 0.0, 0.0));
   }
   return state;
 }
@@ -81,7 +96,8 @@ ContactModel hard_model() {
 
 TEST_CASE("slices of a long tube go ahead of each other") {
   CHECK(steps_ahead(long_tube(0.1), 10) == small_slices.steps);
-  CHECK(steps_ahead(springs(0.2), 4) == small_slices.steps);
+  CHECK(steps_ahead(springs_across(0.2), 4) == small_slices.steps);
+  CHECK(steps_ahead(springs_along(0.2, 1.0), 4) == small_slices.steps);
 }
 
 TEST_CASE("slices do each step together where pairs may be of slices that are no neighbours") {
@@ -124,20 +140,24 @@ TEST_CASE("calls that end at any step, and any lead, give the same bits") {
 
 TEST_CASE("strays touch grains and walls that are no candidates") {
   const double overlap = GENERATE(0.1, 0.15, 0.2);
-  const State start = springs(overlap);
+  const State start = GENERATE_COPY(springs_across(overlap), springs_along(overlap, 1.0),
+                                    springs_along(overlap, -1.0));
   const State expected = advanced(start, hard_model(), 24, 1, Stepping::plain);
   const int threads = GENERATE(1, 2);
   CHECK(same(askew(start, hard_model(), 24, threads), expected));
 }
 
 TEST_CASE("the strays of the test before touch somebody while slices are askew") {
-  const State after = advanced(springs(0.2), hard_model(), small_slices.steps, 1, Stepping::plain);
-  CHECK(after.tally.grains.begun > 65);  // more than the 60 pairs
-  CHECK(after.tally.walls.begun > 5);
+  const std::int64_t steps = small_slices.steps;
+  const State across = advanced(springs_across(0.2), hard_model(), steps, 1, Stepping::plain);
+  CHECK(across.tally.grains.begun > groups + 5);
+  CHECK(across.tally.walls.begun > 5);
+  const State along = advanced(springs_along(0.2, 1.0), hard_model(), steps, 1, Stepping::plain);
+  CHECK(along.tally.grains.begun == 2 * groups);
 }
 
 TEST_CASE("a grain that is thrown beyond its neighbours at once is reported lost") {
-  const State start = springs(0.9);
+  const State start = springs_across(0.9);
   const int threads = GENERATE(1, 2);
   try {
     askew(start, hard_model(), 24, threads);

@@ -100,7 +100,7 @@ FAULTS = [
     ("strays of the next slice that nobody catches", "engine/strays.cpp",
      "look(slot, mine);", "if (home == &mine) look(slot, mine);"),
     ("strays that find no wall", "engine/strays.cpp",
-     "add_walls(mine, slot, state.walls.size());", ""),
+     "near.slot == slot && near.wall == wall", "near.slot == slot || near.wall == wall"),
     ("a slice that does not wait for where the next has moved", "engine/plain_steps.cpp",
      "if (progress_[after].moved < step) return any;", ""),
     ("a slice that does not wait for the kicks of the one before", "engine/plain_steps.cpp",
