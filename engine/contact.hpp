@@ -21,10 +21,17 @@ struct ContactName {
 
 inline constexpr std::int32_t no_wall = -1;
 
-/// Of contacts that are to be told about, one each at most: what is told must not depend on who
-/// found which.
-inline std::optional<ContactName> first_by_name(const std::optional<ContactName>& a,
-                                                const std::optional<ContactName>& b) {
+/// A contact whose force is no usable number.
+struct Trouble {
+  std::int64_t step;
+  ContactName contact;
+
+  auto operator<=>(const Trouble&) const = default;
+};
+
+/// Of what is to be told about, one at most: what is told must not depend on who found which.
+template <class T>
+std::optional<T> first_of(const std::optional<T>& a, const std::optional<T>& b) {
   return a && b ? std::min(*a, *b) : a ? a : b;
 }
 

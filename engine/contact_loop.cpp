@@ -77,7 +77,7 @@ void resolve_contacts(Slice& slice, const State& state, const StepUnits& units,
   begin_at_walls(slice, state, units);
   for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts}) {
     contacts->step(bodies(state.grains), units, model);
-    complete_step(slice, *contacts, [&](std::size_t i) {
+    complete_step(slice, *contacts, units, [&](std::size_t i) {
       const Meeting& meeting = contacts->meeting(i);
       if (meeting.name.wall == no_wall) slice.inner.take_back(slice.pairs, meeting.candidate);
     });

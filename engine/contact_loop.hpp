@@ -43,11 +43,13 @@ void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed
   });
 }
 
-/// Completes a step of `contacts`: tells trouble, counts those that have ended and removes them;
-/// calls ended(i) before contact i goes.
+/// Completes the step of `contacts` that is that of `units`: tells trouble, counts those that have
+/// ended and removes them; calls ended(i) before contact i goes.
 template <class Ended>
-void complete_step(Slice& slice, LiveContacts& contacts, Ended ended) {
-  slice.trouble = first_by_name(slice.trouble, contacts.trouble());
+void complete_step(Slice& slice, LiveContacts& contacts, const StepUnits& units, Ended ended) {
+  if (const auto& contact = contacts.trouble())
+    slice.trouble = first_of(
+        slice.trouble, std::optional(Trouble{static_cast<std::int64_t>(units.step), *contact}));
   for (const std::size_t i : contacts.ended()) {
     slice.tally.end(contacts.contact(i), contacts.meeting(i).reach());
     note_over(slice, contacts.meeting(i));

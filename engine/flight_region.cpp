@@ -232,12 +232,12 @@ void FlightRegion::step_contacts(std::int64_t step) {
   deflected_.clear_kicks();
 
   LiveContacts& pairs = slice_.pair_contacts;
-  complete_step(slice_, pairs, [&](std::size_t i) {
+  complete_step(slice_, pairs, units_, [&](std::size_t i) {
     let_go(pairs.first(i));
     let_go(pairs.second(i));
   });
   LiveContacts& walls = slice_.wall_contacts;
-  complete_step(slice_, walls, [&](std::size_t i) { let_go(walls.first(i)); });
+  complete_step(slice_, walls, units_, [&](std::size_t i) { let_go(walls.first(i)); });
   count_work_of_walls(slice_, units_);
   for_each_kick(
       slice_, [&](std::int64_t place, const BodyKick& kick) { deflected_.add_kick(place, kick); });

@@ -49,9 +49,9 @@ public:
   PlainSteps(State& state, const ContactModel& model, Candidates& candidates, int threads,
              const Askew& askew);
 
-  /// From step `now`, that of the state, to `last`, or until the run cannot go on: then it may be
-  /// some steps farther than where that became known. To be called by all threads of a team with
-  /// the same steps; `member` is the number of the thread.
+  /// From step `now`, that of the state, to `last`, or until the run cannot go on: then perhaps
+  /// some steps beyond the trouble. To be called by all threads of a team with the same steps;
+  /// `member` is the number of the thread.
   void advance(std::size_t member, std::int64_t now, std::int64_t last);
 
 private:

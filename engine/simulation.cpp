@@ -231,11 +231,11 @@ void Simulation::collect() {
 }
 
 void Simulation::fail_if_in_trouble() const {
-  std::optional<ContactName> trouble;
-  for (const Slice& slice : candidates_->slices()) trouble = first_by_name(trouble, slice.trouble);
+  std::optional<Trouble> trouble;
+  for (const Slice& slice : candidates_->slices()) trouble = first_of(trouble, slice.trouble);
   if (trouble)
-    throw RunFailure("the force between " + partners(*trouble) + " is not finite " + when(state_)
-                     + "; a shorter time step may help");
+    throw RunFailure("the force between " + partners(trouble->contact) + " is not finite "
+                     + when(trouble->step, state_.time_step) + "; a shorter time step may help");
   for (const Slice& slice : candidates_->slices()) {
     if (slice.lost)
       throw RunFailure(

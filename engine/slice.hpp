@@ -61,7 +61,7 @@ struct alignas(cache_line) Slice {
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
   double gone = 0.0;      ///< m, bound on it: what it was at the last look, and the motion since
   bool failed() const { return trouble || lost; }
-  std::optional<ContactName> trouble;  ///< the first contact whose force is no usable number
+  std::optional<Trouble> trouble;  ///< the first
   /// id of a grain that has left the representable space, or the reach of those who look for it
   std::optional<std::int32_t> lost;
 

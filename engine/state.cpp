@@ -171,9 +171,9 @@ Grains ordered_by_id(const Grains& grains) {
   return ordered;
 }
 
-std::string when(const State& state) {
+std::string when(std::int64_t step, double time_step) {
   std::ostringstream text;
-  text << "at t = " << state.time() << " s (step " << state.step << ")";
+  text << "at t = " << static_cast<double>(step) * time_step << " s (step " << step << ")";
   return text.str();
 }
 

@@ -148,7 +148,8 @@ double total_mass(const Grains& grains);
 Grains ordered_by_id(const Grains& grains);
 
 /// The moment, for messages: "at t = 0.0125 s (step 1234)".
-std::string when(const State& state);
+std::string when(std::int64_t step, double time_step);
+inline std::string when(const State& state) { return when(state.step, state.time_step); }
 
 /// 64-bit FNV-1a hash of all that the future depends on, the same for any order of the slots.
 std::uint64_t state_hash(const State& state);

@@ -166,3 +166,23 @@ TEST_CASE("a grain that is thrown beyond its neighbours at once is reported lost
     CHECK_THAT(std::string(failure.what()), Contains("has left") && Contains("shorter time step"));
   }
 }
+
+TEST_CASE("a force that is not finite is told of in the step in which it was found") {
+  // Two grains that hardly feel each other are in the very same place in step 3.
+  const ContactModel weak{LinearLaw{1e-20, 0.0}, CappedSlip{}, 0.0, Attraction::keep};
+  State start = long_tube(0.0);
+  Grains& g = start.grains;
+  const Fixed step = start.box.fixed_x(5e-4 * diameter);
+  g.x[1] = wrapped_difference(g.x[0], wrapped_product(3, step));
+  g.ux[1] = wrapped_sum(g.ux[0], step);
+  g.y[1] = g.y[0];
+  g.uy[1] = g.uy[0];
+  const Askew how = GENERATE(Askew{}, small_slices);
+  try {
+    askew(start, weak, 100, 1, how);
+    FAIL("no failure");
+  } catch (const RunFailure& failure) {
+    CHECK_THAT(std::string(failure.what()),
+               Contains("grain 0 and grain 1 is not finite") && Contains("(step 3)"));
+  }
+}
