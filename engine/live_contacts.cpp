@@ -361,12 +361,18 @@ void LiveContacts::follow_bodies(const Bodies& bodies) {
   }
 }
 
-/// Room for whole blocks; what is beyond size() is zero.
+/// Room for whole blocks; what is beyond size() is zero, but for the bodies.
 void LiveContacts::pad() {
   const std::size_t room = LaneFlags<std::int32_t>::padded(size());
   if (reach_.size() >= room) return;
+  for (auto& a : body_) a.resize(2 * room, padding_body_);
   for_each_array([&](auto& a) { a.resize(2 * room); });
   found_of_many_.resize(2 * room);
+}
+
+void LiveContacts::pad_with(std::int64_t place) {
+  padding_body_ = place;
+  for (auto& a : body_) std::fill(a.begin() + static_cast<std::ptrdiff_t>(size()), a.end(), place);
 }
 
 void LiveContacts::clear() {
@@ -374,6 +380,7 @@ void LiveContacts::clear() {
   beginning_ = followed_ = 0;
   any_level_ = false;
   for_each_array([](auto& a) { std::fill(a.begin(), a.end(), 0); });
+  pad_with(padding_body_);
 }
 
 void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
@@ -409,6 +416,7 @@ void LiveContacts::remove(std::size_t i) {
     a[i] = a[last];
     a[last] = 0;
   });
+  for (auto& a : body_) a[last] = padding_body_;
 }
 
 template <LiveContacts::Partner partner, class Turn, class Normal, class Slip>

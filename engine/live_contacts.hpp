@@ -35,6 +35,10 @@ public:
     pad();
   }
 
+  /// Vectors are filled up with lanes that are no contacts. These look at the body in this place
+  /// instead of the first of all, which others may be changing.
+  void pad_with(std::int64_t place);
+
   std::size_t size() const { return meetings_.size(); }
   const Meeting& meeting(std::size_t i) const { return meetings_[i]; }
   Contact contact(std::size_t i) const;
@@ -113,6 +117,7 @@ private:
   std::size_t followed_ = 0;   // so many have been stepped; the others have been added since
   std::vector<Meeting> meetings_;
   // The arrays are padded with lanes of zero reach, which never touch, to whole blocks.
+  std::int64_t padding_body_ = 0;
   std::array<AlignedVector<std::int64_t>, 2> body_;  // first and second
   // Members of a BodyMotion: of the point of a wall, or of the second grain as seen from the first,
   // which kicks alone change from step to step.

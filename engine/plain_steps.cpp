@@ -30,14 +30,19 @@ PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& cand
     : state_(state),
       model_(model),
       candidates_(candidates),
-      fall_(fall_per_step(state)),
+      units_(state),
       most_steps_askew_(askew.steps),
       coarse_(candidates.when_sorted()),
       progress_(candidates.slices().size()),
-      barrier_(threads) {}
+      barrier_(threads) {
+  for (Slice& slice : candidates.slices())
+    for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts})
+      contacts->pad_with(static_cast<std::int64_t>(slice.begin));
+}
 
 void PlainSteps::advance(std::size_t member, std::int64_t now, std::int64_t last) {
   const std::span<Slice> share = candidates_.share(member);
+  StepUnits units = units_;
   while (now < last && !candidates_.in_trouble()) {
     const std::int64_t next = now + 1;
     for (Slice& mine : share) move(mine, next);
@@ -48,9 +53,9 @@ void PlainSteps::advance(std::size_t member, std::int64_t now, std::int64_t last
     now += candidates_.ready_for(state_, coarse_, share, next,
                                  std::min(most_steps_askew_, last - now));
     if (now == next)
-      step_together(share, next);
+      step_together(share, units, next);
     else
-      step_askew(share, next, now);
+      step_askew(share, units, next, now);
   }
 }
 
@@ -59,7 +64,7 @@ void PlainSteps::move(Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
   take_up_kicks(g, mine, [&](std::uint32_t slot) { candidates_.note_speed(state_, mine, slot); });
   const std::size_t count = mine.end - mine.begin;
-  const Fall fallen = fall_.times(step);
+  const Fall fallen = units_.fall.times(step);
   fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
   fly(count, fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]);
   Candidates::count_motion(mine);
@@ -67,12 +72,11 @@ void PlainSteps::move(Slice& mine, std::int64_t step) {
 }
 
 /// `motion` (m): no grain in a pair of the slice has moved farther in this step.
-void PlainSteps::touch(Slice& mine, std::int64_t step, double motion) {
+void PlainSteps::touch(Slice& mine, StepUnits& units, std::int64_t step, double motion) {
   mine.profile.begin_step(step);
   mine.inner.spend(motion);
   find_overlapping(mine, state_, coarse_, candidates_.units());
   mine.profile.done(Profile::Phase::search);
-  StepUnits units(state_);
   units.move_to(step);
   resolve_contacts(mine, state_, units, model_);
   give_away_kicks(mine, candidates_.slices().size() - 1);
@@ -85,15 +89,16 @@ void PlainSteps::receive(Slice& mine, std::int64_t step, std::span<const Slice> 
   mine.profile.done(Profile::Phase::receive);
 }
 
-void PlainSteps::step_together(std::span<Slice> share, std::int64_t step) {
+void PlainSteps::step_together(std::span<Slice> share, StepUnits& units, std::int64_t step) {
   const double motion = candidates_.fastest();
-  for (Slice& mine : share) touch(mine, step, motion);
+  for (Slice& mine : share) touch(mine, units, step, motion);
   barrier_.arrive_and_wait();
   for (Slice& mine : share) receive(mine, step, candidates_.slices());
 }
 
 /// From the first step, to which all slices have moved, to the last, in which all have received.
-void PlainSteps::step_askew(std::span<Slice> share, std::int64_t first, std::int64_t last) {
+void PlainSteps::step_askew(std::span<Slice> share, StepUnits& units, std::int64_t first,
+                            std::int64_t last) {
   constexpr int looks = 500;  // some microseconds
   const auto begin = static_cast<std::size_t>(share.data() - candidates_.slices().data());
   const auto end = begin + share.size();
@@ -108,7 +113,7 @@ void PlainSteps::step_askew(std::span<Slice> share, std::int64_t first, std::int
                      [](const Progress& p) { return !p.done; })) {
     bool any = false;
     for (std::size_t slice = begin; slice < end; ++slice)
-      for (std::size_t s = slice; go_on(s, last); --s) {
+      for (std::size_t s = slice; go_on(s, units, last); --s) {
         any = true;
         if (s == begin) break;
       }
@@ -124,7 +129,7 @@ void PlainSteps::step_askew(std::span<Slice> share, std::int64_t first, std::int
 }
 
 /// Does what this slice can do now, up to its part of step `last`; false if that is nothing.
-bool PlainSteps::go_on(std::size_t slice, std::int64_t last) {
+bool PlainSteps::go_on(std::size_t slice, StepUnits& units, std::int64_t last) {
   std::vector<Slice>& slices = candidates_.slices();
   const std::size_t before = slice == 0 ? slices.size() - 1 : slice - 1;
   const std::size_t after = slice + 1 == slices.size() ? 0 : slice + 1;
@@ -137,7 +142,7 @@ bool PlainSteps::go_on(std::size_t slice, std::int64_t last) {
       if (progress_[after].moved < step) return any;
       // The next slice stays at this step until this one has touched.
       candidates_.catch_strays(state_, coarse_, mine, next, step);
-      touch(mine, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
+      touch(mine, units, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
       progress.touched = step;
       any = true;
     }

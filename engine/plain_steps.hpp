@@ -16,6 +16,7 @@
 #include "engine/aligned.hpp"
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
+#include "engine/encounter.hpp"
 #include "engine/state.hpp"
 #include "engine/team_barrier.hpp"
 
@@ -62,16 +63,16 @@ private:
   };
 
   void move(Slice& mine, std::int64_t step);
-  void touch(Slice& mine, std::int64_t step, double motion);
+  void touch(Slice& mine, StepUnits& units, std::int64_t step, double motion);
   void receive(Slice& mine, std::int64_t step, std::span<const Slice> givers);
-  void step_together(std::span<Slice> share, std::int64_t step);
-  void step_askew(std::span<Slice> share, std::int64_t first, std::int64_t last);
-  bool go_on(std::size_t slice, std::int64_t last);
+  void step_together(std::span<Slice> share, StepUnits& units, std::int64_t step);
+  void step_askew(std::span<Slice> share, StepUnits& units, std::int64_t first, std::int64_t last);
+  bool go_on(std::size_t slice, StepUnits& units, std::int64_t last);
 
   State& state_;
   const ContactModel& model_;
   Candidates& candidates_;
-  const Fall fall_;  // in a step
+  const StepUnits units_;  // of some step; each thread has a copy
   const std::int64_t most_steps_askew_;
   CoarsePositions coarse_;  // of all grains
   std::vector<Progress> progress_;

@@ -51,10 +51,10 @@ State long_tube(double polydispersity, double inertia = 0.0) {
 
 constexpr double diameter = 2.0 * radius;
 constexpr double beyond_skin = Candidates::short_skin * diameter;
-constexpr int groups = 61;  // of three grains, so that some are shared by two slices
+constexpr std::int64_t groups = 61;  // of three grains, so that some are shared by two slices
 
 State at_rest() {
-  State state = empty_box(10e-3, groups * 5e-3);
+  State state = empty_box(10e-3, static_cast<double>(groups) * 5e-3);
   add_walls(state, groups * 10);
   return state;
 }
@@ -64,8 +64,8 @@ State at_rest() {
 State springs_across(double overlap) {
   State state = at_rest();
   Dice dice(82);
-  for (int group = 0; group < groups; ++group) {
-    const double y = group * 5e-3;
+  for (std::int64_t group = 0; group < groups; ++group) {
+    const double y = static_cast<double>(group) * 5e-3;
     const double first = wall_radius + radius + dice.between(0.5, 0.8) * beyond_skin;
     const double second = first + (1.0 - overlap) * diameter;
     const double third = second + diameter + dice.between(1.01, 1.3) * beyond_skin;
@@ -77,8 +77,8 @@ State springs_across(double overlap) {
 /// The same along the tube, where the third grain may be in another slice, on either side.
 State springs_along(double overlap, double side) {
   State state = at_rest();
-  for (int group = 0; group < groups; ++group) {
-    const double first = group * 5e-3;
+  for (std::int64_t group = 0; group < groups; ++group) {
+    const double first = static_cast<double>(group) * 5e-3;
     const double second = first + side * (diameter + 1.02 * beyond_skin);
     const double third = second + side * (1.0 - overlap) * diameter;
     for (const double y : {first, second, third}) add_grain(state, grain(5e-3, y, 0.0, 0.0));
