@@ -199,7 +199,7 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
   }
 #pragma omp barrier
   for (Slice& mine : share) {
-    list_pairs(state, mine);
+    list_pairs(state, mine, share.front().close);
     list_near_walls(state, mine);
     list_received(state.grains, mine);
     measure_speeds(state, mine);
@@ -240,15 +240,15 @@ void Candidates::start_over(const State& state, std::int64_t step) {
 }
 
 /// First the pairs within the longest reach, a few at a time, then of them those within their own.
-void Candidates::list_pairs(const State& state, Slice& mine) {
+void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPair>& close) const {
   constexpr std::size_t slots_at_a_time = 1024;
   const Grains& grains = state.grains;
   const float farthest2 = units_.generous_square(2.0 * max_radius_ + skin_);
   mine.pairs.clear();
   for (std::size_t begin = mine.begin; begin < mine.end; begin += slots_at_a_time) {
     const SlotRange slots{begin, std::min(begin + slots_at_a_time, mine.end)};
-    find_close(cells_, slots, when_sorted_, units_, farthest2, mine.close);
-    for (const auto& [i, j] : mine.close) {
+    find_close(cells_, slots, when_sorted_, units_, farthest2, close);
+    for (const auto& [i, j] : close) {
       const double reach = grains.radius[i] + grains.radius[j];
       if (when_sorted_.squared_distance(i, j, units_) < units_.generous_square(reach + skin_))
         mine.pairs.add(i, j, units_.generous_square(reach));

@@ -118,7 +118,7 @@ private:
                   double ahead);
   void renew(State& state, std::span<Slice> share, std::int64_t step);
   void start_over(const State& state, std::int64_t step);
-  void list_pairs(const State& state, Slice& mine);
+  void list_pairs(const State& state, Slice& mine, std::vector<SlotPair>& close) const;
   void list_near_walls(const State& state, Slice& mine) const;
   static void list_received(const Grains& grains, Slice& mine);
   void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;

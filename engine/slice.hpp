@@ -43,7 +43,7 @@ struct alignas(cache_line) Slice {
   std::size_t begin = 0, end = 0;  ///< slots
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere
   InnerPairs inner;                ///< those of the pairs that plain stepping tests
-  std::vector<SlotPair> close;     ///< while the pairs are being listed
+  std::vector<SlotPair> close;     ///< while the thread lists pairs, in its first slice
   std::vector<NearWall> near_walls;
 
   std::vector<std::uint32_t> hits;       ///< indices of inner pairs that may overlap in this step
