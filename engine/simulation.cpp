@@ -71,17 +71,20 @@ int team_size(int wanted) {
 }
 
 /// What to try first. In units of what plain stepping takes for a grain without contacts, flights
-/// take some 2.5 more for a contact, and next to nothing for a grain: docs/performance.md.
-bool flights_look_faster(const State& state) {
+/// take some 2.5 more for a contact, and next to nothing for a grain; where there are so many
+/// grains that slices go askew, flights wait for memory and plain stepping does not:
+/// docs/performance.md.
+bool flights_look_faster(const State& state, const Askew& askew) {
   const auto contacts = static_cast<double>(state.contacts.size());
-  const auto grains = static_cast<double>(state.grains.size());
-  return 2.5 * contacts < grains;
+  const double price = state.grains.size() < askew.fewest ? 2.5 : 25.0;
+  return price * contacts < static_cast<double>(state.grains.size());
 }
 
 /// The ways that `stepping` allows, the one to begin with first.
-std::vector<Way> ways(Stepping stepping, const State& state, int threads) {
-  const bool flights_first = stepping == Stepping::windows
-                             || (stepping == Stepping::automatic && flights_look_faster(state));
+std::vector<Way> ways(Stepping stepping, const State& state, int threads, const Askew& askew) {
+  const bool flights_first =
+      stepping == Stepping::windows
+      || (stepping == Stepping::automatic && flights_look_faster(state, askew));
   std::vector<Way> all{{.by_flights = flights_first, .threads = threads}};
   if (stepping != Stepping::automatic) return all;
   all.push_back({.by_flights = !flights_first, .threads = threads});
@@ -128,7 +131,7 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       model_(model),
       threads_(team_size(threads)),
       askew_(askew),
-      choice_(ways(stepping, state_, threads_)),
+      choice_(ways(stepping, state_, threads_, askew_)),
       wall_watch_(state_, model_) {
   prepare();
 }
