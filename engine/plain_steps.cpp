@@ -142,6 +142,7 @@ bool PlainSteps::go_on(std::size_t slice, StepUnits& units, std::int64_t last) {
       if (progress_[after].moved < step) return any;
       // The next slice stays at this step until this one has touched.
       candidates_.catch_strays(state_, coarse_, mine, next, step);
+      mine.inner.heed(mine.inner.use());  // nobody waits for it to make a new list
       touch(mine, units, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
       progress.touched = step;
       any = true;
