@@ -12,8 +12,8 @@ struct SlotPair {
   std::uint32_t first, second;
 };
 
-/// Pairs of slots that can touch before the next sorting, ordered by the first. Arrays of equal
-/// size.
+/// Pairs of slots that can touch before the next sorting, ordered by the first but for those that
+/// have been added since they were listed. Arrays of equal size.
 struct CandidatePairs {
   AlignedVector<std::uint32_t> first, second;
   /// m^2, (sum of radii)^2 plus the resolution of the coarse positions; negative while the pair is

@@ -46,7 +46,7 @@ std::int64_t steps_of_fall(double fall, double room) {
   return static_cast<std::int64_t>(std::min(steps * (1.0 - 1e-9), most));
 }
 
-/// Index among the pairs of `slice`, in this order of the two.
+/// Index among the pairs of `slice`, which have just been listed, in this order of the two.
 std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
                                      std::uint32_t second) {
   const CandidatePairs& pairs = slice.pairs;
@@ -58,6 +58,7 @@ std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
   return std::nullopt;
 }
 
+/// Likewise.
 std::optional<std::uint32_t> near_wall_in(const Slice& slice, std::uint32_t slot,
                                           std::int32_t wall) {
   const auto& near = slice.near_walls;
@@ -118,6 +119,12 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
   }
   if (kept() < state.contacts.size())
     throw std::invalid_argument("a contact between bodies that are far from each other");
+}
+
+double Candidates::rows(const State& state) {
+  const Grains& grains = state.grains;
+  const double largest = 2.0 * *std::max_element(grains.radius.begin(), grains.radius.end());
+  return state.box.length / (largest + short_skin * mean_diameter(grains));
 }
 
 bool Candidates::in_trouble() const {
@@ -265,7 +272,9 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
   mine.near_walls.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
     const double x = state.box.metres_x(state.grains.x[i]);
-    if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width) mine.lost = state.grains.id[i];
+    if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width)
+      mine.lost =
+          first_of(mine.lost, std::optional(LostGrain{sorted_at_, state.grains.id[i], false}));
     for (std::size_t w = 0; w < state.walls.size(); ++w) {
       const double reach = state.grains.radius[i] + state.walls[w].reach();
       if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_ + room_for_fall)

@@ -44,6 +44,9 @@ public:
   Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter,
              std::size_t slices_per_thread = 1);
 
+  /// How many rows of cells plain stepping has, about.
+  static double rows(const State& state);
+
   std::vector<Slice>& slices() { return slices_; }
   const std::vector<Slice>& slices() const { return slices_; }
   /// The slices of one thread.
@@ -68,9 +71,10 @@ public:
   /// itself, for which they hold for sure, at most `wanted`. Looks at the true displacements if
   /// need be, and sorts anew if they are too large. If it is more than one step, the second grain
   /// of a pair is in the slice of the first or in the next, and catch_strays() must be called
-  /// before each search. `state` and `coarse`, the positions of its grains, must be those of
-  /// `step`. To be called by all threads of a team after a barrier; all get the same answer, and
-  /// what it changes is complete when it returns.
+  /// before each search, as who becomes faster than expected is in time for no look. `state` and
+  /// `coarse`, the positions of its grains, must be those of `step`. To be called by all threads of
+  /// a team after a barrier; all get the same answer, and what it changes is complete when it
+  /// returns.
   std::int64_t ready_for(State& state, CoarsePositions& coarse, std::span<Slice> share,
                          std::int64_t step, std::int64_t wanted);
 

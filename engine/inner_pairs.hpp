@@ -23,8 +23,8 @@ public:
   /// There are new candidates, which have a skin of `outer_skin` (m): the list holds no longer.
   void start_over(double outer_skin);
 
-  /// A step has been done in which no grain has moved farther than this (m), relative to a motion
-  /// common to all.
+  /// A step has been done in which no grain of the candidates has moved farther than this (m),
+  /// relative to a motion common to all.
   void spend(double motion) {
     budget_ -= motion;
     ++age_;

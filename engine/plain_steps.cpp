@@ -25,6 +25,16 @@ RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, F
 
 }  // namespace
 
+std::size_t Askew::slices_per_thread(const State& state, int threads) const {
+  // So that slices have enough rows even where grains are denser than elsewhere.
+  constexpr double rows_per_slice = 10.0;
+  const std::size_t grains = state.grains.size(), members = static_cast<std::size_t>(threads);
+  if (grains < fewest) return 1;
+  const auto most = static_cast<std::size_t>(Candidates::rows(state) / rows_per_slice) / members;
+  const std::size_t slices = std::min(grains / members / slice, most);
+  return slices * members < 3 ? 1 : slices;
+}
+
 PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& candidates, int threads,
                        const Askew& askew)
     : state_(state),
@@ -40,85 +50,81 @@ PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& cand
       contacts->pad_with(static_cast<std::int64_t>(slice.begin));
 }
 
-void PlainSteps::advance(std::size_t member, std::int64_t now, std::int64_t last) {
-  const std::span<Slice> share = candidates_.share(member);
-  StepUnits units = units_;
+void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last) {
+  const std::span<Slice> share = candidates_.share(number);
+  Member member{.share = share, .units = units_, .profile = share.front().profile};
   while (now < last && !candidates_.in_trouble()) {
     const std::int64_t next = now + 1;
-    for (Slice& mine : share) move(mine, next);
+    member.profile.begin_step(next);
+    for (Slice& mine : share) move(member, mine, next);
     candidates_.compare_inner_lists(share);
 #pragma omp master
     state_.step = next;
     barrier_.arrive_and_wait();
+    member.profile.done(Profile::Phase::fly);
     now += candidates_.ready_for(state_, coarse_, share, next,
                                  std::min(most_steps_askew_, last - now));
     if (now == next)
-      step_together(share, units, next);
+      step_together(member, next);
     else
-      step_askew(share, units, next, now);
+      step_askew(member, next, now);
   }
 }
 
-void PlainSteps::move(Slice& mine, std::int64_t step) {
-  mine.profile.begin_step(step);
+void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
   take_up_kicks(g, mine, [&](std::uint32_t slot) { candidates_.note_speed(state_, mine, slot); });
   const std::size_t count = mine.end - mine.begin;
-  const Fall fallen = units_.fall.times(step);
+  const Fall fallen = member.units.fall.times(step);
   fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
   fly(count, fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]);
   Candidates::count_motion(mine);
-  mine.profile.done(Profile::Phase::fly);
+  member.profile.done(Profile::Phase::fly);
 }
 
 /// `motion` (m): no grain in a pair of the slice has moved farther in this step.
-void PlainSteps::touch(Slice& mine, StepUnits& units, std::int64_t step, double motion) {
-  mine.profile.begin_step(step);
+void PlainSteps::touch(Member& member, Slice& mine, std::int64_t step, double motion) {
   mine.inner.spend(motion);
   find_overlapping(mine, state_, coarse_, candidates_.units());
-  mine.profile.done(Profile::Phase::search);
-  units.move_to(step);
-  resolve_contacts(mine, state_, units, model_);
+  member.profile.done(Profile::Phase::search);
+  member.units.move_to(step);
+  resolve_contacts(mine, state_, member.units, model_);
   give_away_kicks(mine, candidates_.slices().size() - 1);
-  mine.profile.done(Profile::Phase::forces);
+  member.profile.done(Profile::Phase::forces);
 }
 
-void PlainSteps::receive(Slice& mine, std::int64_t step, std::span<const Slice> givers) {
-  mine.profile.begin_step(step);
+void PlainSteps::receive(Member& member, Slice& mine, std::span<const Slice> givers) {
   receive_kicks(state_.grains, givers, mine);
-  mine.profile.done(Profile::Phase::receive);
+  member.profile.done(Profile::Phase::receive);
 }
 
-void PlainSteps::step_together(std::span<Slice> share, StepUnits& units, std::int64_t step) {
+void PlainSteps::step_together(Member& member, std::int64_t step) {
   const double motion = candidates_.fastest();
-  for (Slice& mine : share) touch(mine, units, step, motion);
+  for (Slice& mine : member.share) touch(member, mine, step, motion);
   barrier_.arrive_and_wait();
-  for (Slice& mine : share) receive(mine, step, candidates_.slices());
+  for (Slice& mine : member.share) receive(member, mine, candidates_.slices());
 }
 
 /// From the first step, to which all slices have moved, to the last, in which all have received.
-void PlainSteps::step_askew(std::span<Slice> share, StepUnits& units, std::int64_t first,
-                            std::int64_t last) {
-  constexpr int looks = 500;  // some microseconds
-  const auto begin = static_cast<std::size_t>(share.data() - candidates_.slices().data());
-  const auto end = begin + share.size();
-  for (std::size_t slice = begin; slice < end; ++slice) {
-    progress_[slice].moved = first;
-    progress_[slice].touched = first - 1;
-    progress_[slice].done = false;
+void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t last) {
+  const auto begin = static_cast<std::size_t>(member.share.data() - candidates_.slices().data());
+  const std::span<Progress> progress(&progress_[begin], member.share.size());
+  for (Progress& p : progress) {
+    p.moved = first;
+    p.touched = first - 1;
+    p.done = false;
   }
   barrier_.arrive_and_wait();
   int idle = 0;
-  while (std::any_of(&progress_[begin], &progress_[begin] + share.size(),
-                     [](const Progress& p) { return !p.done; })) {
+  while (std::any_of(progress.begin(), progress.end(), [](const Progress& p) { return !p.done; })) {
     bool any = false;
-    for (std::size_t slice = begin; slice < end; ++slice)
-      for (std::size_t s = slice; go_on(s, units, last); --s) {
+    for (std::size_t slice = begin; slice < begin + progress.size(); ++slice)
+      for (std::size_t s = slice; go_on(member, s, last); --s) {
         any = true;
         if (s == begin) break;
       }
     idle = any ? 0 : idle + 1;
-    if (idle > looks)
+    if (idle > TeamBarrier::looks)
       std::this_thread::yield();
     else if (idle > 0)
       pause_core();
@@ -129,7 +135,7 @@ void PlainSteps::step_askew(std::span<Slice> share, StepUnits& units, std::int64
 }
 
 /// Does what this slice can do now, up to its part of step `last`; false if that is nothing.
-bool PlainSteps::go_on(std::size_t slice, StepUnits& units, std::int64_t last) {
+bool PlainSteps::go_on(Member& member, std::size_t slice, std::int64_t last) {
   std::vector<Slice>& slices = candidates_.slices();
   const std::size_t before = slice == 0 ? slices.size() - 1 : slice - 1;
   const std::size_t after = slice + 1 == slices.size() ? 0 : slice + 1;
@@ -143,16 +149,16 @@ bool PlainSteps::go_on(std::size_t slice, StepUnits& units, std::int64_t last) {
       // The next slice stays at this step until this one has touched.
       candidates_.catch_strays(state_, coarse_, mine, next, step);
       mine.inner.heed(mine.inner.use());  // nobody waits for it to make a new list
-      touch(mine, units, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
+      touch(member, mine, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
       progress.touched = step;
       any = true;
     }
     if (progress_[before].touched < step) return any;
-    receive(mine, step, std::span(&slices[before], 1));
+    receive(member, mine, std::span(&slices[before], 1));
     any = true;
     progress.done = step == last;
     if (step == last) break;
-    move(mine, step + 1);
+    move(member, mine, step + 1);
     progress.moved = step + 1;
   }
   return any;

@@ -8,9 +8,9 @@
 // Where they do not, a step waits for memory, and several steps with one part of the system cost
 // little more than one. So many grains have many slices, one after the other along the tube, and
 // these go askew: as soon as one has moved, the one before it can touch, receive and move to the
-// next step, then the one before that, and so on, while all of them are still in the cache. A
-// slice is up to so many steps ahead of the next as the candidates are known to hold. The results
-// are the same, as the sums of integers do not depend on order.
+// next step, then the one before that, and so on, while all of them are still in the cache. So each
+// slice is at most one step ahead of the next, and any of any other by as many steps as the
+// candidates hold. The results are the same, as the sums of integers do not depend on order.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -20,7 +20,6 @@
 #include "engine/state.hpp"
 #include "engine/team_barrier.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -31,22 +30,20 @@ namespace riesel {
 
 /// How slices go askew. The results do not depend on it.
 struct Askew {
-  /// Grains of a slice: as many slices as it is ahead by steps fit into a part of the last cache.
+  /// Grains of a slice, or more where the box is wide: so few that as many slices as there are
+  /// steps between the first and the last fit into a part of the last cache.
   std::size_t slice = 4000;
-  std::int64_t steps = 16;  ///< that a slice is ahead at most
+  std::int64_t steps = 16;  ///< that one slice is ahead of another at most
   /// With fewer grains all slices do each step together: they fit into the caches as they are.
   std::size_t fewest = 200'000;
 
-  /// How many slices each of the threads is to have.
-  std::size_t slices_per_thread(std::size_t grains, int threads) const {
-    const std::size_t each = grains / static_cast<std::size_t>(threads);
-    return grains < fewest ? 1 : std::max<std::size_t>(1, each / slice);
-  }
+  /// How many slices each of the threads is to have: one if they cannot go askew.
+  std::size_t slices_per_thread(const State& state, int threads) const;
 };
 
 class PlainSteps {
 public:
-  /// Nobody else uses the candidates afterwards. Keeps references.
+  /// Nobody else steps with the candidates afterwards. Keeps references.
   PlainSteps(State& state, const ContactModel& model, Candidates& candidates, int threads,
              const Askew& askew);
 
@@ -62,17 +59,24 @@ private:
     bool done;
   };
 
-  void move(Slice& mine, std::int64_t step);
-  void touch(Slice& mine, StepUnits& units, std::int64_t step, double motion);
-  void receive(Slice& mine, std::int64_t step, std::span<const Slice> givers);
-  void step_together(std::span<Slice> share, StepUnits& units, std::int64_t step);
-  void step_askew(std::span<Slice> share, StepUnits& units, std::int64_t first, std::int64_t last);
-  bool go_on(std::size_t slice, StepUnits& units, std::int64_t last);
+  /// What a thread works with.
+  struct Member {
+    std::span<Slice> share;
+    StepUnits units;
+    Profile& profile;
+  };
+
+  void move(Member& member, Slice& mine, std::int64_t step);
+  void touch(Member& member, Slice& mine, std::int64_t step, double motion);
+  void receive(Member& member, Slice& mine, std::span<const Slice> givers);
+  void step_together(Member& member, std::int64_t step);
+  void step_askew(Member& member, std::int64_t first, std::int64_t last);
+  bool go_on(Member& member, std::size_t slice, std::int64_t last);
 
   State& state_;
   const ContactModel& model_;
   Candidates& candidates_;
-  const StepUnits units_;  // of some step; each thread has a copy
+  const StepUnits units_;  // of some step; each member has a copy
   const std::int64_t most_steps_askew_;
   CoarsePositions coarse_;  // of all grains
   std::vector<Progress> progress_;

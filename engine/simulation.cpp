@@ -74,9 +74,9 @@ int team_size(int wanted) {
 /// take some 2.5 more for a contact, and next to nothing for a grain; where there are so many
 /// grains that slices go askew, flights wait for memory and plain stepping does not:
 /// docs/performance.md.
-bool flights_look_faster(const State& state, const Askew& askew) {
+bool flights_look_faster(const State& state, int threads, const Askew& askew) {
   const auto contacts = static_cast<double>(state.contacts.size());
-  const double price = state.grains.size() < askew.fewest ? 2.5 : 25.0;
+  const double price = askew.slices_per_thread(state, threads) > 1 ? 25.0 : 2.5;
   return price * contacts < static_cast<double>(state.grains.size());
 }
 
@@ -84,7 +84,7 @@ bool flights_look_faster(const State& state, const Askew& askew) {
 std::vector<Way> ways(Stepping stepping, const State& state, int threads, const Askew& askew) {
   const bool flights_first =
       stepping == Stepping::windows
-      || (stepping == Stepping::automatic && flights_look_faster(state, askew));
+      || (stepping == Stepping::automatic && flights_look_faster(state, threads, askew));
   std::vector<Way> all{{.by_flights = flights_first, .threads = threads}};
   if (stepping != Stepping::automatic) return all;
   all.push_back({.by_flights = !flights_first, .threads = threads});
@@ -133,6 +133,7 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       askew_(askew),
       choice_(ways(stepping, state_, threads_, askew_)),
       wall_watch_(state_, model_) {
+  require(askew.slice > 0 && askew.steps > 0, "slices need grains and steps");
   prepare();
 }
 
@@ -144,7 +145,7 @@ void Simulation::start_profile() {
 }
 
 void Simulation::profile_first_thread() {
-  for (Slice& slice : candidates_->share(0)) slice.profile = Profile(profile_.on());
+  candidates_->slices().front().profile = Profile(profile_.on());
 }
 
 void Simulation::advance(std::int64_t steps) {
@@ -190,9 +191,8 @@ void Simulation::prepare() {
         std::make_unique<Candidates>(state_, model_.slip, threads, Flights::skin_per_diameter);
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
   } else {
-    candidates_ =
-        std::make_unique<Candidates>(state_, model_.slip, threads, Candidates::short_skin,
-                                     askew_.slices_per_thread(state_.grains.size(), threads));
+    candidates_ = std::make_unique<Candidates>(state_, model_.slip, threads, Candidates::short_skin,
+                                               askew_.slices_per_thread(state_, threads));
     plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, threads, askew_);
   }
   profile_first_thread();
@@ -235,17 +235,24 @@ void Simulation::collect() {
 
 void Simulation::fail_if_in_trouble() const {
   std::optional<Trouble> trouble;
-  for (const Slice& slice : candidates_->slices()) trouble = first_of(trouble, slice.trouble);
-  if (trouble)
+  std::optional<LostGrain> lost;
+  for (const Slice& slice : candidates_->slices()) {
+    trouble = first_of(trouble, slice.trouble);
+    lost = first_of(lost, slice.lost);
+  }
+  if (trouble && !(lost && lost->step < trouble->step))
     throw RunFailure("the force between " + partners(trouble->contact) + " is not finite "
                      + when(trouble->step, state_.time_step) + "; a shorter time step may help");
-  for (const Slice& slice : candidates_->slices()) {
-    if (slice.lost)
-      throw RunFailure(
-          "grain " + std::to_string(*slice.lost) + " has left the system " + when(state_)
-          + (has_open_side(state_) ? "; more room at the open side or a slower start may help"
-                                   : "; stiffer contacts or a shorter time step may help"));
-  }
+  if (!lost) return;
+  const std::string grain = "grain " + std::to_string(lost->id);
+  const std::string at = when(lost->step, state_.time_step);
+  if (lost->thrown)
+    throw RunFailure(grain + " was thrown farther within a few steps than its neighbours look " + at
+                     + "; stiffer contacts or a shorter time step may help");
+  throw RunFailure(grain + " has left the system " + at
+                   + (has_open_side(state_)
+                          ? "; more room at the open side or a slower start may help"
+                          : "; stiffer contacts or a shorter time step may help"));
 }
 
 }  // namespace riesel

@@ -37,6 +37,15 @@ struct Kick {
   BodyKick by;
 };
 
+/// A grain that cannot be followed any more.
+struct LostGrain {
+  std::int64_t step;
+  std::int32_t id;
+  bool thrown;  ///< beyond those who look for it; else out of the representable space
+
+  auto operator<=>(const LostGrain&) const = default;
+};
+
 /// Starts on a cache line, and so does what other threads read of it in each step: a thread that
 /// writes to its own slice does not take the lines of the others away.
 struct alignas(cache_line) Slice {
@@ -57,13 +66,13 @@ struct alignas(cache_line) Slice {
   Tally tally;                   ///< of contacts that began or ended in the last advance
 
   alignas(cache_line) std::vector<Kick> given_away;  ///< of this step, on grains of other slices
+  std::uint32_t given_first = 0, given_last = 0;     ///< the lowest and the highest slot of them
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
   double gone = 0.0;      ///< m, bound on it: what it was at the last look, and the motion since
   bool failed() const { return trouble || lost; }
   std::optional<Trouble> trouble;  ///< the first
-  /// id of a grain that has left the representable space, or the reach of those who look for it
-  std::optional<std::int32_t> lost;
+  std::optional<LostGrain> lost;   ///< the first
 
   bool owns(std::uint32_t slot) const { return slot - begin < end - begin; }
 };

@@ -1,8 +1,8 @@
 // Grains that have gone farther than the candidates hold for, while slices are ahead of each other.
 //
 // That takes a grain that becomes more than twice as fast as any within a few steps: seldom, and
-// never for long, as all are sorted anew before the slices go on. So nothing here is made for
-// speed.
+// not for long, as all are sorted anew if it is still so when the slices are at the same step
+// again. So nothing here is made for speed.
 #include "engine/candidates.hpp"
 
 #include <algorithm>
@@ -52,7 +52,8 @@ void Candidates::catch_strays(const State& state, const CoarsePositions& coarse,
       const double gone = distance(squared_displacement(coarse, slot, common));
       if (gone <= 0.5 * skin_) continue;
       // Farther than a row of cells it may be where no neighbour of its slice looks.
-      if (gone > 2.0 * max_radius_ + skin_) mine.lost = g.id[slot];
+      if (gone > 2.0 * max_radius_ + skin_)
+        mine.lost = first_of(mine.lost, std::optional(LostGrain{step, g.id[slot], true}));
       look(slot, mine);
       if (home == &mine) {
         look(slot, next);

@@ -27,6 +27,9 @@ inline void pause_core() {
 /// Has a cache line for itself.
 class alignas(cache_line) TeamBarrier {
 public:
+  /// So often one looks before it leaves the core to others: 5 to 20 microseconds.
+  static constexpr int looks = 500;
+
   explicit TeamBarrier(int members) : members_(members) {}
 
   /// Returns when all members have called it as often as this one. What each did before is seen by
@@ -49,8 +52,6 @@ public:
   }
 
 private:
-  static constexpr int looks = 500;  // 5 to 20 microseconds
-
   const int members_;
   std::atomic<int> arrived_{0};
   std::atomic<std::uint32_t> passed_{0};  // how often all were there; may wrap

@@ -95,7 +95,13 @@ ContactModel hard_model() {
 }  // namespace
 
 TEST_CASE("slices of a long tube go ahead of each other") {
-  CHECK(steps_ahead(long_tube(0.1), 10) == small_slices.steps);
+  for (const double polydispersity : {0.0, 0.1, 0.2}) {
+    const State tube = long_tube(polydispersity);
+    const std::size_t slices = small_slices.slices_per_thread(tube, 1);
+    CHECK(slices >= 6);
+    CHECK(steps_ahead(tube, slices) == small_slices.steps);
+    CHECK(steps_ahead(advanced(tube, paper_model(), 600), slices) > 2);
+  }
   CHECK(steps_ahead(springs_across(0.2), 4) == small_slices.steps);
   CHECK(steps_ahead(springs_along(0.2, 1.0), 4) == small_slices.steps);
 }
@@ -104,6 +110,30 @@ TEST_CASE("slices do each step together where pairs may be of slices that are no
   CHECK(steps_ahead(long_tube(0.1), 1) == 1);
   CHECK(steps_ahead(long_tube(0.1), 2) == 1);
   CHECK(steps_ahead(long_tube(0.1), 40) == 1);  // two or three rows of cells each
+}
+
+TEST_CASE("each thread has one slice where slices could not go askew") {
+  const State tube = long_tube(0.1);
+  CHECK(Askew{}.slices_per_thread(tube, 1) == 1);  // so few grains
+  CHECK(small_slices.slices_per_thread(small_tube(31), 1) == 1);
+  State wide = tube;
+  wide.box.length = 30.0 * diameter;
+  CHECK(small_slices.slices_per_thread(wide, 1) == 1);
+}
+
+TEST_CASE("slices without neighbours in time go together with the same bits") {
+  // All grains at one place of a long box: most slices have few rows.
+  State start = empty_box(12e-3, 400e-3);
+  Dice dice(83);
+  throw_grains(start, 200,
+               {.left = 0.0, .right = 12e-3, .low = 100e-3, .high = 125e-3, .speed = 3.0}, dice);
+  REQUIRE(steps_ahead(start, 10) == 1);
+  REQUIRE(Askew{.slice = 20, .steps = 8, .fewest = 0}.slices_per_thread(start, 1) == 10);
+  const State expected = advanced(start, paper_model(), 500, 1, Stepping::plain);
+  REQUIRE(expected.tally.grains.begun > 50);
+  const int threads = GENERATE(1, 2);
+  CHECK(same(askew(start, paper_model(), 500, threads, {.slice = 20, .steps = 8, .fewest = 0}),
+             expected));
 }
 
 TEST_CASE("slices do each step together where grains are too fast for more") {
@@ -163,7 +193,8 @@ TEST_CASE("a grain that is thrown beyond its neighbours at once is reported lost
     askew(start, hard_model(), 24, threads);
     FAIL("no failure");
   } catch (const RunFailure& failure) {
-    CHECK_THAT(std::string(failure.what()), Contains("has left") && Contains("shorter time step"));
+    CHECK_THAT(std::string(failure.what()),
+               Contains("grain 2 was thrown farther") && Contains("shorter time step"));
   }
 }
 

@@ -97,6 +97,8 @@ FAULTS = [
      "std::min(1e3 * part_ahead * room / speed, static_cast<double>(wanted - 1));"),
     ("strays that nobody catches", "engine/plain_steps.cpp",
      "candidates_.catch_strays(state_, coarse_, mine, next, step);", ""),
+    ("a slice that takes no kicks from one far off", "engine/kicks.cpp",
+     "&& giver.given_last >= mine.begin;", "&& giver.given_first >= mine.begin;"),
     ("strays of the next slice that nobody catches", "engine/strays.cpp",
      "look(slot, mine);", "if (home == &mine) look(slot, mine);"),
     ("strays that find no wall", "engine/strays.cpp",
