@@ -49,8 +49,8 @@ public:
 
   /// From step `now`, that of the state, to `last`, or until the run cannot go on: then perhaps
   /// some steps beyond the trouble. To be called by all threads of a team with the same steps;
-  /// `member` is the number of the thread.
-  void advance(std::size_t member, std::int64_t now, std::int64_t last);
+  /// `number` is that of the thread.
+  void advance(std::size_t number, std::int64_t now, std::int64_t last);
 
 private:
   /// How far a slice is that goes askew; on a cache line of its own.
