@@ -127,13 +127,13 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
   Dice dice(83);
   throw_grains(start, 200,
                {.left = 0.0, .right = 12e-3, .low = 100e-3, .high = 125e-3, .speed = 3.0}, dice);
-  REQUIRE(steps_ahead(start, 10) == 1);
-  REQUIRE(Askew{.slice = 20, .steps = 8, .fewest = 0}.slices_per_thread(start, 1) == 10);
+  constexpr Askew tiny_slices{.slice = 5, .steps = 8, .fewest = 0};
+  REQUIRE(tiny_slices.slices_per_thread(start, 1) > 25);
+  REQUIRE(steps_ahead(start, tiny_slices.slices_per_thread(start, 1)) == 1);
   const State expected = advanced(start, paper_model(), 500, 1, Stepping::plain);
   REQUIRE(expected.tally.grains.begun > 50);
   const int threads = GENERATE(1, 2);
-  CHECK(same(askew(start, paper_model(), 500, threads, {.slice = 20, .steps = 8, .fewest = 0}),
-             expected));
+  CHECK(same(askew(start, paper_model(), 500, threads, tiny_slices), expected));
 }
 
 TEST_CASE("slices do each step together where grains are too fast for more") {
