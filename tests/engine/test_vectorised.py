@@ -25,7 +25,7 @@ EXPECTED = {
     "free_flight.cpp": [1, 1],
     "live_contacts.cpp": [2 * 2 * 4 * 2 * 2],
     "pair_search.cpp": [1, 1, 1],
-    "simulation.cpp": [1],
+    "plain_steps.cpp": [1],
     "strips.cpp": [1],
 }
 
