@@ -196,7 +196,7 @@ void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t st
 }
 
 void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
-  cells_.sort(state, 2.0 * max_radius_ + skin_);
+  cells_.sort(state, range());
 #pragma omp single
   start_over(state, step);
   for (std::size_t slot = share.front().begin; slot < share.back().end; ++slot) {
@@ -250,7 +250,7 @@ void Candidates::start_over(const State& state, std::int64_t step) {
 void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPair>& close) const {
   constexpr std::size_t slots_at_a_time = 1024;
   const Grains& grains = state.grains;
-  const float farthest2 = units_.generous_square(2.0 * max_radius_ + skin_);
+  const float farthest2 = units_.generous_square(range());
   mine.pairs.clear();
   for (std::size_t begin = mine.begin; begin < mine.end; begin += slots_at_a_time) {
     const SlotRange slots{begin, std::min(begin + slots_at_a_time, mine.end)};
@@ -273,8 +273,7 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
     const double x = state.box.metres_x(state.grains.x[i]);
     if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width)
-      mine.lost =
-          first_of(mine.lost, std::optional(LostGrain{sorted_at_, state.grains.id[i], false}));
+      mine.lost = first_of(mine.lost, LostGrain{sorted_at_, state.grains.id[i], false});
     for (std::size_t w = 0; w < state.walls.size(); ++w) {
       const double reach = state.grains.radius[i] + state.walls[w].reach();
       if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_ + room_for_fall)

@@ -118,6 +118,7 @@ public:
   std::vector<Contact> contacts() const;
 
 private:
+  double range() const { return 2.0 * max_radius_ + skin_; }  // m, the least height of a row
   void look_again(State& state, CoarsePositions& coarse, std::span<Slice> share, std::int64_t step,
                   double ahead);
   void renew(State& state, std::span<Slice> share, std::int64_t step);

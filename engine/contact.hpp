@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 
 namespace riesel {
 
@@ -31,7 +32,8 @@ struct Trouble {
 
 /// Of what is to be told about, one at most: what is told must not depend on who found which.
 template <class T>
-std::optional<T> first_of(const std::optional<T>& a, const std::optional<T>& b) {
+std::optional<T> first_of(const std::optional<T>& a,
+                          const std::type_identity_t<std::optional<T>>& b) {
   return a && b ? std::min(*a, *b) : a ? a : b;
 }
 

@@ -48,8 +48,8 @@ void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed
 template <class Ended>
 void complete_step(Slice& slice, LiveContacts& contacts, const StepUnits& units, Ended ended) {
   if (const auto& contact = contacts.trouble())
-    slice.trouble = first_of(
-        slice.trouble, std::optional(Trouble{static_cast<std::int64_t>(units.step), *contact}));
+    slice.trouble =
+        first_of(slice.trouble, Trouble{static_cast<std::int64_t>(units.step), *contact});
   for (const std::size_t i : contacts.ended()) {
     slice.tally.end(contacts.contact(i), contacts.meeting(i).reach());
     note_over(slice, contacts.meeting(i));

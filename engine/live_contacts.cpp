@@ -468,7 +468,7 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
     found.for_each_set(size(), [&](std::size_t i, std::int64_t flag) {
       if ((flag & apart) != 0) ended_.push_back(i);
       if ((flag & unusable) == 0) return;
-      trouble_ = first_of(trouble_, std::optional(meetings_[i].name));
+      trouble_ = first_of(trouble_, meetings_[i].name);
       make_harmless(i);
     });
   });

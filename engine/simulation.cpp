@@ -60,6 +60,11 @@ State ready(State state) {
   return state;
 }
 
+Askew sound(const Askew& askew) {
+  require(askew.slice > 0 && askew.steps > 0, "slices need grains and steps");
+  return askew;
+}
+
 /// OpenMP may grant fewer threads than asked for, and every slice needs one.
 int team_size(int wanted) {
   require(wanted > 0, "a simulation needs at least one thread");
@@ -130,10 +135,9 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
     : state_(ready(std::move(state))),
       model_(model),
       threads_(team_size(threads)),
-      askew_(askew),
+      askew_(sound(askew)),
       choice_(ways(stepping, state_, threads_, askew_)),
       wall_watch_(state_, model_) {
-  require(askew.slice > 0 && askew.steps > 0, "slices need grains and steps");
   prepare();
 }
 
@@ -185,16 +189,14 @@ void Simulation::prepare() {
   prepared_ = choice_.way();
   flights_.reset();
   plain_steps_.reset();
-  const int threads = prepared_->threads;
-  if (prepared_->by_flights) {
-    candidates_ =
-        std::make_unique<Candidates>(state_, model_.slip, threads, Flights::skin_per_diameter);
+  const auto [by_flights, threads] = *prepared_;
+  const double skin = by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
+  const std::size_t slices = by_flights ? 1 : askew_.slices_per_thread(state_, threads);
+  candidates_ = std::make_unique<Candidates>(state_, model_.slip, threads, skin, slices);
+  if (by_flights)
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
-  } else {
-    candidates_ = std::make_unique<Candidates>(state_, model_.slip, threads, Candidates::short_skin,
-                                               askew_.slices_per_thread(state_, threads));
+  else
     plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, threads, askew_);
-  }
   profile_first_thread();
 }
 
@@ -244,15 +246,14 @@ void Simulation::fail_if_in_trouble() const {
     throw RunFailure("the force between " + partners(trouble->contact) + " is not finite "
                      + when(trouble->step, state_.time_step) + "; a shorter time step may help");
   if (!lost) return;
-  const std::string grain = "grain " + std::to_string(lost->id);
-  const std::string at = when(lost->step, state_.time_step);
-  if (lost->thrown)
-    throw RunFailure(grain + " was thrown farther within a few steps than its neighbours look " + at
-                     + "; stiffer contacts or a shorter time step may help");
-  throw RunFailure(grain + " has left the system " + at
-                   + (has_open_side(state_)
-                          ? "; more room at the open side or a slower start may help"
-                          : "; stiffer contacts or a shorter time step may help"));
+  const bool through_open_side = !lost->thrown && has_open_side(state_);
+  throw RunFailure("grain " + std::to_string(lost->id)
+                   + (lost->thrown
+                          ? " was thrown farther within a few steps than its neighbours look "
+                          : " has left the system ")
+                   + when(lost->step, state_.time_step)
+                   + (through_open_side ? "; more room at the open side or a slower start may help"
+                                        : "; stiffer contacts or a shorter time step may help"));
 }
 
 }  // namespace riesel

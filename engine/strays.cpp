@@ -52,8 +52,7 @@ void Candidates::catch_strays(const State& state, const CoarsePositions& coarse,
       const double gone = distance(squared_displacement(coarse, slot, common));
       if (gone <= 0.5 * skin_) continue;
       // Farther than a row of cells it may be where no neighbour of its slice looks.
-      if (gone > 2.0 * max_radius_ + skin_)
-        mine.lost = first_of(mine.lost, std::optional(LostGrain{step, g.id[slot], true}));
+      if (gone > range()) mine.lost = first_of(mine.lost, LostGrain{step, g.id[slot], true});
       look(slot, mine);
       if (home == &mine) {
         look(slot, next);

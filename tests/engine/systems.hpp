@@ -12,6 +12,7 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -119,23 +120,40 @@ inline void throw_grains(State& state, std::size_t count, const Throw& where, Di
   }
 }
 
-/// A crowded piece of the corrugated tube, in which every grain soon touches others and the walls.
-inline State small_tube(std::uint64_t seed, std::size_t grains = 40, double inertia = 0.0) {
-  State state = empty_box(8e-3, 9.6e-3);
+struct TubePiece {
+  double length;  ///< m, of a tube 8 mm wide
+  std::int64_t wall_grains;
+  std::size_t grains;
+  double speed, polydispersity;  ///< as in Throw
+  double inertia = 0.0;
+};
+
+inline State corrugated_tube(std::uint64_t seed, const TubePiece& piece) {
+  State state = empty_box(8e-3, piece.length);
   state.gravity.y = 10.0;
-  state.grains.inertia = inertia;
-  add_walls(state, 8);
+  state.grains.inertia = piece.inertia;
+  add_walls(state, piece.wall_grains);
   Dice dice(seed);
-  throw_grains(state, grains,
+  throw_grains(state, piece.grains,
                {.left = 0.0,
                 .right = state.box.width,
                 .low = 0.0,
                 .high = state.box.length,
-                .speed = 3.0,
+                .speed = piece.speed,
                 .common_vy = 2.0,
-                .polydispersity = 0.1},
+                .polydispersity = piece.polydispersity},
                dice);
   return state;
+}
+
+/// A crowded piece of the corrugated tube, in which every grain soon touches others and the walls.
+inline State small_tube(std::uint64_t seed, std::size_t grains = 40, double inertia = 0.0) {
+  return corrugated_tube(seed, {.length = 9.6e-3,
+                                .wall_grains = 8,
+                                .grains = grains,
+                                .speed = 3.0,
+                                .polydispersity = 0.1,
+                                .inertia = inertia});
 }
 
 /// The same grains in other slots.
@@ -170,6 +188,17 @@ inline State advanced(const State& state, const ContactModel& model, std::int64_
   Simulation simulation(state, model, threads, stepping);
   simulation.advance(steps);
   return simulation.state();
+}
+
+/// What `run` fails with, or "no failure".
+template <class Run>
+std::string failure_of(Run run) {
+  try {
+    run();
+  } catch (const RunFailure& failure) {
+    return failure.what();
+  }
+  return "no failure";
 }
 
 /// Sums of the displacements per step, with the kicks that the next step takes up.

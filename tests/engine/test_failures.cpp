@@ -27,12 +27,7 @@ void check_refused(const State& state) {
 /// What advance() throws, or "no failure".
 std::string failure(const State& state, std::int64_t steps, int threads = 1,
                     Stepping stepping = Stepping::automatic) {
-  try {
-    advanced(state, paper_model(), steps, threads, stepping);
-  } catch (const RunFailure& failure) {
-    return failure.what();
-  }
-  return "no failure";
+  return failure_of([&] { advanced(state, paper_model(), steps, threads, stepping); });
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "tests/engine/same_states.hpp"
 #include "tests/engine/systems.hpp"
 
-#include <string>
+#include <stdexcept>
 
 using namespace systems;
 using Catch::Matchers::Contains;
@@ -30,22 +30,15 @@ std::int64_t steps_ahead(State state, std::size_t slices) {
   return candidates.ready_for(state, coarse, candidates.share(0), state.step, small_slices.steps);
 }
 
-/// A long piece of a corrugated tube.
+/// With gravity at an angle.
 State long_tube(double polydispersity, double inertia = 0.0) {
-  State state = empty_box(8e-3, 120e-3);
-  state.gravity = {.x = 1.0, .y = 10.0};
-  state.grains.inertia = inertia;
-  add_walls(state, 100);
-  Dice dice(81);
-  throw_grains(state, 400,
-               {.left = 0.0,
-                .right = state.box.width,
-                .low = 0.0,
-                .high = state.box.length,
-                .speed = 2.0,
-                .common_vy = 2.0,
-                .polydispersity = polydispersity},
-               dice);
+  State state = corrugated_tube(81, {.length = 120e-3,
+                                     .wall_grains = 100,
+                                     .grains = 400,
+                                     .speed = 2.0,
+                                     .polydispersity = polydispersity,
+                                     .inertia = inertia});
+  state.gravity.x = 1.0;
   return state;
 }
 
@@ -110,6 +103,14 @@ TEST_CASE("slices do each step together where pairs may be of slices that are no
   CHECK(steps_ahead(long_tube(0.1), 1) == 1);
   CHECK(steps_ahead(long_tube(0.1), 2) == 1);
   CHECK(steps_ahead(long_tube(0.1), 40) == 1);  // two or three rows of cells each
+}
+
+TEST_CASE("slices without grains or steps are refused") {
+  const State tube = long_tube(0.1);
+  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 0, .steps = 8, .fewest = 0}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 40, .steps = 0, .fewest = 0}),
+                  std::invalid_argument);
 }
 
 TEST_CASE("each thread has one slice where slices could not go askew") {
@@ -189,13 +190,8 @@ TEST_CASE("the strays of the test before touch somebody while slices are askew")
 TEST_CASE("a grain that is thrown beyond its neighbours at once is reported lost") {
   const State start = springs_across(0.9);
   const int threads = GENERATE(1, 2);
-  try {
-    askew(start, hard_model(), 24, threads);
-    FAIL("no failure");
-  } catch (const RunFailure& failure) {
-    CHECK_THAT(std::string(failure.what()),
-               Contains("grain 2 was thrown farther") && Contains("shorter time step"));
-  }
+  CHECK_THAT(failure_of([&] { askew(start, hard_model(), 24, threads); }),
+             Contains("grain 2 was thrown farther") && Contains("shorter time step"));
 }
 
 TEST_CASE("a force that is not finite is told of in the step in which it was found") {
@@ -209,11 +205,6 @@ TEST_CASE("a force that is not finite is told of in the step in which it was fou
   g.y[1] = g.y[0];
   g.uy[1] = g.uy[0];
   const Askew how = GENERATE(Askew{}, small_slices);
-  try {
-    askew(start, weak, 100, 1, how);
-    FAIL("no failure");
-  } catch (const RunFailure& failure) {
-    CHECK_THAT(std::string(failure.what()),
-               Contains("grain 0 and grain 1 is not finite") && Contains("(step 3)"));
-  }
+  CHECK_THAT(failure_of([&] { askew(start, weak, 100, 1, how); }),
+             Contains("grain 0 and grain 1 is not finite") && Contains("(step 3)"));
 }
