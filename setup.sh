@@ -27,6 +27,7 @@ peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
 # A queue, in which tests can run sweeps (docs/cluster.md).
 cluster_packages=(slurm-wlm munge)
 
+rooms=(engine io scenarios app tests bench)
 riesel=build/release/app/riesel
 run_input=scenarios/periodic_tube.yaml
 run_output=runs/setup
@@ -41,7 +42,8 @@ Usage: ./setup.sh COMMAND
              further arguments go to ctest, e.g. -R engine
   build      install what is missing and build the release: $riesel
   lint       check formatting, C++, Python, shell scripts and what is written about the API
-             (clang-format, clang-tidy, mypy, shellcheck, Doxygen)
+             (clang-format, clang-tidy, mypy, shellcheck, Doxygen); with rooms, as in
+             lint engine io, clang-tidy reads these only
   analyze    let the analyzer of Clang read the sources one by one: four minutes
   api        the headers and the manual as pages: build/api/html/index.html
   coverage   build for it, run the tests and tell which lines they do not reach: fails if a
@@ -137,11 +139,16 @@ run_scenario() {
 # Of the result in a directory.
 state_hash() { sed -n 's/.*"state_hash": "\([0-9a-f]*\)".*/\1/p' "$1/summary.json"; }
 
-cpp_files() { find engine io scenarios app tests bench examples -name '*.[ch]pp' | sort; }
+cpp_files() { find "${rooms[@]}" examples -name '*.[ch]pp' | sort; }
 cpp_sources() { find "$@" -name '*.cpp' | sort; }
 
-# What the compiler's command lines name.
-lint_units() { sed -n 's/.*"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | sort -u; }
+# lint_units ROOM...: what the compiler's command lines name in these rooms.
+lint_units() {
+  local rooms
+  rooms=$(IFS='|'; echo "$*")
+  sed -n 's/.*"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | sort -u |
+    cut -c "$((${#PWD} + 2))-" | grep -E "^(build/lint/)?($rooms)/"
+}
 
 # As many processes as there are processors, each with the next file.
 tidy() { xargs -n 1 -P "$(nproc)" clang-tidy --quiet "$@"; }
@@ -151,9 +158,10 @@ api() {
   doxygen docs/Doxyfile
 }
 
-main_file_checks='-*,clang-analyzer-core.*,clang-analyzer-cplusplus.*,misc-unused-*-decls'
+# Looks at the main file only, or takes the longer the more a unit holds: left to analyze.
+main_file_checks='-*,clang-analyzer-core.*,clang-analyzer-cplusplus.*,misc-unused-*-decls,performance-unnecessary-value-param'
 
-# All checks, even if the first one complains.
+# lint ROOM...: all checks, even if the first one complains; clang-tidy reads these rooms.
 lint() {
   local complaints=()
   say "clang-format"
@@ -166,10 +174,12 @@ lint() {
   (cd python && mypy riesel) || complaints+=(mypy)
   # What takes the time are the headers of libraries, so units of several sources are read. A
   # "redefinition" across two sources of a room wants another name, or SKIP_UNITY_BUILD_INCLUSION as
-  # in the room's CMakeLists.txt. What looks at the main file only reads them one by one: analyze.
+  # in the room's CMakeLists.txt.
   build lint --target riesel_build_info
   say "clang-tidy"
-  lint_units | tidy -p build/lint --checks='-clang-analyzer-*' || complaints+=(clang-tidy)
+  lint_units "$@" |
+    tidy -p build/lint --checks='-clang-analyzer-*,-performance-unnecessary-value-param' ||
+    complaints+=(clang-tidy)
   ((${#complaints[@]} == 0)) || die "complaints from: ${complaints[*]}"
 }
 
@@ -198,8 +208,8 @@ coverage() {
 
 # Not a part of lint, since it takes minutes.
 analyze() {
-  build ci --target riesel_build_info
-  cpp_sources engine io scenarios app | tidy -p build/ci --checks="$main_file_checks"
+  build dev --target riesel_build_info
+  cpp_sources engine io scenarios app | tidy -p build/dev --checks="$main_file_checks"
 }
 
 command=${1:-help}
@@ -222,7 +232,8 @@ case $command in
     ;;
   lint)
     install_packages "${build_packages[@]}" "${lint_packages[@]}"
-    lint
+    if (($# == 0)); then set -- "${rooms[@]}"; fi
+    lint "$@"
     ;;
   analyze)
     install_packages "${build_packages[@]}" "${lint_packages[@]}"

@@ -49,11 +49,11 @@ std::vector<std::uint64_t> read_extent(const Bytes& body) {
 Hdf5Layout read_layout(const Bytes& body) {
   constexpr std::uint64_t in_one_piece = 1, in_chunks = 2;
   require(body.number(0, 1) == 3, "its layout is of another version");
-  const auto kind = body.number(1, 1);
-  if (kind == in_one_piece)
+  const auto layout_class = body.number(1, 1);
+  if (layout_class == in_one_piece)
     return {
         .chunked = false, .address = body.number(2, 8), .size = body.number(10, 8), .chunk = {}};
-  require(kind == in_chunks, "it has a layout that is never written");
+  require(layout_class == in_chunks, "it has a layout that is never written");
   Hdf5Layout found{.chunked = true, .address = body.number(3, 8), .size = 0, .chunk = {}};
   const auto dimensions = body.number(2, 1);  // with the element's own as the last
   for (std::uint64_t i = 0; i < dimensions; ++i) found.chunk.push_back(body.number(11 + 4 * i, 4));

@@ -12,13 +12,13 @@ from test_sweep import SweepTest
 # Each run takes a second or so: several times as long as interrupt() waits before it stops the sweep.
 LONG = """\
 base: tube.yaml
-set: {run.duration: 3000 ms, output.checkpoint_interval: 0.02 s}
+set: {run.duration: 1500 ms, output.checkpoint_interval: 0.02 s}
 axes: {contact.restitution: [0.7, 0.8, 0.9]}
 """
 LONG_CHAIN = LONG + "continue_along: contact.restitution\n"
 
 # It never ends by itself.
-ENDLESS = LONG.replace("3000 ms", "1000 s")
+ENDLESS = LONG.replace("1500 ms", "1000 s")
 
 
 def saved_by_its_end(text):
