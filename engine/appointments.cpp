@@ -52,7 +52,7 @@ double steps_to_nearest(const Flight& f, const WallLattice& wall, double reach, 
   const Box& box = state.box;
   const WallMotion& motion = wall.motion;
   const WallShift shift =
-      motion.is_there() ? motion.shift(box, state.time_step, now) : WallShift{0, 0};
+      motion.is_ever_away() ? motion.shift(box, state.time_step, now) : WallShift{0, 0};
   const double x = box.metres_x(f.x) - wall.line - box.metres_x(shift.x);
   const Fixed y = wrapped_difference(f.y, shift.y);
   double nearest2 = forever;

@@ -3,6 +3,7 @@
 #include "engine/hash.hpp"
 #include "engine/observables.hpp"
 #include "engine/parallel_problems.hpp"
+#include "engine/require.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,6 +94,7 @@ ColumnResult result(const ColumnSetup& setup, const State& state, bool over) {
 }  // namespace
 
 ColumnResult drop(const ColumnSetup& setup, double gap, Stepping stepping) {
+  require(setup.beads > 0 && setup.velocity > 0.0, "a column needs beads and a velocity");
   Simulation simulation(start(setup, gap), setup.model, 1, stepping);
   const double longest = patience(setup, gap);
   bool over = false;
@@ -111,8 +113,10 @@ std::vector<ColumnResult> drop_all(const ColumnSetup& setup, const std::vector<d
 std::uint64_t hash_of(const std::vector<ColumnResult>& results) {
   Hash hash;
   for (const ColumnResult& r : results) {
-    for (const double value : {r.restitution, r.rebound, r.contacts, r.contact_time, r.max_overlap})
+    for (const double value :
+         {r.restitution, r.rebound, r.contacts, r.contact_time, r.max_overlap, r.energy_error})
       hash.add(value);
+    hash.add(std::int64_t{r.over});
     hash.add(r.steps);
   }
   return hash.value();

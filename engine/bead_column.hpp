@@ -38,7 +38,8 @@ struct ColumnResult {
   std::int64_t steps;
 };
 
-/// Drops a column with `gap` (m) between neighbours and follows it until it is over.
+/// Drops a column with `gap` (m) between neighbours and follows it until it is over. Throws
+/// std::invalid_argument for one without beads or velocity, and what Simulation throws.
 ColumnResult drop(const ColumnSetup& setup, double gap, Stepping stepping = Stepping::automatic);
 
 /// A drop for each gap, in parallel on `threads` threads, each as if alone. Throws what drop()
@@ -46,7 +47,7 @@ ColumnResult drop(const ColumnSetup& setup, double gap, Stepping stepping = Step
 std::vector<ColumnResult> drop_all(const ColumnSetup& setup, const std::vector<double>& gaps,
                                    int threads);
 
-/// 64-bit hash of all results and of the steps they took.
+/// 64-bit hash of all results.
 std::uint64_t hash_of(const std::vector<ColumnResult>& results);
 
 }  // namespace riesel

@@ -21,7 +21,7 @@ public:
 
   Calendar() : buckets_(horizon) {}
 
-  /// now < due < now + horizon
+  /// now <= due < now + horizon; what is due now must not have been asked for yet
   void enter(std::uint32_t appointment, std::int64_t due) {
     Bucket& to = bucket(due);
     const std::uint32_t on_last = to.count % Sheet::room;

@@ -2,8 +2,7 @@
 
 #include "engine/contact_loop.hpp"
 #include "engine/parabola.hpp"
-
-#include <omp.h>
+#include "engine/team.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,17 +105,16 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
   steps_to_walls_ = steps_of_fall(std::abs(state.box.metres_x(fall_.x)), 0.5 * skin_);
   for (const WallLattice& wall : state.walls)
     if (2.0 * (max_radius_ + wall.radius)
-            > static_cast<double>(NearWall::most_partners - 2) * wall.spacing(state.box)
+            > static_cast<double>(WallLattice::most_told_apart - 1) * wall.spacing(state.box)
         && !wall.smooth())
       throw std::invalid_argument("the grains of a wall are too close together");
 
-#pragma omp parallel num_threads(threads)
-  {
-    const std::span<Slice> mine = share(static_cast<std::size_t>(omp_get_thread_num()));
+  as_a_team(threads, [&](std::size_t member) {
+    const std::span<Slice> mine = share(member);
     renew(state, mine, state.step);
     for (Slice& slice : mine) forget_contacts(slice);
     keep(state, mine, state.contacts);
-  }
+  });
   if (kept() < state.contacts.size())
     throw std::invalid_argument("a contact between bodies that are far from each other");
 }

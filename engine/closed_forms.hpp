@@ -15,7 +15,8 @@ struct LinearContact {
 
   /// Below critical damping two bodies rebound; above they do not, and there is no t_col.
   bool rebounds() const;
-  /// s, eq. (4); of a contact that rebounds.
+  /// s, eq. (4). Throws std::domain_error, as restitution() does, for a contact that does not
+  /// rebound.
   double collision_time() const;
   /// e_N = exp(-gamma_N t_col / 2)
   double restitution() const;
@@ -25,14 +26,15 @@ struct LinearContact {
 double damping_for_restitution(double restitution, double k_n, double reduced_mass);
 
 /// s, duration of an undamped head-on contact under F = k xi^alpha that begins with the given speed
-/// (m/s). For alpha = 1 it does not depend on the speed.
+/// (m/s). For alpha = 1 it does not depend on the speed; for others it has none at speed 0 (not a
+/// number).
 double elastic_collision_time(const ElasticLine& line, double reduced_mass, double speed);
 
 /// m, largest overlap of the same contact: a bound for the damped one.
 double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed);
 
 /// s, how long a head-on contact under `normal` lasts: eq. (4) for the linear law, else the elastic
-/// time.
+/// time. Throws std::domain_error for a linear contact that does not rebound.
 double collision_time(const NormalLaw& normal, double reduced_mass, double speed);
 
 /// By what a tangential force changes the slip of two bodies more than if they did not rotate;

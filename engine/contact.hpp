@@ -53,7 +53,7 @@ struct Contact {
   double friction_loss = 0.0;         ///< J, dissipated by friction before this step
   double impulse_x = 0.0;             ///< kg m/s, given to `grain` across the tube so far
   double impulse_y = 0.0;             ///< kg m/s, the same along y
-  double impulse_y_times_step = 0.0;  ///< that, each step's part times the number of the step
+  double impulse_y_times_time = 0.0;  ///< kg m, that, each step's part times the time
   double friction_x = 0.0;            ///< N, friction on `grain` in this step, across the tube
   double friction_y = 0.0;            ///< N, the same along y
   double spring = 0.0;                ///< m, elongation of the tangential spring, along s

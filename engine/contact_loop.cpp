@@ -52,7 +52,7 @@ void note_lasting(Slice& slice, const Meeting& meeting) {
     float& reach2 = slice.pairs.reach2[meeting.candidate];
     reach2 = -std::abs(reach2);
   } else {
-    slice.near_walls[meeting.candidate].partners |= NearWall::bit(meeting.name.partner);
+    slice.near_walls[meeting.candidate].partners |= meeting.wall_bit;
   }
 }
 
@@ -61,7 +61,7 @@ void note_over(Slice& slice, const Meeting& meeting) {
     float& reach2 = slice.pairs.reach2[meeting.candidate];
     reach2 = std::abs(reach2);
   } else {
-    slice.near_walls[meeting.candidate].partners &= ~NearWall::bit(meeting.name.partner);
+    slice.near_walls[meeting.candidate].partners &= ~meeting.wall_bit;
   }
 }
 

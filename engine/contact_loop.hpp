@@ -38,7 +38,7 @@ void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed
   const double reach = state.grains.radius[near.slot] + wall.radius;
   const Fixed back = wrapped_difference(y, moved.y);
   for_each_wall_grain_within(wall, state.box, back, reach, [&](std::int64_t k, Fixed there) {
-    if ((near.partners & NearWall::bit(k)) != 0) return;
+    if ((near.partners & wall.bit_of(k)) != 0) return;
     if (overlapping(from_line, wrapped_difference(there, back), reach, units)) touches(k);
   });
 }

@@ -43,8 +43,8 @@ RIESEL_VECTOR_KERNEL void flag_strays(std::size_t count, Deviation x, Deviation 
       const std::size_t i = block + lane;
       const Fixed next_x = wrapped_sum(x.off[i], wrapped_sum(x.off_u[i], x.kick[i]));
       const Fixed next_y = wrapped_sum(y.off[i], wrapped_sum(y.off_u[i], y.kick[i]));
-      const std::int64_t beyond_x = std::abs(next_x) > x.tolerance ? 1 : 0;
-      const std::int64_t beyond_y = std::abs(next_y) > y.tolerance ? 1 : 0;
+      const std::int64_t beyond_x = next_x > x.tolerance || next_x < -x.tolerance ? 1 : 0;
+      const std::int64_t beyond_y = next_y > y.tolerance || next_y < -y.tolerance ? 1 : 0;
       flags[i] = beyond_x | beyond_y;
       any |= beyond_x | beyond_y;
     }

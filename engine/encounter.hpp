@@ -32,7 +32,7 @@ struct StepUnits {
         spin_kick(dt * dt / quantum_of_angle) {
     for (std::size_t wall = 0; wall < state.walls.size(); ++wall) {
       motion[wall] = state.walls[wall].motion;
-      walls_move = walls_move || motion[wall].is_there();
+      walls_move = walls_move || motion[wall].is_ever_away();
     }
     move_to(state.step);
   }

@@ -73,7 +73,8 @@ constexpr Fixed from_upper(std::int32_t upper) {
 /// (since + 1) + (since + 2) + ... + now: how often the fall per step^2 adds to y in these steps,
 /// in a frame that falls since step 0. 0 <= since <= now.
 [[gnu::always_inline]] inline std::int64_t sum_of_steps(std::int64_t since, std::int64_t now) {
-  const auto twice = static_cast<std::uint64_t>((now - since) * (since + 1 + now));
+  const auto twice =
+      static_cast<std::uint64_t>(now - since) * static_cast<std::uint64_t>(since + 1 + now);
   return static_cast<std::int64_t>(twice >> 1);
 }
 

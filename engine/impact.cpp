@@ -3,6 +3,7 @@
 #include "engine/hash.hpp"
 #include "engine/observables.hpp"
 #include "engine/parallel_problems.hpp"
+#include "engine/require.hpp"
 #include "engine/simulation.hpp"
 
 #include <cmath>
@@ -58,11 +59,13 @@ bool gone(const ImpactSetup& setup, const State& state, const Grain& grain) {
 double just_upstream(const ImpactSetup& setup, double x) {
   constexpr double gap = 1e-3;  // of the reach: no contact yet
   const double reach = (1.0 + gap) * setup.reach();
+  require(std::abs(x) <= reach, "a grain that passes the wall grain by does not touch it");
   return -std::sqrt(reach * reach - x * x);
 }
 
 ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
   const double speed = std::hypot(impact.v_x, impact.v_y);
+  require(speed > 0.0, "an impact needs a velocity");
   const double patience =
       patience_in_collisions * setup.collision_time + patience_in_reaches * setup.reach() / speed;
   Simulation simulation(start(setup, impact), setup.model, 1);
@@ -104,8 +107,10 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
 std::uint64_t hash_of(const std::vector<ImpactResult>& results) {
   Hash hash;
   for (const ImpactResult& r : results) {
-    for (const double value : {r.dv_x, r.dv_y, r.contacts, r.contact_time, r.max_overlap})
+    for (const double value : {r.dv_x, r.dv_y, r.contacts, r.contact_time, r.max_overlap,
+                               r.cut_short, r.braking, r.braking_cut_short, r.energy_error})
       hash.add(value);
+    hash.add(static_cast<std::int64_t>(r.end));
     hash.add(r.steps);
   }
   return hash.value();

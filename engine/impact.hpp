@@ -52,7 +52,8 @@ struct ImpactResult {
   std::int64_t steps;
 };
 
-/// Follows one impact to its end.
+/// Follows one impact to its end. Throws std::invalid_argument for a grain at rest, and what
+/// Simulation throws.
 ImpactResult follow(const ImpactSetup& setup, const Impact& impact);
 
 /// All impacts, in parallel on `threads` threads, each as if alone. Throws what follow() throws.
@@ -60,10 +61,10 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
                                      int threads);
 
 /// Where a grain that comes from upstream along y at height x stands just before it touches wall
-/// grain 0: m.
+/// grain 0: m. Throws std::invalid_argument if it touches none.
 double just_upstream(const ImpactSetup& setup, double x);
 
-/// 64-bit hash of all results and of the steps they took.
+/// 64-bit hash of all results.
 std::uint64_t hash_of(const std::vector<ImpactResult>& results);
 
 }  // namespace riesel

@@ -1,10 +1,10 @@
 // Those of the candidate pairs that may touch soon: the inner one of two Verlet lists.
 //
 // The search of plain stepping tests pairs in every step, and most candidates are too far apart for
-// that. The inner list has those closer than the sum of radii plus a skin of its own, some tenth of
-// that of the candidates. It is made by one look at all candidates, and holds as long as no grain
-// has moved by half of its skin. The skin follows the motion of the grains: lists are made so often
-// that this costs as much as it saves.
+// that. The inner list has those closer than the sum of radii plus a skin of its own, at most half
+// of that of the candidates and mostly far less. It is made by one look at all candidates, and
+// holds as long as no grain has moved by half of its skin. The skin follows the motion of the
+// grains: lists are made so often that this costs as much as it saves.
 //
 // Which pairs are in it changes no result: those that are not cannot touch.
 #pragma once

@@ -12,9 +12,16 @@ namespace riesel {
 
 namespace {
 
-/// Contact as an array of doubles; the name fills the first of them.
-using Words = std::array<double, sizeof(Contact) / sizeof(double)>;
-constexpr std::size_t life_begin = offsetof(Contact, begin) / sizeof(double);
+/// What follows the name in Contact, all of it doubles.
+constexpr std::size_t life_begin = offsetof(Contact, begin);
+using Life = std::array<double, (sizeof(Contact) - life_begin) / sizeof(double)>;
+static_assert(life_begin + sizeof(Life) == sizeof(Contact));
+
+Life life_of(const Contact& contact) {
+  Life life;
+  std::memcpy(life.data(), reinterpret_cast<const std::byte*>(&contact) + life_begin, sizeof(life));
+  return life;
+}
 
 /// Which array of LiveContacts holds this member.
 #define RIESEL_LIFE(member)                                                                        \
@@ -169,7 +176,7 @@ template <LiveContacts::Partner partner, class Turn, class Slip, class Columns>
   if constexpr (partner == LiveContacts::Partner::wall) {
     add(RIESEL_LIFE(impulse_x), t.fx * u.dt);
     add(RIESEL_LIFE(impulse_y), t.fy * u.dt);
-    add(RIESEL_LIFE(impulse_y_times_step), t.fy * u.dt * u.step);
+    add(RIESEL_LIFE(impulse_y_times_time), t.fy * u.dt * u.time);
   }
   if constexpr (Slip::has_spring) set(RIESEL_LIFE(spring), t.spring);
   if constexpr (std::is_same_v<Turn, Turning>) {
@@ -262,8 +269,8 @@ RIESEL_VECTOR_KERNEL void step_lanes(const Columns& columns, std::size_t count, 
 
 void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodies,
                    const SlipLaw& slip, const StepUnits& units) {
-  const auto words = std::bit_cast<Words>(contact);
-  const auto life = [&](std::size_t member) { return words[life_begin + member]; };
+  const Life so_far = life_of(contact);
+  const auto life = [&](std::size_t member) { return so_far[member]; };
   const Encounter e = encounter(meeting, bodies, units);
   contact.friction_loss += std::visit(
       [&](const auto& law) {
@@ -297,7 +304,7 @@ Contact LiveContacts::contact(std::size_t i) const {
   Contact contact{.name = meetings_[i].name};
   // Word by word where they stay: an array of them would be copied in wider words, and these wait
   // until their parts are written.
-  auto* const life = reinterpret_cast<std::byte*>(&contact) + offsetof(Contact, begin);
+  auto* const life = reinterpret_cast<std::byte*>(&contact) + life_begin;
   for (std::size_t m = 0; m < members(); ++m)
     std::memcpy(life + m * sizeof(double), &life_[m][i], sizeof(double));
   if (meetings_[i].turned) see_from_the_other(contact);
@@ -400,8 +407,8 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   per_mass_[1][i] = bodies.per_mass_second;
   Contact seen = contact;
   if (meeting.turned) see_from_the_other(seen);
-  const auto words = std::bit_cast<Words>(seen);
-  for (std::size_t m = 0; m < members(); ++m) life_[m][i] = words[life_begin + m];
+  const Life life = life_of(seen);
+  for (std::size_t m = 0; m < members(); ++m) life_[m][i] = life[m];
   if (!rich_) return;
   radius_[0][i] = bodies.radius_first;
   radius_[1][i] = bodies.radius_second;

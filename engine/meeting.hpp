@@ -12,17 +12,18 @@ namespace riesel {
 
 struct Meeting {
   ContactName name;
-  std::uint32_t candidate;  ///< index among the candidates, for whoever looks for contacts
-  std::int64_t first;       ///< place of the first body in Bodies, at the beginning
-  std::int64_t second;      ///< of the second body; that of the first for a wall grain
-  Fixed line, y;            ///< where the wall grain is before its wall moves; unused for free
-                            ///< grains, y for smooth walls
-  double radius_first;      ///< m
-  double radius_second;     ///< m
-  double mass_first;        ///< kg
-  double mass_second;       ///< kg; unused for a wall grain
-  bool turned = false;      ///< the first body is not name.grain, but name.partner
-  bool level = false;       ///< the second body is level with the first: a smooth wall
+  std::uint32_t candidate;     ///< index among the candidates, for whoever looks for contacts
+  std::int64_t first;          ///< place of the first body in Bodies, at the beginning
+  std::int64_t second;         ///< of the second body; that of the first for a wall grain
+  Fixed line, y;               ///< where the wall grain is before its wall moves; unused for free
+                               ///< grains, y for smooth walls
+  double radius_first;         ///< m
+  double radius_second;        ///< m
+  double mass_first;           ///< kg
+  double mass_second;          ///< kg; unused for a wall grain
+  std::uint64_t wall_bit = 0;  ///< of the wall grain (WallLattice::bit_of), for those who look
+  bool turned = false;         ///< the first body is not name.grain, but name.partner
+  bool level = false;          ///< the second body is level with the first: a smooth wall
 
   bool with_wall() const { return name.wall != no_wall; }
   double reach() const { return radius_first + radius_second; }  ///< m
@@ -69,6 +70,7 @@ inline Meeting meeting_with_wall(const State& state, std::uint32_t slot, std::in
           .radius_second = lattice.radius,
           .mass_first = g.mass[slot],
           .mass_second = 0.0,
+          .wall_bit = lattice.bit_of(k),
           .level = lattice.smooth()};
 }
 

@@ -95,13 +95,12 @@ WallImpulses all_impulses(const State& state) {
 /// J. Across the tube it follows from where the grains are. Along the tube they have come round we
 /// do not know how often; but contacts between grains do not change the momentum, so the way of the
 /// centre of mass follows from its start, from free fall, and from the impulses of the walls, of
-/// which one given at step s acts in n - s steps.
+/// which one given at time s acts for t - s.
 double work_of_gravity(const State& state, const GrainSums& sums, const ContactTally& walls) {
-  const auto n = static_cast<double>(state.step);
   const double t = state.time();
   const double mass_times_way =
       state.origin.momentum_y * t + 0.5 * sums.mass * state.gravity.y * t * t
-      + state.time_step * (n * walls.impulse_y.value() - walls.impulse_y_times_step.value());
+      + t * walls.impulse_y.value() - ContactTally::era * walls.impulse_y_times_time.value();
   return state.gravity.y * mass_times_way
          + state.gravity.x * (sums.moment_x - state.origin.moment_x);
 }

@@ -25,6 +25,10 @@ RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, F
 
 }  // namespace
 
+std::int64_t Askew::most_steps(const State& state) const {
+  return state.grains.size() < fewest ? 1 : steps;
+}
+
 std::size_t Askew::slices_per_thread(const State& state, int threads) const {
   // So that slices have enough rows even where grains are denser than elsewhere.
   constexpr double rows_per_slice = 10.0;
@@ -41,7 +45,7 @@ PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& cand
       model_(model),
       candidates_(candidates),
       units_(state),
-      most_steps_askew_(askew.steps),
+      most_steps_askew_(askew.most_steps(state)),
       coarse_(candidates.when_sorted()),
       progress_(candidates.slices().size()),
       barrier_(threads) {

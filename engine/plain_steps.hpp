@@ -37,6 +37,8 @@ struct Askew {
   /// With fewer grains all slices do each step together: they fit into the caches as they are.
   std::size_t fewest = 200'000;
 
+  /// That one slice may be ahead of another in this state; 1: all do each step together.
+  std::int64_t most_steps(const State& state) const;
   /// How many slices each of the threads is to have: one if they cannot go askew.
   std::size_t slices_per_thread(const State& state, int threads) const;
 };

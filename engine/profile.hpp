@@ -15,11 +15,11 @@ namespace riesel {
 class Profile {
 public:
   enum class Phase {
-    fly,           ///< positions and velocities move on
+    fly,           ///< velocities take up kicks and are noted, positions move on
     build,         ///< sorting, listing of candidates
     search,        ///< which contacts begin
     forces,        ///< contacts: forces, lives, kicks
-    receive,       ///< kicks reach the grains, speeds are noted
+    receive,       ///< kicks reach the grains
     appointments,  ///< flights only: courses, and when to look again
   };
   static constexpr std::size_t phases = 6;

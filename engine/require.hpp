@@ -1,4 +1,4 @@
-// What a constructor asks of its arguments.
+// What a function asks of its arguments.
 #pragma once
 
 #include <stdexcept>

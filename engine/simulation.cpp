@@ -3,6 +3,7 @@
 #include "engine/flights.hpp"
 #include "engine/observables.hpp"
 #include "engine/require.hpp"
+#include "engine/team.hpp"
 
 #include <omp.h>
 
@@ -97,18 +98,6 @@ std::vector<Way> ways(Stepping stepping, const State& state, int threads, const 
     for (const bool by_flights : {flights_first, !flights_first})
       all.push_back({.by_flights = by_flights, .threads = 1});
   return all;
-}
-
-/// Calls work(member) in each thread of a team of so many.
-template <class Work>
-void as_a_team(int members, Work work) {
-  bool complete = true;
-#pragma omp parallel num_threads(members)
-  if (omp_get_num_threads() == members)
-    work(static_cast<std::size_t>(omp_get_thread_num()));
-  else
-    complete = false;  // the same for all
-  if (!complete) throw RunFailure("the system grants fewer threads than at the start of the run");
 }
 
 std::string partners(const ContactName& name) {

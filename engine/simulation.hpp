@@ -4,6 +4,7 @@
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/plain_steps.hpp"
+#include "engine/run_failure.hpp"
 #include "engine/state.hpp"
 #include "engine/stepping_choice.hpp"
 #include "engine/wall_watch.hpp"
@@ -11,17 +12,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
-#include <vector>
 
 namespace riesel {
 
 class Flights;
-
-/// The run cannot go on; what() says where, when and why.
-class RunFailure : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Threads that pay for this many grains on this machine, when the user leaves the choice to us.
 int useful_threads(std::size_t grains);

@@ -19,16 +19,9 @@ namespace riesel {
 
 /// A grain that can touch a wall before the next sorting.
 struct NearWall {
-  /// So few grains of a wall can be within reach of one grain.
-  static constexpr std::int64_t most_partners = 64;
-
   std::uint32_t slot;
   std::int32_t wall;
-  std::uint64_t partners = 0;  ///< which wall grains it touches, by the last bits of their index
-
-  static std::uint64_t bit(std::int64_t wall_grain) {
-    return std::uint64_t{1} << (wall_grain % most_partners);
-  }
+  std::uint64_t partners = 0;  ///< the wall grains that it touches: WallLattice::bit_of
 };
 
 /// What one contact adds to the velocity of one grain in one step.

@@ -41,7 +41,7 @@ void add(Hash& hash, const Contact& c) {
   for (const auto part : {c.name.wall, c.name.grain, c.name.partner}) hash.add(part);
   for (const auto part : {c.begin, c.end, c.entry_rate, c.entry_slip, c.max_overlap, c.slip_path,
                           c.normal_loss, c.friction_loss, c.impulse_x, c.impulse_y,
-                          c.impulse_y_times_step, c.friction_x, c.friction_y})
+                          c.impulse_y_times_time, c.friction_x, c.friction_y})
     hash.add(part);
   add_torques_and_spring(hash, c);
 }
@@ -56,7 +56,7 @@ void add(Hash& hash, const ContactTally& t) {
   hash.add(t.ended);
   hash.add(t.max_overlap);
   for (const auto& sum : {t.duration, t.slip_path, t.normal_loss, t.friction_loss, t.impulse_y,
-                          t.impulse_y_times_step})
+                          t.impulse_y_times_time})
     add(hash, sum);
   for (const auto count : t.durations.counts()) hash.add(count);
   for (const auto count : t.overlaps.counts()) hash.add(count);
@@ -191,7 +191,7 @@ std::uint64_t state_hash(const State& state) {
     hash.add(wall.line);
     hash.add(wall.radius);
     hash.add(wall.count);
-    if (wall.motion.is_there()) add(hash, wall.motion);
+    if (wall.motion.is_ever_away()) add(hash, wall.motion);
   }
   if (state.grains.rotate()) hash.add(state.grains.inertia);
   const Grains ordered = ordered_by_id(state.grains);

@@ -23,7 +23,8 @@ void add(Sums& sums, StripSum which, double term) {
 constexpr std::size_t at_a_time = 32;
 
 /// The sums over the motion of the grains in a strip: those from StripSum::grains on.
-constexpr std::size_t motion_sums = 10;
+constexpr std::size_t motion_sums =
+    static_cast<std::size_t>(StripSum::contact_xx) - static_cast<std::size_t>(StripSum::grains);
 using MotionSums = ExactSums<motion_sums>;
 
 RIESEL_VECTOR_KERNEL std::vector<MotionSums> sums_over_motion(const Strips& strips,

@@ -39,7 +39,7 @@ enum class StripSum {
   contact_yx,  ///< J, sum of l_y F_x
   contact_yy,  ///< J, sum of l_y F_y
 };
-inline constexpr std::size_t strip_sums = 15;
+inline constexpr std::size_t strip_sums = static_cast<std::size_t>(StripSum::contact_yy) + 1;
 
 /// Strips of equal width between the wall lines.
 struct Strips {

@@ -30,7 +30,7 @@ void ContactTally::add(const Contact& contact) {
   friction_loss.add(contact.friction_loss);
   energy_won.add(std::max(0.0, -(contact.normal_loss + contact.friction_loss)));
   impulse_y.add(contact.impulse_y);
-  impulse_y_times_step.add(contact.impulse_y_times_step);
+  impulse_y_times_time.add(contact.impulse_y_times_time / era);
 }
 
 void ContactTally::merge(const ContactTally& other) {
@@ -43,7 +43,7 @@ void ContactTally::merge(const ContactTally& other) {
   friction_loss.add(other.friction_loss);
   energy_won.add(other.energy_won);
   impulse_y.add(other.impulse_y);
-  impulse_y_times_step.add(other.impulse_y_times_step);
+  impulse_y_times_time.add(other.impulse_y_times_time);
   durations.merge(other.durations);
   overlaps.merge(other.overlaps);
 }

@@ -29,14 +29,18 @@ struct ContactTally {
   ExactSum friction_loss;    ///< J
   ExactSum energy_won;       ///< J, by those whose losses together are negative
   /// kg m/s, impulse along y on the first grain of each contact; and the same with each step's part
-  /// weighted by the number of the step: for the walls the two tell how far the grains have fallen
-  /// (gravity_work).
+  /// weighted by the time, as a part of an `era`: for the walls the two tell how far the grains
+  /// have fallen (work_of_gravity).
   ExactSum impulse_y;
-  ExactSum impulse_y_times_step;
+  ExactSum impulse_y_times_time;
   DurationHistogram durations;  ///< of ended contacts
   OverlapHistogram overlaps;    ///< of ended contacts, the largest
   /// One that had max_overlap; none if no contact ended yet.
   std::optional<Contact> deepest;
+
+  /// s, some 34 years. In seconds the weighted impulses of a long run would leave the range of
+  /// ExactSum, as they grow with the square of the time.
+  static constexpr double era = 0x1p30;
 
   /// Adds to the sums and to the maximum.
   void add(const Contact& contact);

@@ -8,7 +8,7 @@
 // temperature_x. The kinetic part is what flying grains carry, the contact part what forces carry.
 // v_x counts in full, as walls keep its mean at zero: where the grains sway together it is a
 // stress. v_y counts relative to its mean in the strip. Contacts may have sigma_xy unlike sigma_yx:
-// the grains do not rotate and take any torque.
+// grains that do not rotate take any torque, and others hand it on.
 #pragma once
 
 #include "engine/estimate.hpp"

@@ -25,7 +25,7 @@ constexpr std::string_view finer = "raise run.steps_per_collision";
 constexpr Criterion overlap_criterion = {"max_overlap_ratio",
                                          &Evidence::max_overlap_ratio,
                                          suspect_overlap_ratio,
-                                         0.5,
+                                         unphysical_overlap_ratio,
                                          false,
                                          "grains sink deep into each other",
                                          stiffer};
@@ -33,7 +33,7 @@ constexpr Criterion brake_criterion = {
     "brake_failure_fraction",
     &Evidence::brake_failure_fraction,
     0.1,
-    0.5,
+    unphysical_brake_failure,
     false,
     "walls brake by contacts that are passed through before they can push",
     stiffer};
@@ -48,7 +48,7 @@ constexpr Criterion energy_criterion = {
     "energy_error_ratio",
     &Evidence::energy_error_ratio,
     0.01,
-    0.1,
+    unphysical_energy_error,
     false,
     "energy comes or goes by errors of the time step, which is too long for the forces",
     finer};

@@ -31,7 +31,11 @@ struct Evidence {
   double limits_exceeded;         ///< how many of the user's limits, which were to warn only
 };
 
+// Thresholds that are told elsewhere, too.
 inline constexpr double suspect_overlap_ratio = 0.2;  ///< of Evidence::max_overlap_ratio
+inline constexpr double unphysical_overlap_ratio = 0.5;
+inline constexpr double unphysical_brake_failure = 0.5;  ///< of Evidence::brake_failure_fraction
+inline constexpr double unphysical_energy_error = 0.1;   ///< of Evidence::energy_error_ratio
 
 struct Finding {
   std::string_view name;

@@ -36,7 +36,7 @@ struct WallMotion {
     return (amplitude_x != 0.0 || amplitude_y != 0.0) && (frequency != 0.0 || phase != 0.0);
   }
   /// Whether the wall is ever elsewhere than at first.
-  bool is_there() const { return velocity != 0.0 || oscillates() || start != 0; }
+  bool is_ever_away() const { return velocity != 0.0 || oscillates() || start != 0; }
   /// rad, at `time` (s).
   double phase_at(double time) const { return phase + 2.0 * std::numbers::pi * frequency * time; }
   /// m/s, of the oscillation alone.
@@ -73,7 +73,9 @@ struct WallLattice {
   std::int64_t count;  ///< grains per period of the box, at least 1; 0: smooth
   WallMotion motion = {};
 
-  static WallLattice smooth_at(double line) { return {.line = line, .radius = 0.0, .count = 0}; }
+  static WallLattice smooth_at(double line, const WallMotion& motion = {}) {
+    return {.line = line, .radius = 0.0, .count = 0, .motion = motion};
+  }
   bool smooth() const { return count == 0; }
   /// Whether it can be one: of the number and the size of its grains.
   bool sound() const {
@@ -87,6 +89,18 @@ struct WallLattice {
   double smaller_radius(double grain) const { return smooth() ? grain : std::min(grain, radius); }
   double spacing(const Box& box) const {  ///< m; 0 where it is smooth
     return smooth() ? 0.0 : box.length / static_cast<double>(count);
+  }
+
+  /// Grains of a wall that are no more places apart, also across the seam, have bits of their own.
+  static constexpr std::int64_t most_told_apart = 31;
+  /// One of 64 bits for grain k, 0 <= k < count.
+  std::uint64_t bit_of(std::int64_t k) const {
+    // A multiple of 64 places goes round, so that the bits follow each other across the seam. The
+    // grains that lack are left out at two places, as so many at once would be most of a round.
+    const std::int64_t lacking = -count & 63;
+    const std::int64_t left_out =
+        (3 * k >= count ? lacking / 2 : 0) + (3 * k >= 2 * count ? lacking - lacking / 2 : 0);
+    return std::uint64_t{1} << ((k + left_out) & 63);
   }
 
   /// y of grain k, 0 <= k < count, in quanta, before the wall moves; off by less than `count`

@@ -10,7 +10,8 @@ namespace riesel {
 
 namespace {
 
-/// (m/s)^2; the wall does not move, so that what the grain has lost is what was dissipated.
+/// (m/s)^2, relative to the wall. At rest or at constant velocity the wall takes no energy in its
+/// own frame: what the grain has lost there is what was dissipated. A wall that shakes may.
 double leaving_speed_squared(const Contact& c, double mass) {
   const double entry2 = c.entry_rate * c.entry_rate + c.entry_slip * c.entry_slip;
   return std::max(entry2 - 2.0 * (c.normal_loss + c.friction_loss) / mass, 0.01 * entry2);

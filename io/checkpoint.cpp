@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 9;
+constexpr std::int64_t format_version = 10;
 constexpr auto kind = "checkpoint";
 
 // --- one part of the checkpoint after the other, written and read ---

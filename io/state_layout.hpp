@@ -66,7 +66,7 @@ void for_each_member(Visit visit) {
   visit(
       "impulse_y", "kg m/s", [](auto& c) -> auto& { return c.impulse_y; });
   visit(
-      "impulse_y_times_step", "kg m/s", [](auto& c) -> auto& { return c.impulse_y_times_step; });
+      "impulse_y_times_time", "kg m", [](auto& c) -> auto& { return c.impulse_y_times_time; });
   visit(
       "friction_x", "N", [](auto& c) -> auto& { return c.friction_x; });
   visit(
@@ -135,7 +135,7 @@ concept MaybeConst = std::same_as<std::remove_const_t<Any>, T>;
 template <MaybeConst<ContactTally> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
   auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss, energy_won,
-         impulse_y, impulse_y_times_step, durations, overlaps, deepest] = tally;
+         impulse_y, impulse_y_times_time, durations, overlaps, deepest] = tally;
   visit("begun", begun);
   visit("ended", ended);
   visit("max_overlap", max_overlap);
@@ -145,7 +145,7 @@ void for_each_value(AnyTally& tally, Visit visit) {
   visit("friction_loss", friction_loss);
   visit("energy_won", energy_won);
   visit("impulse_y", impulse_y);
-  visit("impulse_y_times_step", impulse_y_times_step);
+  visit("impulse_y_times_time", impulse_y_times_time);
   visit("durations", durations.counts());
   visit("overlaps", overlaps.counts());
 }

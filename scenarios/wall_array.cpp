@@ -6,6 +6,7 @@
 // the paper's emergency brake.
 #include "engine/closed_forms.hpp"
 #include "scenarios/impact_settings.hpp"
+#include "scenarios/walls.hpp"
 
 #include <fmt/core.h>
 
@@ -56,6 +57,7 @@ double start_height(const io::Settings& settings, double reach) {
 Problem prepare(const io::Settings& settings) {
   const double spacing = settings.number("wall.spacing");
   ImpactCurve curve = empty_curve(settings, spacing);
+  reject_crowded_wall(settings, curve.setup.reach(), spacing);
   const double height = start_height(settings, curve.setup.reach());
 
   std::vector<double> starts(static_cast<std::size_t>(settings.integer("impact.starts")));

@@ -105,7 +105,7 @@ WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
                     const std::string& key_of_length) {
   const WallMotion motion = shaking(settings, box);
   if (settings.text("wall.surface") == "smooth")
-    return {.line = line, .radius = 0.0, .count = 0, .motion = motion};
+    return WallLattice::smooth_at(line, motion);
   const double spacing = settings.number("wall.spacing");
   if (spacing > box.length)
     settings.reject("wall.spacing", "wider than the walls are long",
@@ -131,6 +131,9 @@ void reject_short_period(const io::Settings& settings, double largest, const Sta
         "wall.grain_diameter",
         fmt::format("too large for a periodic {} of this length", io::section_of(key_of_length)),
         fmt::format("choose at most {:.6g} m; is a unit forgotten, as in '0.66 mm'?", most));
+  for (const WallLattice& wall : empty.walls)
+    if (!wall.smooth())
+      reject_crowded_wall(settings, 0.5 * largest + wall.radius, wall.spacing(empty.box));
 }
 
 void reject_narrow_gap(const io::Settings& settings, double largest, const State& empty,
@@ -142,6 +145,14 @@ void reject_narrow_gap(const io::Settings& settings, double largest, const State
         fmt::format("the {} is too narrow for the grains between the wall grains",
                     io::section_of(key_of_width)),
         fmt::format("choose smaller grains, or {} above {:.6g} m", key_of_width, needed));
+}
+
+void reject_crowded_wall(const io::Settings& settings, double reach, double spacing) {
+  const double least = 2.0 * reach / static_cast<double>(WallLattice::most_told_apart - 1);
+  if (spacing < least)
+    settings.reject("wall.spacing", "too close together for grains of this size",
+                    fmt::format("choose at least {:.3g} m; is a unit forgotten, as in '1.2 mm'?",
+                                least * (1.0 + 1e-2)));
 }
 
 void reject_fast_walls(const io::Settings& settings, const State& state) {

@@ -31,6 +31,10 @@ void reject_short_period(const io::Settings& settings, double largest, const Sta
 void reject_narrow_gap(const io::Settings& settings, double largest, const State& empty,
                        const std::string& key_of_width);
 
+/// Rejects wall grains so close together, `spacing` (m), that a grain can touch more of them than
+/// the engine tells apart; `reach` (m) is the largest sum of the two radii.
+void reject_crowded_wall(const io::Settings& settings, double reach, double spacing);
+
 /// Rejects walls that move by more than an eighth of the period in a step: as grains.
 void reject_fast_walls(const io::Settings& settings, const State& state);
 

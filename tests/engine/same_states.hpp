@@ -15,13 +15,13 @@ using namespace riesel;
 inline auto all_of(const Contact& c) {
   return std::tie(c.name, c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
                   c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
-                  c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y, c.spring,
+                  c.impulse_y, c.impulse_y_times_time, c.friction_x, c.friction_y, c.spring,
                   c.torque, c.rolling_torque);
 }
 
 inline auto all_of(const ContactTally& t) {
   return std::tie(t.begun, t.ended, t.max_overlap, t.duration, t.slip_path, t.normal_loss,
-                  t.friction_loss, t.energy_won, t.impulse_y, t.impulse_y_times_step, t.durations,
+                  t.friction_loss, t.energy_won, t.impulse_y, t.impulse_y_times_time, t.durations,
                   t.overlaps);
 }
 

@@ -120,6 +120,18 @@ TEST_CASE("grains that gravity alone brings to a wall go as by brute force") {
   CHECK(agree(state, 4000, frictionless(0.3 * damping)).walls_begun > 12);
 }
 
+TEST_CASE("a grain in the hollow at the seam of a wall goes as by brute force") {
+  // It touches the last wall grain and the first, at times both.
+  const auto count = GENERATE(as<std::int64_t>{}, 8, 63, 64, 65, 66, 67, 129, 193);
+  const double spacing = 1.2e-3;
+  State state = empty_box(8e-3, static_cast<double>(count) * spacing);
+  add_walls(state, count);
+  add_grain(state, grain(1e-3, -0.48 * spacing, -2.0, 0.0));
+  add_grain(state, grain(2.1e-3, -0.5 * spacing, -3.0, 0.1));
+  CAPTURE(count);
+  CHECK(agree(state, 1500, frictionless(damping)).walls_begun >= 2);
+}
+
 TEST_CASE("grains between smooth walls go as by brute force") {
   const double inertia = GENERATE(0.0, disc);
   State state = small_tube(20, 40, inertia);

@@ -64,6 +64,25 @@ TEST_CASE("a pair falling at an angle gains what gravity does") {
   CHECK(std::abs(e.residual) < 1e-7 * e.kinetic);
 }
 
+TEST_CASE("the work of gravity is told after years between walls that hold it") {
+  // A block of 14 kg, whose wall takes up what it gains, a thousandth of the time at once.
+  constexpr double force = 140.0, years = 3e8, parts = 1000.0;  // N, s
+  State state = empty_box(10e-3, 20e-3);
+  state.gravity.y = 10.0;
+  add_grain(state, {.x = 5e-3, .y = 3e-3, .vx = 0.0, .vy = 0.0, .radius = radius, .mass = 14.0});
+  state.time_step = years / 1e15;
+  state.step = static_cast<std::int64_t>(1e15);
+  for (double part = 0.5; part < parts; ++part) {
+    Contact contact{.name = {0, 0, 0}};
+    contact.impulse_y = -force * years / parts;
+    contact.impulse_y_times_time = contact.impulse_y * years * part / parts;
+    state.tally.walls.add(contact);
+  }
+  // Nobody has moved.
+  const double free_fall = 0.5 * force * 10.0 * years * years;
+  CHECK(std::abs(observe(state).energies.gravity_work) < 1e-5 * free_fall);
+}
+
 TEST_CASE("grains beyond a wall line are counted as outside") {
   State state = pair_of_grains();
   add_walls(state, 10);

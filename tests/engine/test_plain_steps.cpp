@@ -116,6 +116,8 @@ TEST_CASE("slices without grains or steps are refused") {
 TEST_CASE("each thread has one slice where slices could not go askew") {
   const State tube = long_tube(0.1);
   CHECK(Askew{}.slices_per_thread(tube, 1) == 1);  // so few grains
+  CHECK(Askew{}.most_steps(tube) == 1);            // also where many threads have a slice each
+  CHECK(small_slices.most_steps(tube) == small_slices.steps);
   CHECK(small_slices.slices_per_thread(small_tube(31), 1) == 1);
   State wide = tube;
   wide.box.length = 30.0 * diameter;

@@ -93,9 +93,9 @@ TEST_CASE("the hash notices every sum of the tally") {
 TEST_CASE("the hash notices what the balances and the tally will need") {
   CHECK(noticed([](State& s) { s.contacts[0].end += 1e-9; }));
   CHECK(noticed([](State& s) { s.contacts[0].impulse_y += 1e-12; }));
-  CHECK(noticed([](State& s) { s.contacts[0].impulse_y_times_step += 1e-12; }));
+  CHECK(noticed([](State& s) { s.contacts[0].impulse_y_times_time += 1e-12; }));
   CHECK(noticed([](State& s) { s.tally.walls.impulse_y.add(1e-20); }));
-  CHECK(noticed([](State& s) { s.tally.walls.impulse_y_times_step.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.tally.walls.impulse_y_times_time.add(1e-20); }));
   CHECK(noticed([](State& s) { s.origin.energy *= 2.0; }));
   CHECK(noticed([](State& s) { s.origin.momentum_y *= 2.0; }));
 }

@@ -63,6 +63,18 @@ TEST_CASE("a reach longer than the period gives every wall grain once") {
   CHECK(near(wall, 5e-3, 1.0) == std::vector<std::int64_t>{0, 1, 2});
 }
 
+TEST_CASE("wall grains near each other have bits of their own, at the seam, too") {
+  for (std::int64_t count = 1; count <= 600; ++count) {
+    const WallLattice wall{.line = 0.0, .radius = wall_radius, .count = count};
+    std::int64_t shared = 0;
+    for (std::int64_t k = 0; k < count; ++k)
+      for (std::int64_t apart = 1; apart <= WallLattice::most_told_apart; ++apart)
+        shared += apart % count != 0 && wall.bit_of(k) == wall.bit_of((k + apart) % count);
+    CAPTURE(count);
+    REQUIRE(shared == 0);
+  }
+}
+
 TEST_CASE("wall grains stand evenly, the first at the seam") {
   const auto count = GENERATE(as<std::int64_t>{}, 1, 3, 7, 1000000);
   const WallLattice wall{.line = 0.0, .radius = wall_radius, .count = count};

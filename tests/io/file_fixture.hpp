@@ -79,7 +79,7 @@ inline riesel::Contact contact(riesel::ContactName name, double first) {
        {&contact.begin, &contact.end, &contact.entry_rate, &contact.entry_slip, &contact.overlap,
         &contact.max_overlap, &contact.slip_path, &contact.elastic_energy, &contact.normal_loss,
         &contact.friction_loss, &contact.impulse_x, &contact.impulse_y,
-        &contact.impulse_y_times_step, &contact.friction_x, &contact.friction_y, &contact.spring,
+        &contact.impulse_y_times_time, &contact.friction_x, &contact.friction_y, &contact.spring,
         &contact.torque, &contact.rolling_torque}) {
     *member = value;
     value = value * -1.3 + 0.1;
@@ -101,7 +101,7 @@ inline riesel::ContactTally tally(double scale) {
   tally.max_overlap = 3e-5 * scale;
   double value = scale;
   for (auto* sum : {&tally.duration, &tally.slip_path, &tally.normal_loss, &tally.friction_loss,
-                    &tally.impulse_y, &tally.impulse_y_times_step}) {
+                    &tally.impulse_y, &tally.impulse_y_times_time}) {
     sum->add(value);
     value *= -1.7e-4;
   }
@@ -220,7 +220,7 @@ public:
     add(t.ended);
     add(t.max_overlap);
     for (const auto* sum : {&t.duration, &t.slip_path, &t.normal_loss, &t.friction_loss,
-                            &t.impulse_y, &t.impulse_y_times_step}) {
+                            &t.impulse_y, &t.impulse_y_times_time}) {
       add(*sum);
     }
     add_all(t.durations.counts());
@@ -253,7 +253,7 @@ public:
     add_all(std::vector{c.name.wall, c.name.grain, c.name.partner});
     add_all(std::vector{c.begin, c.end, c.entry_rate, c.entry_slip, c.overlap, c.max_overlap,
                         c.slip_path, c.elastic_energy, c.normal_loss, c.friction_loss, c.impulse_x,
-                        c.impulse_y, c.impulse_y_times_step, c.friction_x, c.friction_y, c.spring,
+                        c.impulse_y, c.impulse_y_times_time, c.friction_x, c.friction_y, c.spring,
                         c.torque, c.rolling_torque});
   }
   const std::string& value() const { return bits_; }

@@ -83,6 +83,10 @@ FAULTS = [
      "if (row + 1 == rows_) return;\n    const std::size_t next = row + 1;"),
     ("a wall that ends at the seam", "engine/wall_lattice.hpp",
      "visit_all(0, high - n);\n    visit_all(low, n - 1);", "visit_all(low, n - 1);"),
+    ("wall grains on both sides of the seam taken for one", "engine/wall_lattice.hpp",
+     "const std::int64_t lacking = -count & 63;", "const std::int64_t lacking = 0 * count;"),
+    ("impulses of a long run that leave their range", "engine/tally.hpp",
+     "static constexpr double era = 0x1p30;", "static constexpr double era = 1.0;"),
     ("one wall grain too few looked at", "engine/wall_lattice.hpp",
      "const auto more = static_cast<std::int64_t>(reach / wall.spacing(box));",
      "const auto more = static_cast<std::int64_t>(reach / wall.spacing(box)) - 1;"),
@@ -128,7 +132,7 @@ FAULTS = [
 
     # Time and flights
     ("one step too few in the fall of a flight", "engine/fixed_point.hpp",
-     "(now - since) * (since + 1 + now)", "(now - since) * (since + now)"),
+     "static_cast<std::uint64_t>(since + 1 + now)", "static_cast<std::uint64_t>(since + now)"),
     ("appointments a step late", "engine/free_flight.hpp",
      "constexpr double nearly_half = 0.499;", "constexpr double nearly_half = 1.499;"),
     ("no tolerance for deflected grains", "engine/free_flight.cpp",
@@ -230,7 +234,7 @@ FAULTS = [
     # Files
     ("a file not flushed to the disk", "io/durable_file.cpp", "  file.sync();\n", ""),
     ("a folder not flushed to the disk", "io/durable_file.cpp",
-     "  sync_directory_of(path);\n", ""),
+     "  directory.sync();\n", ""),
     ("the generation before not kept", "io/durable_file.cpp",
      "  if (keeps) rename_to(replaced.path(), previous_generation(path), path);\n",
      "  static_cast<void>(keeps);\n"),

@@ -83,7 +83,7 @@ HASH_CASES = {**CASES, **ROLLING}
 def run(name, seed, duration=None, **contact):
     """{velocity, state, mean, error, balance, hash, commit} of a run of the case, with other contact settings
     if there are any. velocity: mean over the second half of the run, which the program's own
-    statistics have no part in; mean and error: those of the program."""
+    statistics have no part in; mean and error: those of the program, None for what it does not know."""
     settings, start, usual_duration = HASH_CASES[name]
     grains = {**BASE["grains"], "rotation": ROTATION.get(name, "none")}
     document = {**BASE, "grains": grains, "seed": seed, "contact": {**settings, **contact},

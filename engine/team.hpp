@@ -1,0 +1,27 @@
+// Work that all threads of a team do together.
+#pragma once
+
+#include "engine/run_failure.hpp"
+
+#include <omp.h>
+
+#include <cstddef>
+
+namespace riesel {
+
+/// Calls work(member) in each thread of a team of so many. Throws RunFailure, and does nothing, if
+/// the system grants fewer. What `work` throws ends the program, as the others would wait for ever.
+template <class Work>
+void as_a_team(int members, Work work) {
+  bool complete = true;
+#pragma omp parallel num_threads(members)
+  if (omp_get_num_threads() == members) {
+    work(static_cast<std::size_t>(omp_get_thread_num()));
+  } else {
+#pragma omp atomic write
+    complete = false;  // the same for all
+  }
+  if (!complete) throw RunFailure("the system grants fewer threads than the run was to have");
+}
+
+}  // namespace riesel
