@@ -17,6 +17,8 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -160,19 +162,24 @@ private:
         "sweep", "Run all points of a sweep file that are not done, side by side");
     CLI::Option* file = sweep->add_option("FILE", sweep_.file, "Sweep in YAML");
     sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]");
-    sweep->add_option("--jobs", sweep_.jobs, "Runs side by side [as many as cores]")
-        ->check(CLI::Range(1, most_jobs));
+    CLI::Option* jobs =
+        sweep->add_option("--jobs", sweep_.jobs, "Runs side by side [as many as cores]")
+            ->check(CLI::Range(1, most_jobs));
     sweep->add_flag("--dry-run", sweep_.dry_run, "List the points, their directories and cost");
-    sweep->add_flag("--prepare", sweep_.prepare_only, "Write the plan for sweep-task, run nothing");
-    sweep->add_flag("--retry-failed", sweep_.retry_failed, "Run again what failed");
-    add_max_walltime(*sweep, sweep_.max_walltime,
-                     "Stop with checkpoints before this time on the clock, such as '23.5 h', is "
-                     "over; with --slurm: the time of each task, which is queued again then");
-    add_slurm(*sweep);
+    CLI::Option* prepare = sweep->add_flag("--prepare", sweep_.prepare_only,
+                                           "Write the plan for sweep-task, run nothing");
+    CLI::Option* retry =
+        sweep->add_flag("--retry-failed", sweep_.retry_failed, "Run again what failed");
+    CLI::Option* walltime = add_max_walltime(
+        *sweep, sweep_.max_walltime,
+        "Stop with checkpoints before this time on the clock, such as '23.5 h', is over; with "
+        "--slurm: the time of each task, which is queued again then");
+    add_slurm(*sweep)->excludes(jobs)->excludes(prepare);
+    prepare->excludes(jobs)->excludes(retry)->excludes(walltime);
     set_command(*sweep, *file, [this] { return app::sweep(sweep_); });
   }
 
-  void add_slurm(CLI::App& sweep) {
+  CLI::Option* add_slurm(CLI::App& sweep) {
     CLI::Option* slurm = sweep.add_flag("--slurm", sweep_.to_slurm,
                                         "Submit the sweep to Slurm; --dry-run shows the script");
     sweep.add_option("--tasks", sweep_.slurm.tasks, "Tasks of Slurm at most [one per point]")
@@ -187,6 +194,7 @@ private:
         ->take_all()
         ->allow_extra_args(false)
         ->needs(slurm);
+    return slurm;
   }
 
   void add_sweep_task() {
@@ -298,6 +306,16 @@ int fail_to_print() noexcept {
                   : "what was to be printed could not be written; free some space there");
 }
 
+int fail_for_want_of_memory() noexcept {
+  return fail(app::exit_failed, "out of memory; choose fewer grains");
+}
+
+/// No exception can leave a team of threads: the others would wait for ever.
+void give_up_without_memory() {
+  if (omp_in_parallel() == 0) throw std::bad_alloc();
+  _exit(fail_for_want_of_memory());
+}
+
 /// What is printed goes to the disk when it likes, and may not get there.
 int tell_if_not_printed(int status) {
   const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
@@ -308,6 +326,7 @@ int tell_if_not_printed(int status) {
 int run_program(int argc, char** argv) {
   app::occupy_closed_streams();
   app::end_on_interrupts();
+  std::set_new_handler(give_up_without_memory);
   CommandLine line(argc, argv);
   try {
     line.parse();
@@ -329,7 +348,7 @@ int riesel::app::command(int argc, char** argv) {
   } catch (const app::UnusableInput& error) {
     return fail(app::exit_bad_input, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(app::exit_failed, "out of memory; choose fewer grains");
+    return fail_for_want_of_memory();
   } catch (const std::filesystem::filesystem_error& error) {
     const auto told = io::system_failure(error.path1(), "cannot be reached", error.code().value());
     return fail(app::exit_failed, told.what());

@@ -5,6 +5,7 @@
 #include "app/flow_options.hpp"
 #include "app/run_directory.hpp"
 #include "app/slurm.hpp"
+#include "io/file_error.hpp"
 #include "io/settings.hpp"
 
 #include <cstddef>
@@ -21,6 +22,17 @@ class UnusableInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What read() returns; what it cannot use is bad input, rather than a failure. Throws
+/// UnusableInput instead of io::FileError.
+template <class Read>
+auto as_input(Read read) {
+  try {
+    return read();
+  } catch (const io::FileError& error) {
+    throw UnusableInput(error.what());
+  }
+}
+
 struct RunOptions {
   std::filesystem::path file;                      ///< the settings
   std::optional<std::filesystem::path> directory;  ///< where the results go
@@ -31,8 +43,10 @@ struct RunOptions {
 int run(const RunOptions& options, const Arguments& arguments);
 
 struct ResumeOptions {
-  std::filesystem::path checkpoint;    ///< the file, or the directory of the run
-  std::vector<std::string> overrides;  ///< "key=value"; only settings of `run` and `output`
+  std::filesystem::path checkpoint;  ///< the file, or the directory of the run
+  /// "key=value"; only what does not make it another run: duration, threads, stepping, limits, how
+  /// often checkpoints are written.
+  std::vector<std::string> overrides;
   FlowOptions flow;
 };
 

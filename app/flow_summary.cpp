@@ -95,6 +95,13 @@ io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const Vi
           .of_contacts = tally.of_contacts};
 }
 
+/// A flow that gains speed only passes through its mean: there is nothing that a bar could cover.
+/// That of the temperature likewise, if that is what grows.
+void take_error_bars_off(io::FlowSummary& s) {
+  s.mean_axial_velocity.error = unknown;
+  if (s.judged_by == "granular_temperature") s.fluctuations.granular_temperature.error = unknown;
+}
+
 constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
 
 /// What walls do is looked at after the transient, the rest since the start.
@@ -154,6 +161,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
                     .sigma_vy = mean_of(file, "sigma_vy", steady.transient_end),
                     .granular_temperature =
                         mean_of(file, "granular_temperature", steady.transient_end)};
+  if (steady.verdict == SteadyVerdict::accelerating) take_error_bars_off(s);
   if (steady.transient_end < samples.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = s.fluctuations.granular_temperature.value;

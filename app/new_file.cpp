@@ -3,6 +3,7 @@
 #include "io/durable_file.hpp"
 #include "io/settings_names.hpp"
 #include "io/settings_starter.hpp"
+#include "io/shell_words.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -37,8 +38,8 @@ int new_file(const NewFileOptions& options) {
     throw UnusableInput(file.string() + ": exists already; choose another name");
   io::write_durably(file, io::starter_file(scenarios::settings_tables().at(scenario.name),
                                            scenario.name, scenario.summary));
-  fmt::print("{0}: written; look at it, then 'riesel check {0}' and 'riesel run {0}'\n",
-             file.string());
+  fmt::print("{0}: written; look at it, then 'riesel check {1}' and 'riesel run {1}'\n",
+             file.string(), io::in_quotes(file.string()));
   return exit_done;
 }
 

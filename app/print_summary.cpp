@@ -2,6 +2,7 @@
 
 #include "app/plain_words.hpp"
 #include "app/terminal.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/core.h>
 
@@ -42,21 +43,14 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
              text_of(v.contacts, "contacts", 3, 1), text_of(v.dv_y, "m/s", 3, 1), v.visits);
 }
 
-/// With its error bar; a flow that gains speed has none.
-void print_mean(const io::FlowSummary& s) {
-  io::Measured mean = s.mean_axial_velocity;
-  if (s.state == "accelerating") mean.error = unknown;
-  fmt::print("  {:<22}{} (after {:.3g} s)\n", "mean axial velocity", text_of(mean, "m/s", 5),
-             s.transient_end);
-}
-
 /// Whether the mean is that of a steady flow; how to come to one if the run was too short.
 void print_state(const io::FlowSummary& s, const std::filesystem::path& directory) {
   fmt::print("  {:<22}{}: {}\n", "state",
              coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
              explanation_of_state(s));
   if (asks_for_more(s))
-    fmt::print("  {:<22}riesel resume {} --set {}='{:.2g} s'\n", "go on by", directory.string(),
+    fmt::print("  {:<22}riesel resume {} --set {}='{:.2g} s'\n", "go on by",
+               io::in_quotes(directory.string()),
                s.ended_by == "duration" ? "run.duration" : "run.until.at_most",
                sufficient_duration(s));
 }
@@ -88,7 +82,8 @@ void print_common(const io::RunSummary& run, const std::filesystem::path& direct
 void print_summary(const io::FlowSummary& s, const std::filesystem::path& directory) {
   fmt::print("{}: {} grains, {:.6g} s in {} steps\n", s.run.scenario, s.run.grains, s.time,
              s.run.steps);
-  print_mean(s);
+  fmt::print("  {:<22}{} (after {:.3g} s)\n", "mean axial velocity",
+             text_of(s.mean_axial_velocity, "m/s", 5), s.transient_end);
   print_state(s, directory);
   if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
   fmt::print("  {:<22}{}\n", "granular temperature",

@@ -10,6 +10,7 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/settings_text.hpp"
+#include "io/shell_words.hpp"
 #include "io/summary_reader.hpp"
 
 #include <fmt/core.h>
@@ -40,10 +41,11 @@ void require_finished_run(const fs::path& directory) {
         directory.string() + ": its run failed; its last state is in "
         + (directory / post_mortem_name).string()
         + ", from which another run can start: start: {kind: continued, from: ...}");
-  throw UnusableInput(directory.string() + ": its run has not come to its end; "
-                      + (io::DirectoryLock::is_held(directory)
-                             ? "wait until it has"
-                             : "go on with it by 'riesel resume " + directory.string() + "'"));
+  throw UnusableInput(
+      directory.string() + ": its run has not come to its end; "
+      + (io::DirectoryLock::is_held(directory)
+             ? "wait until it has"
+             : "go on with it by 'riesel resume " + io::in_quotes(directory.string()) + "'"));
 }
 
 Report report_of(const io::FlowSummary& summary, const std::string& effective_settings,
@@ -111,7 +113,8 @@ Report report_of_sweep(const fs::path& directory) {
     record.results.push_back(result_of(point, directory));
   if (std::ranges::none_of(record.results, [](const auto& r) { return r.summary.has_value(); }))
     throw UnusableInput(directory.string() + ": has no point with a result; see 'riesel status "
-                        + directory.string() + "', and run 'riesel sweep' to its end");
+                        + io::in_quotes(directory.string())
+                        + "', and run 'riesel sweep' to its end");
   return make_report(record);
 }
 
@@ -140,27 +143,18 @@ void write(const Report& report, const fs::path& directory) {
   io::write_durably(directory / page_name, report.page);
 }
 
-/// What it reads cannot be used, rather than that it failed.
-template <class Make>
-Report reading(Make make, const fs::path& directory) {
-  try {
-    return make(directory);
-  } catch (const io::FileError& error) {
-    throw UnusableInput(error.what());
-  }
-}
-
 void report_on_run(const fs::path& directory) {
   require_finished_run(directory);
   const io::DirectoryLock lock(directory);
-  write(reading(report_of_run, directory), directory);
+  write(as_input([&] { return report_of_run(directory); }), directory);
 }
 
 }  // namespace
 
 int report(const fs::path& directory) {
   if (fs::exists(directory / io::manifest_name))
-    write(reading(report_of_sweep, directory), directory);  // also while it goes on
+    write(as_input([&] { return report_of_sweep(directory); }),
+          directory);  // while it goes on, too
   else
     report_on_run(directory);
   fmt::print("{}\n", (directory / page_name).string());

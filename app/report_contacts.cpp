@@ -169,14 +169,14 @@ void show_contacts(const io::RunContents& run, const io::FlowSummary& summary, R
     add("overlap", "largest overlap over the sum of the radii",
         marks_of_overlaps(summary, run.final_state, is_wall));
   }
-  draft.page().paragraph(
+  draft.page().paragraph(fmt::format(
       "How many contacts ended per second after the transient, by bins of a quarter of an octave, "
       "with 68 % error bars. t_col: a head-on contact between grains of the mean mass. A wall "
-      "contact that lasts less than 0.639 of its own t_col is cut short: the grain has passed "
-      "before "
-      "it was pushed away. Suspect and unphysical: the thresholds of max_overlap_ratio, for "
+      "contact that lasts less than {:.3g} of its own t_col is cut short: the grain has passed "
+      "before it was pushed away. Suspect and unphysical: the thresholds of max_overlap_ratio, for "
       "a pair of mean size; steps: that of steps_per_contact. The shortest contacts are grazing "
-      "ones, and those pressed together by others.");
+      "ones, and those pressed together by others.",
+      cut_short_below));
 }
 
 }  // namespace riesel::app

@@ -71,7 +71,7 @@ std::vector<double> settings_of(std::span<const VelocityCurve> curves) {
   return values;
 }
 
-/// The pieces of a line where `is_part` holds of one end at least, or of both; elsewhere unknown.
+/// The values at those points of which `is_part` holds; elsewhere unknown: a gap.
 template <class IsPart>
 std::vector<double> pieces(const ImpactLine& line, double io::CurvePoint::*value, IsPart is_part) {
   std::vector<double> y;
@@ -80,6 +80,7 @@ std::vector<double> pieces(const ImpactLine& line, double io::CurvePoint::*value
   return y;
 }
 
+/// Full between points that are good; dashed where an end or both ends are unphysical.
 void draw_line(const ImpactLine& line, const ImpactQuantity& quantity, const io::Look& look,
                io::Plot& plot) {
   const auto& points = line.points;

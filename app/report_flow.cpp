@@ -52,14 +52,12 @@ private:
                                  explanation_of_end(s.ended_by)));
     const bool is_steady = s.state == "steady";
     page().paragraph(
-        fmt::format(
-            "Mean axial velocity {} after {:.3g} s (68 % error bar). State, by {} independent "
-            "samples: {}: {}.{}",
-            s.state == "accelerating" ? number(s.mean_axial_velocity.value, "{:.4g} m/s")
-                                      : with_error(s.mean_axial_velocity, "m/s"),
-            s.transient_end, number(s.independent_samples, "{:.3g}"), s.state,
-            explanation_of_state(s),
-            is_steady ? "" : " The mean is not to be used as a property of the flow."),
+        fmt::format("Mean axial velocity {} after {:.3g} s{}. State, by {} independent "
+                    "samples: {}: {}.{}",
+                    with_error(s.mean_axial_velocity, "m/s"), s.transient_end,
+                    std::isnan(s.mean_axial_velocity.error) ? "" : " (68 % error bar)",
+                    number(s.independent_samples, "{:.3g}"), s.state, explanation_of_state(s),
+                    is_steady ? "" : " The mean is not to be used as a property of the flow."),
         is_steady ? "good" : "doubtful");
     tell_validity();
   }

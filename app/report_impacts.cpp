@@ -45,7 +45,7 @@ void show_curves(const io::CurveSummary& summary, ReportDraft& draft) {
     for (ImpactLine& line : lines)
       line.name = fmt::format("v_x = {:.6g} m/s", line.points.front().v_x);
   draft.page().heading("Curves");
-  draft.page().paragraph(what_dashes_mean);
+  draft.page().paragraph(what_dashes_mean());
   for (const ImpactQuantity& quantity : impact_quantities())
     draft.add_figure(quantity.name, draw_impacts("", quantity, lines), quantity.doc);
 }
@@ -78,6 +78,15 @@ std::vector<ImpactLine> lines_of(const io::CurveSummary& summary) {
   }
   for (ImpactLine& line : lines) std::ranges::stable_sort(line.points, {}, &io::CurvePoint::v_y);
   return lines;
+}
+
+std::string what_dashes_mean() {
+  return fmt::format(
+      "Lines are dashed where the result is unphysical: more than {:g} of the braking is done by "
+      "contacts that are passed through before they can push (brake failure), grains sink into "
+      "each other by more than {:g} of the smaller radius, or errors of the time step make or take "
+      "more than {:g} of the energy.",
+      unphysical_brake_failure, unphysical_overlap_ratio, unphysical_energy_error);
 }
 
 Report make_report(const ImpactRecord& record) {

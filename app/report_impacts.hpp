@@ -5,6 +5,7 @@
 #include "app/report_curves.hpp"
 #include "io/summary.hpp"
 
+#include <string>
 #include <vector>
 
 namespace riesel::app {
@@ -18,10 +19,6 @@ Report make_report(const ImpactRecord& record);
 std::vector<ImpactLine> lines_of(const io::CurveSummary& summary);
 
 /// What dashed lines of draw_impacts() mean, in words.
-inline constexpr auto what_dashes_mean =
-    "Lines are dashed where the result is unphysical: more than half of the braking is done by "
-    "contacts that "
-    "are passed through before they can push (brake failure), or grains sink into each other by "
-    "more than half a radius.";
+std::string what_dashes_mean();
 
 }  // namespace riesel::app

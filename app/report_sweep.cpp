@@ -129,9 +129,9 @@ private:
         manifest().points, [](const io::ManifestPoint& point) { return !point.leg.empty(); });
     return std::string(
                "Means after the transient, with 68 % error bars. Full symbols: steady. Open: not "
-               "steady, no property of the flow. Arrows: still accelerating. Red crosses: "
-               "unphysical, an artefact of soft contacts. A click leads to the run. Lines join "
-               "runs of one seed and are there to guide the eye.")
+               "steady, no property of the flow. Arrows: still accelerating, of no known error. "
+               "Red crosses: unphysical, an artefact of soft contacts. A click leads to the run. "
+               "Lines join runs of one seed and are there to guide the eye.")
            + (has_legs ? " Full lines: the way there along the axis; dashed: the way back." : "");
   }
 
@@ -145,7 +145,7 @@ private:
     const auto panels = impact_panels(*record_);
     if (panels.empty()) return;
     page().heading("Impacts");
-    page().paragraph(what_dashes_mean);
+    page().paragraph(what_dashes_mean());
     for (std::size_t i = 0; i < panels.size(); ++i)
       for (std::size_t q = 0; q < 2; ++q) {  // those of the paper; the others are in the runs
         const ImpactQuantity& quantity = impact_quantities()[q];
@@ -200,9 +200,10 @@ private:
     for (const Finding& finding : s.validity.verdict.findings)
       if (finding.name == "brake_failure_fraction") failure = finding.value;
     row.emplace_back(number(failure, "{:.2g}"));
-    row.emplace_back(with_error(
-        {.value = carried.value / s.balance.gravity, .error = carried.error / s.balance.gravity},
-        ""));
+    // Where gravity does not pull along the walls there is nothing to compare with.
+    const double g = s.balance.gravity;
+    row.emplace_back(
+        g == 0.0 ? "" : with_error({.value = carried.value / g, .error = carried.error / g}, ""));
   }
 
   static void add_curve(const io::CurveSummary& s, std::vector<io::HtmlCell>& row) {

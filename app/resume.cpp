@@ -38,7 +38,9 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
   }
 }
 
-io::FoundCheckpoint find(const std::filesystem::path& path) {
+void reject_what_is_no_run(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path))
+    throw UnusableInput(path.string() + ": does not exist; check the path");
   const auto post_mortem = path / post_mortem_name;
   if (stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
@@ -57,18 +59,22 @@ io::FoundCheckpoint find(const std::filesystem::path& path) {
     throw UnusableInput(
         path.string()
         + ": holds no run to go on with; give the directory of one (see 'riesel run')");
-  try {
-    return io::find_checkpoint(path);
-  } catch (const io::FileError& error) {
-    throw UnusableInput(error.what());
-  }
+}
+
+std::filesystem::path home_of(const std::filesystem::path& checkpoint) {
+  return std::filesystem::is_directory(checkpoint)
+             ? checkpoint
+             : std::filesystem::absolute(checkpoint).parent_path();
 }
 
 }  // namespace
 
 int resume(const ResumeOptions& options, const Arguments& arguments) {
   reject_overrides_of_the_physics(options.overrides);
-  io::FoundCheckpoint found = find(options.checkpoint);
+  reject_what_is_no_run(options.checkpoint);
+  // From here on nobody else writes what is read.
+  RunDirectory directory = RunDirectory::reopen(home_of(options.checkpoint));
+  io::FoundCheckpoint found = as_input([&] { return io::find_checkpoint(options.checkpoint); });
   if (!found.note.empty()) tell("riesel: {}; going on from {}\n", found.note, found.path.string());
 
   const auto settings = io::Settings::from_text(found.checkpoint.settings, found.path.string(),
@@ -83,10 +89,7 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
     throw UnusableInput(found.path.string()
                         + ": is damaged (its profiles are not those of this tube); start the run "
                           "again");
-  const auto home = std::filesystem::is_directory(options.checkpoint)
-                        ? options.checkpoint
-                        : std::filesystem::absolute(options.checkpoint).parent_path();
-  return resume_flow(settings, std::move(found.checkpoint), RunDirectory::reopen(home), arguments,
+  return resume_flow(settings, std::move(found.checkpoint), std::move(directory), arguments,
                      options.flow);
 }
 

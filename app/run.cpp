@@ -6,13 +6,26 @@
 
 namespace riesel::app {
 
+namespace {
+
+/// What only flows obey.
+void reject_flow_options(const FlowOptions& options, const std::string& scenario) {
+  if (options.max_walltime)
+    throw UnusableInput("--max-walltime: has no effect on the scenario " + scenario
+                        + ", which cannot be resumed; remove it");
+  if (options.profile)
+    throw UnusableInput("--profile: has no effect on the scenario " + scenario
+                        + ", which is no flow; remove it");
+}
+
+}  // namespace
+
 int run(const RunOptions& options, const Arguments& arguments) {
   const auto settings =
       io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
   scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
-  if (options.flow.max_walltime && !std::holds_alternative<scenarios::Flow>(problem))
-    throw UnusableInput("--max-walltime: has no effect on the scenario " + settings.scenario()
-                        + ", which cannot be resumed; remove it");
+  if (!std::holds_alternative<scenarios::Flow>(problem))
+    reject_flow_options(options.flow, settings.scenario());
   RunDirectory directory =
       RunDirectory::create(options.directory.value_or("runs" / options.file.stem()), settings);
 

@@ -6,6 +6,7 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
+#include "io/shell_words.hpp"
 #include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
 
@@ -23,15 +24,19 @@ bool stopped_before_checkpoint(const fs::path& directory) {
          && !fs::exists(directory / io::summary_name);
 }
 
-RunDirectory::RunDirectory(const fs::path& path)
-    : path_(path), lock_(std::make_unique<io::DirectoryLock>(path)) {}
+RunDirectory::RunDirectory(const fs::path& path, io::Signature signature)
+    : path_(path), lock_(std::make_unique<io::DirectoryLock>(path, signature)) {}
 
 void RunDirectory::write_settings(const io::Settings& settings) const {
   io::write_durably(file(io::effective_settings_name),
                     "# Written by " + written_by() + ".\n" + settings.effective_yaml());
 }
 
-RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
+namespace {
+
+void reject_directory_in_use(const fs::path& path) {
+  if (fs::exists(path) && !fs::is_directory(path))
+    throw UnusableInput(path.string() + ": is no directory; choose another one with --out");
   const bool holds_run = fs::exists(path / io::run_file_name)
                          || fs::exists(path / io::trajectory_name) || has_checkpoint(path);
   if (holds_run && stopped_before_checkpoint(path))
@@ -43,9 +48,16 @@ RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& sett
         path.string()
         + ": holds a run already; choose another directory with --out, or go on with that "
           "run by 'riesel resume "
-        + path.string() + "'");
+        + io::in_quotes(path.string()) + "'");
+}
+
+}  // namespace
+
+RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
+  reject_directory_in_use(path);
   io::make_directories(path);
-  RunDirectory directory(path);
+  RunDirectory directory(path, io::Signature::now);
+  reject_directory_in_use(path);  // nobody can have begun a run since it is locked
   directory.write_settings(settings);
   return directory;
 }
@@ -54,10 +66,11 @@ RunDirectory RunDirectory::reopen(const fs::path& path) {
   if (!fs::exists(path / io::run_file_name))
     throw UnusableInput((path / io::run_file_name).string()
                         + ": is missing; restore the file, or start the run again elsewhere");
-  return RunDirectory(path);
+  return RunDirectory(path, io::Signature::later);
 }
 
 void RunDirectory::go_on(const io::Settings& settings) const {
+  lock_->sign();
   write_settings(settings);
   const fs::path summary = file(io::summary_name);  // of the shorter run
   std::error_code error;

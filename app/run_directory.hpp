@@ -40,7 +40,7 @@ public:
   void require_in_place() const { lock_->require_in_place(); }
 
 private:
-  explicit RunDirectory(const std::filesystem::path& path);
+  RunDirectory(const std::filesystem::path& path, io::Signature signature);
   void write_settings(const io::Settings& settings) const;
 
   std::filesystem::path path_;

@@ -1,5 +1,6 @@
 #include "app/run_flow.hpp"
 
+#include "app/commands.hpp"
 #include "app/exit_status.hpp"
 #include "app/flow_failures.hpp"
 #include "app/flow_summary.hpp"
@@ -23,6 +24,7 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
+#include "io/shell_words.hpp"
 #include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
 #include "scenarios/run_limits.hpp"
@@ -109,7 +111,7 @@ public:
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
       return fail(failure, fmt::format("; 'riesel resume {}' goes on from there with another limit",
-                                       directory_.file(post_mortem_name).string()));
+                                       io::in_quotes(directory_.file(post_mortem_name).string())));
     } catch (const RunFailure& failure) {
       return fail(failure, "");
     }
@@ -128,15 +130,18 @@ private:
                                 .settings = settings_.effective_yaml(),
                                 .run = run_});
     const auto path = directory_.file(io::run_file_name);
-    return past_.rows == 0 ? io::RunFile::create(path, provenance, series_columns())
-                           : io::RunFile::reopen(path, provenance, series_columns(), past_.rows);
+    if (past_.rows == 0) return io::RunFile::create(path, provenance, series_columns());
+    return as_input(
+        [&] { return io::RunFile::reopen(path, provenance, series_columns(), past_.rows); });
   }
 
   std::optional<io::TrajectoryFile> open_trajectory() const {
     if (schedule_.steps_per_frame == 0) return {};
     const auto open = past_.rows == 0 ? io::TrajectoryFile::create : io::TrajectoryFile::reopen;
-    return open(directory_.file(io::trajectory_name), run_, simulation_.state(),
-                schedule_.steps_per_frame, settings_.effective_yaml());
+    return as_input([&] {
+      return open(directory_.file(io::trajectory_name), run_, simulation_.state(),
+                  schedule_.steps_per_frame, settings_.effective_yaml());
+    });
   }
 
   /// The first row, frame and checkpoint: from here on nothing is lost.
@@ -344,7 +349,7 @@ private:
     const bool by_signal = interrupting_signal() != 0;
     tell("{} at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
          by_signal ? "interrupted" : "out of time (--max-walltime)", simulation_.state().time(),
-         directory_.path().string());
+         io::in_quotes(directory_.path().string()));
     return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
   }
 
@@ -383,8 +388,8 @@ private:
   std::string precision_so_far_;  // for the line of progress
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
-  double longest_piece_ = 0.0,
-         longest_save_ = 0.0;  // s, of stepping between two looks at the clock
+  double longest_piece_ = 0.0;  // s, of stepping between two looks at the clock
+  double longest_save_ = 0.0;   // s
   RunTimes times_;
 };
 

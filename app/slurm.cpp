@@ -4,6 +4,7 @@
 #include "app/sweep_directory.hpp"
 #include "app/sweep_parts.hpp"
 #include "io/build_info.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,13 +21,6 @@ namespace riesel::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// For the shell, whatever it contains.
-std::string quoted(const std::string& text) {
-  std::string inside;
-  for (const char letter : text) inside += letter == '\'' ? "'\\''" : std::string(1, letter);
-  return "'" + inside + "'";
-}
 
 /// "0-3,7" for {0, 1, 2, 3, 7}
 std::string ranges_of(const std::vector<std::size_t>& numbers) {
@@ -111,17 +105,18 @@ std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   if (!time || *time >= time_worth_a_signal) more += "#SBATCH --signal=B:USR1@60\n";
   if (time) {
     more += fmt::format("#SBATCH --time={:.0f}\n", std::ceil(*time / 60.0));
-    walltime = fmt::format(" --max-walltime {}", quoted(fmt::format("{} s", *time)));
+    walltime = fmt::format(" --max-walltime {}", io::in_quotes(fmt::format("{} s", *time)));
   }
   for (const std::string& option : options.for_sbatch) more += "#SBATCH " + option + "\n";
   const fs::path directory = fs::absolute(sweep).lexically_normal();
-  return fmt::format(
-      fmt::runtime(script), fmt::arg("writer", written_by()), fmt::arg("name", name_of(sweep)),
-      fmt::arg("array", ranges_of(open)), fmt::arg("threads", options.threads),
-      fmt::arg("log", quoted((directory / "slurm" / "%a.txt").string())), fmt::arg("more", more),
-      fmt::arg("riesel", quoted(fs::read_symlink("/proc/self/exe").string())),
-      fmt::arg("sweep", quoted(directory.string())), fmt::arg("tasks", tasks),
-      fmt::arg("walltime", walltime));
+  return fmt::format(fmt::runtime(script), fmt::arg("writer", written_by()),
+                     fmt::arg("name", name_of(sweep)), fmt::arg("array", ranges_of(open)),
+                     fmt::arg("threads", options.threads),
+                     fmt::arg("log", io::in_quotes((directory / "slurm" / "%a.txt").string())),
+                     fmt::arg("more", more),
+                     fmt::arg("riesel", io::in_quotes(fs::read_symlink("/proc/self/exe").string())),
+                     fmt::arg("sweep", io::in_quotes(directory.string())), fmt::arg("tasks", tasks),
+                     fmt::arg("walltime", walltime));
 }
 
 std::string submit_to_slurm(const fs::path& script_file) {

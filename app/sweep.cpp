@@ -14,6 +14,8 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
+#include "io/run_record.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -55,11 +57,7 @@ io::DirectoryLock lock(const fs::path& sweep) {
 int cores() { return omp_get_max_threads(); }
 
 io::Manifest manifest_in(const fs::path& sweep) {
-  try {
-    return io::read_manifest(sweep);
-  } catch (const io::FileError& error) {
-    throw UnusableInput(error.what());
-  }
+  return as_input([&] { return io::read_manifest(sweep); });
 }
 
 void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path& sweep) {
@@ -72,6 +70,27 @@ void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path
 
 /// An array of Slurm's default size, where nobody can be asked.
 constexpr std::size_t usual_most_tasks = 1000;
+
+/// As they stand in the directories. Slurm's tasks leave out what has failed, unless it is to be
+/// tried again.
+void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep, bool retry_failed) {
+  refresh(manifest, sweep);
+  if (!retry_failed) return;
+  for (io::ManifestPoint& point : manifest.points)
+    if (point.status == to_string(RunStatus::failed))
+      point.status = to_string(RunStatus::interrupted);
+}
+
+/// What failed counts as stopped from now on: tasks go on with that. If they were told to try again
+/// what has failed, they would do so each time they are queued.
+void forget_failures(const io::Manifest& manifest, const fs::path& sweep) {
+  for (const io::ManifestPoint& point : manifest.points) {
+    const fs::path directory = point_directory(sweep, point.name);
+    if (standing_of(directory).status != RunStatus::failed) continue;
+    const int attempts = io::read_run_record(directory).attempts;
+    io::write_run_record(directory, {.attempts = attempts, .failure = ""});
+  }
+}
 
 int show_slurm_script(const io::Manifest& manifest, const fs::path& sweep,
                       const SweepOptions& options) {
@@ -95,8 +114,9 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   }
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
+  if (options.retry_failed) forget_failures(manifest, sweep);
   fmt::print("{}: submitted as job {}; see 'riesel status {}'\n", sweep.string(),
-             submit_to_slurm(sweep / slurm_script_name), sweep.string());
+             submit_to_slurm(sweep / slurm_script_name), io::in_quotes(sweep.string()));
   return exit_done;
 }
 
@@ -120,8 +140,11 @@ int sweep(const SweepOptions& options) {
   SweepPlan plan = plan_sweep(options.file);
   const int jobs = options.jobs.value_or(cores());
   if (options.dry_run) {
+    if (options.to_slurm) {
+      refresh_for_slurm(plan.manifest, directory, options.retry_failed);
+      return show_slurm_script(plan.manifest, directory, options);
+    }
     refresh(plan.manifest, directory);
-    if (options.to_slurm) return show_slurm_script(plan.manifest, directory, options);
     print_plan(plan.manifest, directory, jobs);
     return exit_done;
   }
@@ -133,7 +156,7 @@ int sweep(const SweepOptions& options) {
     return exit_done;
   }
   if (options.to_slurm) {
-    refresh(plan.manifest, directory);
+    refresh_for_slurm(plan.manifest, directory, options.retry_failed);
     return submit(plan.manifest, directory, options);
   }
   const auto write_manifest = [&](const io::Manifest& manifest) {

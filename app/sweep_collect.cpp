@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// `name` is empty where the sweep has no such thing.
+/// Of a text that is empty where there is no such thing: a column of those alone is left out.
 template <class Text>
 bool any_has(const io::Manifest& manifest, Text text) {
   return std::any_of(manifest.points.begin(), manifest.points.end(),

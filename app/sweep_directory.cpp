@@ -80,11 +80,12 @@ bool can_resume(const fs::path& point) {
 }
 
 void clear(const fs::path& point) {
+  const io::DirectoryLock lock(point);
+  if (fs::exists(point / io::summary_name)) return;
   const fs::path checkpoint = point / io::checkpoint_name;
-  for (const fs::path& file :
-       {checkpoint, io::previous_generation(checkpoint), point / io::run_file_name,
-        point / io::summary_name, point / io::effective_settings_name, point / io::trajectory_name,
-        point / io::trajectory_index_name})
+  for (const fs::path& file : {checkpoint, io::previous_generation(checkpoint),
+                               point / io::run_file_name, point / io::effective_settings_name,
+                               point / io::trajectory_name, point / io::trajectory_index_name})
     fs::remove(file);
 }
 

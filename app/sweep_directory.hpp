@@ -41,7 +41,8 @@ void refresh(io::Manifest& manifest, const std::filesystem::path& sweep);
 /// Whether a run of the point can go on from a checkpoint.
 bool can_resume(const std::filesystem::path& point);
 
-/// Removes what a run has left that can not go on, so that it can be started again.
+/// Removes what a run has left that can not go on, so that it can be started again; nothing if it
+/// is done. Throws io::FileError if a process works on it.
 void clear(const std::filesystem::path& point);
 
 }  // namespace riesel::app

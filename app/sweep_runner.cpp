@@ -7,6 +7,7 @@
 #include "app/terminal.hpp"
 #include "app/walltime.hpp"
 #include "io/durable_file.hpp"
+#include "io/file_error.hpp"
 #include "io/run_record.hpp"
 
 #include <fmt/core.h>
@@ -151,7 +152,7 @@ private:
   }
 
   /// Another process has the directory; when it lets go, the point may be done or not.
-  void look_at_others_work(Job& job) { job.status = standing_of(job.directory).status; }
+  static void look_at_others_work(Job& job) { job.status = standing_of(job.directory).status; }
 
   /// An equal share of the cores for all that can run now.
   int threads_for(const Job& job) const {
@@ -166,13 +167,14 @@ private:
     job.status = standing_of(job.directory).status;
     if (job.status == RunStatus::running || job.status == RunStatus::done) return;
     ++job.starts;
+    const bool goes_on = can_resume(job.directory);
+    if (!goes_on && !cleared(job)) return;
     io::RunRecord record = io::read_run_record(job.directory);
     io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});
 
     const std::string directory = job.directory.string();
     std::vector<std::string> arguments = {"resume", directory};
-    if (!can_resume(job.directory)) {
-      clear(job.directory);
+    if (!goes_on) {
       const auto settings = job.directory / point_settings_name;
       arguments = {"run", settings.string(), "--out", directory};
     }
@@ -183,6 +185,18 @@ private:
     ++running_;
     job.started = Clock::now();
     job.status = RunStatus::running;
+  }
+
+  /// Whether what an earlier run has left is gone; not if another process has begun one meanwhile.
+  static bool cleared(Job& job) {
+    try {
+      clear(job.directory);
+      return true;
+    } catch (const io::FileError&) {
+      look_at_others_work(job);
+      if (job.status == RunStatus::running || job.status == RunStatus::done) return false;
+      throw;
+    }
   }
 
   void look_after(Job& job) {

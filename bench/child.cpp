@@ -1,5 +1,7 @@
 #include "bench/child.hpp"
 
+#include "io/shell_words.hpp"
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -7,20 +9,9 @@
 
 namespace riesel::bench {
 
-namespace {
-
-/// As a shell takes it.
-std::string in_quotes(const std::string& argument) {
-  std::string quoted = "'";
-  for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-}  // namespace
-
 std::string output_of(const std::vector<std::string>& command) {
   std::string line;
-  for (const std::string& word : command) line += in_quotes(word) + " ";
+  for (const std::string& word : command) line += io::in_quotes(word) + " ";
 
   std::FILE* pipe = popen(line.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot start " + line);

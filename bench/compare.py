@@ -105,7 +105,8 @@ def print_inner(results):
     for row in results["rows"].values():
         if row["bandwidth_share"] is not None:
             print(f"{row['case']} {row['size']} {row['variant']}: {row['bytes_per_particle_step']:.0f} bytes per "
-                  f"particle-step at least, {100 * row['bandwidth_share']:.0f} % of the bandwidth")
+                  f"particle-step if each step went through all grains, {100 * row['bandwidth_share']:.0f} % of the "
+                  "bandwidth")
     print(f"\n{'case':18} {'size':>5}  {'ratio':22} {'median':>8}  span")
     for case, size, name, ratio in inner_ratios(results):
         print(f"{case:18} {size:>5}  {name:22} {ratio}")

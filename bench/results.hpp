@@ -29,8 +29,8 @@ struct Row {
   std::optional<double> ns_per_contact{};           ///< time of a step over its contacts
   std::optional<double> bytes_per_grain{};          ///< growth of the process's resident memory
   std::optional<double> peak_bytes_per_grain{};     ///< growth of its peak
-  std::optional<double> bytes_per_particle_step{};  ///< that must be moved, see traffic.hpp
-  std::optional<double> bandwidth_share{};          ///< of what the machine can move
+  std::optional<double> bytes_per_particle_step{};  ///< if a step goes through all: traffic.hpp
+  std::optional<double> bandwidth_share{};          ///< that times speed over bandwidth
 
   double rate() const { return work / timing.median(); }  ///< 1/s
   double best_rate() const { return work / timing.least(); }

@@ -1,7 +1,8 @@
-// The bytes that plain stepping must move between memory and processor for one grain and step,
-// where the grains are so many that nothing stays in a cache from one sweep to the next. It is what
-// the algorithm needs at least, counted from the code (engine/simulation.cpp, pair_search.cpp,
-// contact_loop.cpp), not what a machine happened to move; docs/suite.md derives it.
+// The bytes that plain stepping would move between memory and processor for one grain and step if
+// each step went through all grains and nothing stayed in a cache from one to the next. Slices that
+// go askew do better (engine/plain_steps.hpp), so that this is no bound, but a measure that stays
+// the same from one result to the next. Counted from the code (engine/plain_steps.cpp,
+// pair_search.cpp, contact_loop.cpp), not what a machine happened to move: docs/suite.md.
 #pragma once
 
 #include "engine/state.hpp"

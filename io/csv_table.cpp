@@ -1,6 +1,7 @@
 #include "io/csv_table.hpp"
 
 #include "io/file_error.hpp"
+#include "io/settings_text.hpp"
 #include "io/units.hpp"
 #include "io/whole_file.hpp"
 
@@ -25,13 +26,14 @@ struct Text {
 std::vector<Text> split(std::string_view line) {
   constexpr std::string_view blanks = " \t\r";
   constexpr std::size_t most_cells = 1000;
+  PlaceFinder places(line, "");
   std::vector<Text> cells;
   for (std::size_t begin = 0; begin <= line.size() && cells.size() < most_cells;) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
     const std::size_t first = std::min(line.find_first_not_of(blanks, begin), end);
     std::string_view text = line.substr(first, end - first);
     text = text.substr(0, text.find_last_not_of(blanks) + 1);
-    cells.push_back({text, static_cast<int>(first) + 1});
+    cells.push_back({text, places.at(first).column});
     begin = end + 1;
   }
   return cells;
@@ -59,7 +61,7 @@ Heading heading_of(const Text& cell, const Place& place) {
           .unit = std::string(cell.text.substr(open + 1, cell.text.size() - open - 2))};
 }
 
-/// Words, for errors: "x, y and diameter".
+/// For errors: "x, y, mass (if any)".
 std::string names_of(const std::vector<CsvColumn>& columns) {
   std::string names;
   for (const CsvColumn& column : columns)

@@ -30,7 +30,7 @@ public:
   /// Row by row.
   struct Cells {
     std::vector<double> values;  ///< in SI units, finite
-    std::vector<int> places;     ///< column of the first character, from 1
+    std::vector<int> places;     ///< column of the first character, from 1, in characters
     std::vector<int> lines;      ///< of each row, from 1
   };
 

@@ -4,12 +4,15 @@
 #include "io/uninterrupted.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
+#include <thread>
 #include <utility>
 
 namespace riesel::io {
@@ -75,6 +78,15 @@ void Descriptor::make_at_least(std::uint64_t size) {
 
 void Descriptor::sync() {
   check(uninterrupted([&] { return fsync(descriptor_); }));
+}
+
+void Descriptor::lock() {
+  constexpr auto patience = std::chrono::seconds(10);
+  constexpr auto pause = std::chrono::milliseconds(1);
+  const auto last = std::chrono::steady_clock::now() + patience;
+  while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK
+         && std::chrono::steady_clock::now() < last)
+    std::this_thread::sleep_for(pause);
 }
 
 void Descriptor::close() { check(::close(std::exchange(descriptor_, -1))); }

@@ -34,6 +34,11 @@ public:
   /// On return it is on the disk.
   void sync();
 
+  /// Waits until nobody else has locked the file in this way (flock), and locks it until it is
+  /// closed; goes on without a lock where the file system has none, and after ten seconds, as the
+  /// other process may be halted.
+  void lock();
+
   /// Network file systems report here what could not be written.
   void close();
 

@@ -37,13 +37,6 @@ std::string description_of_holder(int descriptor) {
   return {text.data(), static_cast<std::size_t>(size)};
 }
 
-void describe_holder(int descriptor) {
-  const auto text = description_of_this_process();
-  const bool written =
-      ftruncate(descriptor, 0) == 0 && pwrite(descriptor, text.data(), text.size(), 0) >= 0;
-  static_cast<void>(written);  // it is only a help: the lock holds without (on a full disk, say)
-}
-
 /// Asks a few times: whoever only looks whether the lock is held (see is_held) has it for a moment.
 bool lock_patiently(int descriptor) {
   constexpr int attempts = 5;
@@ -66,13 +59,13 @@ std::optional<FileIdentity> identity_by(int (*ask)(File, struct stat*), File fil
 
 }  // namespace
 
-DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
+DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature signature)
     : directory_(directory),
       descriptor_(
           open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
   if (lock_patiently(descriptor_)) {
-    describe_holder(descriptor_);
+    if (signature == Signature::now) sign();
     directory_identity_ = identity_by(stat, directory.c_str());
     lock_identity_ = identity_by(fstat, descriptor_);
     return;
@@ -85,6 +78,13 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
   }
   throw FileError(directory, "is in use by " + holder,
                   "wait until that ends, or choose another directory");
+}
+
+void DirectoryLock::sign() const {
+  const auto text = description_of_this_process();
+  const bool written =
+      ftruncate(descriptor_, 0) == 0 && pwrite(descriptor_, text.data(), text.size(), 0) >= 0;
+  static_cast<void>(written);  // it is only a help: the lock holds without (on a full disk, say)
 }
 
 void DirectoryLock::require_in_place() const {

@@ -17,13 +17,20 @@ struct FileIdentity {
   bool operator==(const FileIdentity&) const = default;
 };
 
+/// Whether the holder of a lock is written into it at once, or when sign() is called: whoever may
+/// still find that there is nothing to do changes no file.
+enum class Signature { now, later };
+
 /// Holds the lock of a directory as long as it lives.
 class DirectoryLock {
 public:
   /// Throws FileError if another process holds the lock (naming it), or if the directory cannot be
   /// written.
-  explicit DirectoryLock(const std::filesystem::path& directory);
+  explicit DirectoryLock(const std::filesystem::path& directory, Signature = Signature::now);
   ~DirectoryLock();
+
+  /// Writes into .lock who holds it, for those who find it locked.
+  void sign() const;
 
   /// Throws FileError if the directory is not where it was: gone, moved, or another one stands in
   /// its place, which this lock does not protect; or if the file .lock is gone or another, so that

@@ -17,6 +17,12 @@ namespace fs = std::filesystem;
 
 fs::path with_suffix(fs::path path, const char* suffix) { return path += suffix; }
 
+/// Of the directory that the file is in; errors are told of the file.
+Descriptor directory_of(const fs::path& path) {
+  const auto parent = path.parent_path();
+  return {parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY, path};
+}
+
 /// Removes a file when it goes, unless the file has been given its place.
 class Leftover {
 public:
@@ -67,19 +73,18 @@ void rename_to(const fs::path& from, const fs::path& to, const fs::path& path) {
 
 }  // namespace
 
-void sync_directory_of(const fs::path& path) {
-  const auto parent = path.parent_path();
-  Descriptor(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY, path).sync();
-}
+void sync_directory_of(const fs::path& path) { directory_of(path).sync(); }
 
 void write_durably(const fs::path& path, std::string_view content, Previous previous) {
+  Descriptor directory = directory_of(path);
+  directory.lock();
   const Leftover aside(with_suffix(path, ".tmp"));
   const Leftover replaced(with_suffix(path, ".replaced"));
   write_aside(aside.path(), content, path);
   const bool keeps = previous == Previous::keep && link_present(path, replaced.path());
   rename_to(aside.path(), path, path);
   if (keeps) rename_to(replaced.path(), previous_generation(path), path);
-  sync_directory_of(path);
+  directory.sync();
 }
 
 void make_directories(const fs::path& path) {

@@ -133,7 +133,7 @@ Hdf5Header read_hdf5_header(const Bytes& file, std::uint64_t address) {
       ++block;
       place = 0;
     }
-    require(block < blocks.size(), "the header of an object has less messages than it says");
+    require(block < blocks.size(), "the header of an object has fewer messages than it says");
     const Bytes rest = blocks[block].from(place);
     const auto message = rest.number(0, 2), size = rest.number(2, 2);
     const Bytes body = rest.part(message_head_size, size);

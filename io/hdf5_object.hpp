@@ -4,6 +4,9 @@
 // sets of numbers are tables of rows, cut into chunks with a checksum each (fletcher32), so that
 // any reader notices damage. They carry no times, so that equal contents give equal files.
 //
+// Files are read back by stored_hdf5.hpp. What reads attributes and texts here, and what copies, is
+// for tests: they look with HDF5's library at what was written, as others do (Hdf5File::open()).
+//
 // All members throw Hdf5Error.
 #pragma once
 

@@ -1,7 +1,10 @@
 #include "io/hdf5_outline.hpp"
 
 #include "io/byte_writer.hpp"
+#include "io/hdf5_handle.hpp"
 #include "io/hdf5_messages.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -15,10 +18,17 @@ constexpr std::uint64_t unlimited = UINT64_MAX;  // an extent
 
 // Half of the members that a node has room for, by kind of node. The third cannot be chosen.
 constexpr std::size_t leaf_k = 16, group_k = 16, chunk_k = 32;
+static_assert(Hdf5Outline::most_members == 2 * leaf_k * 2 * group_k);
+
+void require_at_most(std::size_t most, std::size_t count, const char* what) {
+  if (count > most)
+    throw Hdf5Error(fmt::format("{} {} are more than the {} there is room for", count, what, most));
+}
 
 std::string message(hdf5_message::Type type, const ByteWriter& content) {
   ByteWriter padded;
   padded.text(content.bytes()).align();
+  require_at_most(hdf5_largest_message, padded.bytes().size(), "bytes of an attribute");
   return ByteWriter()
       .number(type, 2)
       .number(padded.bytes().size(), 2)
@@ -302,6 +312,7 @@ std::uint64_t Hdf5Outline::add_data(const Hdf5DataPlan& plan) {
 /// Names in a heap, entries in leaves in the order of the names, and a tree of one node.
 std::uint64_t Hdf5Outline::add_group(const std::map<std::string, std::uint64_t>& members,
                                      const Hdf5Attributes& attributes) {
+  require_at_most(most_members, members.size(), "members of a group");
   ByteWriter names;
   names.zeros(8);  // the empty name, with which the tree begins
   ByteWriter tree, leaf;
@@ -339,7 +350,9 @@ std::uint64_t Hdf5Outline::add_group(const std::map<std::string, std::uint64_t>&
 }
 
 std::vector<Hdf5Scale> Hdf5Outline::add_references(std::span<const std::uint64_t> data_sets) {
-  constexpr std::size_t heap_size = 4096, head_size = 16;
+  constexpr std::size_t heap_size = 4096, head_size = 16, reference_size = 24;
+  static_assert(head_size + most_references * reference_size + head_size <= heap_size);
+  require_at_most(most_references, data_sets.size(), "references");
   const std::uint64_t heap = address_ + bytes_.size();
   std::vector<Hdf5Scale> scales;
   ByteWriter collection;

@@ -9,6 +9,7 @@
 // https://docs.hdfgroup.org/hdf5/v1_14/_f_m_t3.html
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -24,7 +25,11 @@ enum class Hdf5Element { int32, int64, real32, real64, character };
 /// Bytes of an element.
 std::uint64_t size_of(Hdf5Element element);
 
-/// The attributes of a group or a data set.
+/// Bytes of an attribute, with its name and its type: what a header holds of one thing is counted
+/// by 16 bits, and rounded up to multiples of 8.
+inline constexpr std::size_t hdf5_largest_message = 65528;
+
+/// The attributes of a group or a data set. Those that are too large throw Hdf5Error.
 class Hdf5Attributes {
 public:
   Hdf5Attributes& add(const std::string& name, std::string_view text);
@@ -65,8 +70,12 @@ struct Hdf5DataPlan {
   std::vector<Hdf5Scale> scales = {};  ///< one for each dimension, or none
 };
 
+/// Throws Hdf5Error for what is beyond its limits.
 class Hdf5Outline {
 public:
+  static constexpr std::size_t most_members = 1024;    ///< of a group: its tree is a single node
+  static constexpr std::size_t most_references = 169;  ///< in one heap
+
   /// `address`: where the outline will begin in the file, a multiple of 8.
   explicit Hdf5Outline(std::uint64_t address) : address_(address) {}
 

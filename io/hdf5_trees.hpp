@@ -22,8 +22,8 @@ std::map<std::string, std::uint64_t> read_hdf5_members(const Bytes& file,
                                                        const Hdf5Members& members);
 
 /// The chunks of a data set that is cut along its rows, one after the other, without their
-/// checksums, which are right. `chunk_size`: bytes of each; `rows`: of each, in the data set all
-/// rows together have `count` chunks. Throws Hdf5Error or OutOfBytes.
+/// checksums, which are right. `chunk_size`: bytes of each without; `count`: how many hold all
+/// rows. Throws Hdf5Error or OutOfBytes.
 std::vector<Bytes> read_hdf5_chunks(const Bytes& file, const Hdf5Layout& layout,
                                     std::uint64_t chunk_size, std::uint64_t count);
 

@@ -1,6 +1,7 @@
 #include "io/provenance.hpp"
 
 #include "io/build_info.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -39,15 +40,6 @@ std::string host_name() {
 }
 
 std::string date() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
-
-/// As a shell takes it.
-std::string in_quotes(const std::string& argument) {
-  constexpr auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
-  std::string quoted = "'";
-  for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string command_line(const std::vector<std::string>& arguments) {
   std::string line;

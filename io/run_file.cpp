@@ -233,7 +233,6 @@ RunFile RunFile::create(const fs::path& path, const Provenance& provenance,
   }
   RunFile file(path, series);
   write_provenance(file.contents_->root().create_group("provenance"), provenance);
-  file.flush();
   return file;
 }
 

@@ -39,8 +39,8 @@ inline constexpr auto run_file_kind = "run";
 
 class RunFile {
 public:
-  /// Creates the file at once, with `provenance` in /provenance and a series of no rows in
-  /// /series/NAME for each column. Throws FileError; in particular if the file exists.
+  /// A new file, with `provenance` in /provenance and a series of no rows in /series/NAME for each
+  /// column; on the disk with the first flush. Throws FileError; in particular if the file exists.
   static RunFile create(const std::filesystem::path& path, const Provenance& provenance,
                         const std::vector<Column>& series);
 

@@ -119,6 +119,13 @@ std::string Settings::effective_yaml(const std::function<bool(const Setting&)>& 
   return io::effective_yaml(*contents_, wanted);
 }
 
+std::vector<std::string> Settings::keys(const std::function<bool(const Setting&)>& wanted) const {
+  std::vector<std::string> keys;
+  for (const auto& entry : contents_->entries)
+    if (entry.value && wanted(entry.row)) keys.push_back(entry.row.key);
+  return keys;
+}
+
 std::string Settings::written(const std::string& key) const {
   return has(key) ? io::written(*contents_->find(key)) : "";
 }

@@ -71,6 +71,9 @@ public:
   /// The part of it that belongs to the wanted rows of the table.
   std::string effective_yaml(const std::function<bool(const Setting&)>& wanted) const;
 
+  /// The keys that have a value, of those rows that are wanted.
+  std::vector<std::string> keys(const std::function<bool(const Setting&)>& wanted) const;
+
   /// The value of a key of any kind as effective.yaml has it; empty if there is none.
   std::string written(const std::string& key) const;
 

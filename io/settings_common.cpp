@@ -1,4 +1,5 @@
-// The settings of every scenario: the seed, the contact law and how the run is stepped.
+// The settings of every scenario: the seed, whether grains rotate, the contact law and how the run
+// is stepped.
 #include "io/settings_table.hpp"
 
 namespace riesel::io {

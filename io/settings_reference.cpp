@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace riesel::io {
 namespace {
@@ -47,7 +48,8 @@ std::string kind_text(const Setting& row) {
 }
 
 std::string value_text(const Setting& row) {
-  const auto range = to_string(row.range, "");
+  // The kind tells the unit, except for angles: their ranges are in degrees.
+  const auto range = to_string(row.range, row.unit == "rad" ? row.unit : "");
   return range.empty() ? kind_text(row) : fmt::format("{}, {}", kind_text(row), range);
 }
 
@@ -70,29 +72,51 @@ std::string line(const Setting& row) {
                      in_cell(default_text(row)), in_cell(row.doc + condition));
 }
 
-std::string table_text(const SettingsTable& rows) {
-  std::string text = "| key | value | default | meaning |\n|---|---|---|---|\n";
-  for (const auto& row : rows) text += line(row);
-  return text;
+using Names = std::vector<std::string>;
+
+/// What is shared by most scenarios comes first.
+struct MostFirst {
+  bool operator()(const Names& a, const Names& b) const {
+    return a.size() == b.size() ? a < b : a.size() > b.size();
+  }
+};
+
+/// Fewer lines are not worth a section of several scenarios: each repeats them.
+constexpr std::size_t least_shared = 3;
+
+/// The lines of the tables, by the scenarios in which they are the same.
+std::map<Names, std::vector<std::string>, MostFirst> sections(const SettingsTables& tables) {
+  std::map<std::string, Names> sharing;  // a line
+  for (const auto& [scenario, table] : tables)
+    for (const auto& row : table) sharing[line(row)].push_back(scenario);
+  std::map<Names, std::size_t> shared;
+  for (const auto& [text, scenarios] : sharing) ++shared[scenarios];
+
+  std::map<Names, std::vector<std::string>, MostFirst> lines;
+  for (const auto& [scenario, table] : tables)
+    for (const auto& row : table) {
+      const auto& scenarios = sharing.at(line(row));
+      if (shared.at(scenarios) < least_shared)
+        lines[{scenario}].push_back(line(row));
+      else if (scenarios.front() == scenario)
+        lines[scenarios].push_back(line(row));
+    }
+  return lines;
 }
 
-/// The rows of a scenario's table whose key is in common_settings(), or not.
-SettingsTable rows_of(const SettingsTable& table, bool common) {
-  const auto all_share = common_settings();
-  SettingsTable rows;
-  std::ranges::copy_if(table, std::back_inserter(rows),
-                       [&](const Setting& row) { return has_key(all_share, row.key) == common; });
-  return rows;
+std::string title(const Names& scenarios, std::size_t all) {
+  if (scenarios.size() == all) return "All scenarios";
+  if (scenarios.size() == 1) return fmt::format("Scenario `{}`", scenarios.front());
+  return fmt::format("Scenarios `{}`", fmt::join(scenarios, "`, `"));
 }
 
 }  // namespace
 
 std::string settings_reference(const SettingsTables& tables) {
   std::string page = introduction;
-  page += "\n## All scenarios\n\n" + table_text(rows_of(tables.begin()->second, true));
-  for (const auto& [scenario, table] : tables) {
-    page += fmt::format("\n## Scenario `{}`\n\n", scenario) + table_text(rows_of(table, false));
-  }
+  for (const auto& [scenarios, lines] : sections(tables))
+    page += fmt::format("\n## {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n{}",
+                        title(scenarios, tables.size()), fmt::join(lines, ""));
   return page;
 }
 

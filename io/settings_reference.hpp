@@ -8,7 +8,8 @@
 
 namespace riesel::io {
 
-/// Markdown: the settings that all scenarios share, then those of each scenario alone.
+/// Markdown: the settings that all scenarios share, then those that some do, then those of each
+/// scenario alone.
 std::string settings_reference(const SettingsTables& tables);
 
 }  // namespace riesel::io

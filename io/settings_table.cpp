@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace riesel::io {
@@ -121,13 +122,15 @@ std::vector<std::string> names_of(const SettingsTable& table, const std::string&
 
 std::string to_string(const Range& range, const std::string& unit) {
   const bool has_unit = !unit.empty() && unit != "1";
+  const bool is_angle = unit == "rad";
+  const double scale = is_angle ? 180.0 / std::numbers::pi : 1.0;
   const auto end = [&](double value) {
-    return fmt::format("{}{}", value, has_unit ? " " + unit : "");
+    return fmt::format("{}{}", value * scale, is_angle ? " degrees" : (has_unit ? " " + unit : ""));
   };
   const bool has_low = range.low != -infinity;
   const bool has_high = range.high != infinity;
   if (has_low && has_high && !range.low_open && !range.high_open) {
-    return fmt::format("from {} to {}", range.low, end(range.high));
+    return fmt::format("from {} to {}", range.low * scale, end(range.high));
   }
   auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", end(range.low));
   auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", end(range.high));

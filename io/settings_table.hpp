@@ -73,7 +73,7 @@ using SettingsTable = std::vector<Setting>;
 /// The whole table of each scenario (common rows included), by the scenario's name.
 using SettingsTables = std::map<std::string, SettingsTable>;
 
-/// The rows of all scenarios: scenario, seed, contact.*, run.*.
+/// The rows of all scenarios: scenario, seed, grains.rotation, contact.*, run.*.
 SettingsTable common_settings();
 
 /// Throws std::logic_error if a row contradicts itself or another one (in code, not in a user's
@@ -97,7 +97,7 @@ std::vector<std::string> top_level_names(const SettingsTable& table);
 /// The names within a section, those of its own sections too, in table order, each once.
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section);
 
-/// "above 0 m", "from 1 to 1024", ...; empty if anything goes.
+/// "above 0 m", "from 1 to 1024", ..., of angles in degrees; empty if anything goes.
 std::string to_string(const Range& range, const std::string& unit);
 /// "contact.law is power or hertz"
 std::string to_string(const When& when);

@@ -37,6 +37,8 @@ std::string flaw_of_scalars(const State& state) {
 }
 
 std::string flaw_of_walls(const State& state) {
+  if (state.walls.empty() || state.walls.size() > WallImpulses::most_walls)
+    return fmt::format("there are {} walls", state.walls.size());
   for (std::size_t i = 0; i < state.walls.size(); ++i) {
     const auto& wall = state.walls[i];
     if (!std::isfinite(wall.line)) return fmt::format("the line of wall {} is not finite", i);
@@ -49,6 +51,7 @@ std::string flaw_of_walls(const State& state) {
 }
 
 std::string flaw_of_grains(const Grains& grains) {
+  if (grains.size() == 0) return "there are no grains";
   if (!std::isfinite(grains.inertia) || grains.inertia < 0.0)
     return "the moment of inertia is negative";
   bool equal_sizes = true;

@@ -1,4 +1,5 @@
-// What must be true of every State, whoever wrote it: the invariants of engine/state.hpp.
+// What must be true of every State that is kept, whoever wrote it: the invariants of
+// engine/state.hpp, and that there are grains and walls, as in every flow.
 #pragma once
 
 #include "engine/state.hpp"

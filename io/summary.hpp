@@ -44,7 +44,7 @@ struct FlowSummary {
   std::string ended_by = "duration";
   std::string state;                  ///< steady, accelerating, drifting or too_short
   std::string judged_by = "mean_vy";  ///< the series that `state` is a verdict on
-  Measured mean_axial_velocity;
+  Measured mean_axial_velocity;       ///< m/s; while a flow accelerates its error is not known
   double independent_samples = 0.0;
   double granular_temperature = 0.0;  ///< (m/s)^2
 
@@ -110,7 +110,9 @@ struct FlowSummary {
 /// Means are not a number (null in the file) where no start counts.
 struct CurvePoint {
   double v_x = 0.0, v_y = 0.0, dv_x = 0.0, dv_y = 0.0;  ///< m/s
-  double contacts = 0.0, contact_time = 0.0, max_overlap = 0.0;
+  double contacts = 0.0;                                ///< number of those begun
+  double contact_time = 0.0;                            ///< s, sum of their durations
+  double max_overlap = 0.0;                             ///< m
   int passed = 0;                       ///< how many starts went through the wall; not in the means
   int stuck = 0;                        ///< how many were given up; not in the means
   double cut_short = 0.0;               ///< mean number of contacts cut short
@@ -125,12 +127,13 @@ struct CurveSummary {
 
 /// One drop of a column of beads.
 struct ColumnPoint {
-  double gap_ratio = 0.0;                     ///< gap over velocity times t_col
-  double gap = 0.0;                           ///< m
-  double restitution = 0.0, rebound = 0.0;    ///< see engine/bead_column.hpp
-  double detachment = 0.0;                    ///< see engine/validity.hpp
-  double contacts = 0.0, contact_time = 0.0;  ///< s
-  double max_overlap = 0.0;                   ///< m
+  double gap_ratio = 0.0;                   ///< gap over velocity times t_col
+  double gap = 0.0;                         ///< m
+  double restitution = 0.0, rebound = 0.0;  ///< see engine/bead_column.hpp
+  double detachment = 0.0;                  ///< see engine/validity.hpp
+  double contacts = 0.0;                    ///< number of those begun
+  double contact_time = 0.0;                ///< s, sum of their durations
+  double max_overlap = 0.0;                 ///< m
   Validity verdict = Validity::valid;
 };
 

@@ -119,11 +119,12 @@ private:
   /// What the results depend on: those of the wanted settings that matter, files by their content.
   template <class Wanted>
   std::string identity_of(const Settings& settings, Wanted wanted) {
+    std::string text = settings.effective_yaml(
+        [&](const Setting& row) { return row.matters && !row.names_content && wanted(row); });
     std::set<std::string> files;
-    std::string text = settings.effective_yaml([&](const Setting& row) {
-      if (row.names_content && wanted(row)) files.insert(settings.text(row.key));
-      return row.matters && !row.names_content && wanted(row);
-    });
+    for (const std::string& key :
+         settings.keys([&](const Setting& row) { return row.names_content && wanted(row); }))
+      files.insert(settings.text(key));
     for (const std::string& file : files) {
       const auto [known, is_new] = contents_.try_emplace(file);
       if (is_new) known->second = hash_content(file);

@@ -65,6 +65,15 @@ void write_column(Hdf5Group& group, const SweepTable::Column& column) {
   if (!column.unit.empty()) data.set_attribute("unit", column.unit);
 }
 
+void write_contents(Hdf5Group root, const SweepTable& table, std::string_view sweep_file) {
+  root.set_attribute("format", "riesel sweep");
+  root.set_attribute("riesel_version", build_info().version);
+  root.set_attribute("git_commit", build_info().git_commit);
+  root.write_text("sweep_file", sweep_file);
+  auto group = root.create_group("points");
+  for (const auto& column : table.columns()) write_column(group, column);
+}
+
 }  // namespace
 
 void SweepTable::set(std::size_t row, const std::string& column, Cell value,
@@ -104,13 +113,12 @@ std::string to_csv(const SweepTable& table) {
 void write_hdf5(const std::filesystem::path& path, const SweepTable& table,
                 std::string_view sweep_file) {
   auto file = Hdf5File::create();
-  auto root = file.root();
-  root.set_attribute("format", "riesel sweep");
-  root.set_attribute("riesel_version", build_info().version);
-  root.set_attribute("git_commit", build_info().git_commit);
-  root.write_text("sweep_file", sweep_file);
-  auto group = root.create_group("points");
-  for (const auto& column : table.columns()) write_column(group, column);
+  try {
+    write_contents(file.root(), table, sweep_file);
+  } catch (const Hdf5Error& error) {
+    throw FileError(path, fmt::format("cannot hold the table ({})", error.what()),
+                    "remove the point whose summary.json has such a name, and run it again");
+  }
   const auto image = file.image();
   write_durably(path, std::string_view(image.data(), image.size()));
 }

@@ -46,7 +46,8 @@ inline constexpr auto sweep_h5_name = "sweep.h5";
 std::string to_csv(const SweepTable& table);
 
 /// One data set /points/NAME per column: doubles with NaN for a missing value, or strings, empty
-/// for one; and the sweep file verbatim. Throws FileError.
+/// for one; and the sweep file verbatim. Throws FileError; in particular for a column with a name
+/// that no data set can have ("a/b"), which only a summary.json of somebody else has.
 void write_hdf5(const std::filesystem::path& path, const SweepTable& table,
                 std::string_view sweep_file);
 

@@ -17,6 +17,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -50,7 +51,7 @@ TrajectoryFacts facts_of(const State& state, const std::string& settings) {
   bool walls_move = false;
   for (const auto& wall : state.walls) {
     wall_grains += static_cast<std::uint64_t>(wall.count);
-    walls_move = walls_move || wall.motion.is_there();
+    walls_move = walls_move || wall.motion.is_ever_away();
   }
   const auto& radii = state.grains.radius;
   return {.grains = state.grains.size(),
@@ -208,6 +209,10 @@ public:
   }
 
   void commit() {
+    // After one that failed the disk may point to either outline, and the next would be written
+    // over that in use.
+    if (std::exchange(is_committing_, true))
+      throw std::logic_error("a commit of the trajectory has failed before");
     const auto [root, outline] = next_outline();
     file_->make_at_least(head_.end);
     file_->sync();
@@ -216,6 +221,7 @@ public:
     file_->write_at(0, written(head_, root));
     file_->sync();
     write_index();
+    is_committing_ = false;
   }
 
 private:
@@ -245,8 +251,13 @@ private:
     ByteWriter blocks;
     for (const auto block : blocks_) blocks.number(block, 8);
     Hdf5Outline outline(address + blocks.bytes().size());
-    const auto root = outline_trajectory(outline, facts_, fixed_, layout_, blocks_, head_.frames);
-    return {.root = root, .bytes = blocks.bytes() + outline.bytes()};
+    try {
+      const auto root = outline_trajectory(outline, facts_, fixed_, layout_, blocks_, head_.frames);
+      return {.root = root, .bytes = blocks.bytes() + outline.bytes()};
+    } catch (const Hdf5Error& error) {  // only the settings can be as long as they like
+      throw FileError(path_, fmt::format("cannot hold the settings ({})", error.what()),
+                      "shorten them, or run without a trajectory");
+    }
   }
 
   /// For the place that is not in use, which the head takes for the one in use from now on.
@@ -304,6 +315,7 @@ private:
   TrajectoryHead head_;
   std::vector<std::uint64_t> blocks_;  // addresses
   std::optional<Descriptor> file_;
+  bool is_committing_ = false;  // for ever, if that has failed
 };
 
 TrajectoryFile::TrajectoryFile(std::unique_ptr<Contents> contents)

@@ -58,7 +58,9 @@ public:
   /// Frames so far, committed or not.
   std::int64_t frames() const;
 
-  /// From now on all frames are there, whatever happens.
+  /// From now on all frames are there, whatever happens. If it throws, the file is whole all the
+  /// same, with the frames of this commit or of the one before; as it is not known which, there can
+  /// be no other one through this object: std::logic_error. A run that ends there can be resumed.
   void commit();
 
 private:

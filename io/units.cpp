@@ -19,8 +19,7 @@ constexpr std::size_t longest_unit = 64;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-// --- what UDUNITS-2 says about a unit
-// ----------------------------------------------------------------
+// --- what UDUNITS-2 says about a unit ---
 
 struct FreeSystem {
   void operator()(ut_system* system) const { ut_free_system(system); }
@@ -113,8 +112,7 @@ private:
   System system_;
 };
 
-// --- what a settings file may say
-// ---------------------------------------------------------------------
+// --- what a settings file may say ---
 
 /// UDUNITS-2 takes "5 m", "m 5" and "m/1000" for units, and "s^0.5" for "5 s^0". In a settings file
 /// numbers belong into the numeral; within a unit only whole exponents and the 1 of "1/s" are

@@ -85,7 +85,7 @@ void go_on_from(const WallMotion& before, const State& earlier, WallMotion& moti
 
 }  // namespace
 
-State earlier_state(const io::Settings& settings) {
+State earlier_state(const io::Settings& settings, const State& empty) {
   io::Checkpoint checkpoint = checkpoint_of(settings);
   const auto earlier =
       io::Settings::from_text(checkpoint.settings, settings.text(from_key), settings_tables());
@@ -93,6 +93,11 @@ State earlier_state(const io::Settings& settings) {
     settings.reject(from_key, "is a run of the scenario " + earlier.scenario(),
                     "give a run of the scenario " + settings.scenario());
   reject_other_grains_or_tube(settings, earlier);
+  if (const std::size_t walls = checkpoint.state.walls.size(); walls != empty.walls.size())
+    settings.reject(from_key,
+                    fmt::format("has a state with {} wall{}, and {} has {}", walls,
+                                walls == 1 ? "" : "s", settings.scenario(), empty.walls.size()),
+                    "give the checkpoint.h5 that a run of this scenario has written");
   return std::move(checkpoint.state);
 }
 

@@ -18,9 +18,9 @@
 
 namespace riesel::scenarios {
 
-/// The last state of the run at `start.from`. Rejects what cannot be read, and a run of another
-/// tube or of other grains than the settings say.
-State earlier_state(const io::Settings& settings);
+/// The last state of the run at `start.from`. Rejects what cannot be read, a run of another tube or
+/// of other grains than the settings say, and a state that has not as many walls as `empty`.
+State earlier_state(const io::Settings& settings, const State& empty);
 
 /// Rejects walls that would have to jump across, into their grains: those of `state` must be shaken
 /// as far in that direction as those of `earlier`.

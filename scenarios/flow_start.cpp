@@ -25,6 +25,9 @@ using std::numbers::pi;
 
 constexpr auto fraction_key = "grains.area_fraction";
 
+/// Ids have 31 bits; pairs of neighbours, a few per grain, are counted by 32.
+constexpr double most_grains = 1e9;
+
 /// `start.kind` and `start.from`.
 io::SettingsTable start_settings() {
   return {
@@ -161,7 +164,7 @@ Flow start_from_file(const io::Settings& settings, const ContactModel& model, Ro
 }
 
 Flow continue_run(const io::Settings& settings, const ContactModel& model, Room room) {
-  const State earlier = earlier_state(settings);
+  const State earlier = earlier_state(settings, room.empty);
   room.reject_too_small(settings, 2.0 * std::ranges::max(earlier.grains.radius), room.empty);
   reject_other_swing_across(settings, earlier, room.empty);
   set_time_step(settings, model, earlier.grains.mass, room.empty);
@@ -169,6 +172,17 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   reject_strong_gravity(settings, earlier.grains.size(), room.empty);
   take_over(earlier, model, room.empty);
   return {.state = std::move(room.empty), .model = model};
+}
+
+/// Before anything is made for each of them. `area`: m^2, of all grains.
+void reject_too_many(const io::Settings& settings, const SizeDistribution& sizes, double area) {
+  const double expected = area / (0.25 * pi * sizes.mean_square());
+  if (expected > most_grains)
+    settings.reject(sizes.key(),
+                    fmt::format("about {:.3g} grains of this size would be needed, more than {:g}",
+                                expected, most_grains),
+                    "choose larger grains, or less room for them; is a unit forgotten, as in "
+                    "'1 mm'?");
 }
 
 }  // namespace
@@ -205,7 +219,8 @@ io::SettingsTable area_fraction_settings() {
        .unit = "1",
        .fallback = "0.55",
        .range = io::between(0.001, 0.9),
-       .doc = "Area of the free grains divided by that between the wall lines; met to one grain.",
+       .doc = "Area of the free grains divided by that between the wall lines; approximated to "
+              "within one grain.",
        .only_when = io::When{"start.kind", {"fresh", "continued"}}},
   };
 }
@@ -219,7 +234,7 @@ std::vector<Grain> fill_between_walls(const io::Settings& settings, const SizeDi
     settings.reject(fraction_key, "more than can be packed between the wall grains",
                     fmt::format("choose at most {:.3f}, and less for grains of unequal size",
                                 std::floor(1e3 * densest * free_width / empty.box.width) / 1e3));
-  const std::vector<double> radii = radii_of_area(sizes, wanted * empty.box.length);
+  const std::vector<double> radii = radii_of_area(settings, sizes, wanted * empty.box.length);
   std::vector<Grain> grains = packed_grains(settings, radii, empty);
   if (grains.empty())
     settings.reject(fraction_key, "no start without overlaps was found",
@@ -240,7 +255,9 @@ Flow start_flow(const io::Settings& settings, Room room) {
   return start_with(grains, settings, model, std::move(room.empty));
 }
 
-std::vector<double> radii_of_area(const SizeDistribution& sizes, double wanted) {
+std::vector<double> radii_of_area(const io::Settings& settings, const SizeDistribution& sizes,
+                                  double wanted) {
+  reject_too_many(settings, sizes, wanted);
   std::vector<double> radii;
   for (double area = 0.0;;) {
     const double radius = 0.5 * sizes.diameter(radii.size());

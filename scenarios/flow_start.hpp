@@ -35,8 +35,10 @@ struct Room {
 /// Fills the room as `start.kind` says. Throws SettingsError for what cannot be.
 Flow start_flow(const io::Settings& settings, Room room);
 
-/// m, of as many grains as bring their area closest to `wanted` (m^2).
-std::vector<double> radii_of_area(const SizeDistribution& sizes, double wanted);
+/// m, of as many grains as bring their area closest to `wanted` (m^2). Rejects sizes so small that
+/// these would be more grains than can be counted.
+std::vector<double> radii_of_area(const io::Settings& settings, const SizeDistribution& sizes,
+                                  double wanted);
 
 /// Grains of these radii (m) at places of `pack()`, with masses in proportion to their area.
 /// Nothing if they do not fit.

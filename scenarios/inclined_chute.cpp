@@ -37,8 +37,8 @@ io::SettingsTable chute_settings() {
        .unit = "1",
        .fallback = "20",
        .range = io::between(0.1, 1e5),
-       .doc = "How many layers of grains there are, side by side over the length; as area of the "
-              "grains, met to one grain.",
+       .doc = "Number of layers: area of the grains over that of one full layer, in which they lie "
+              "side by side over the length; approximated to within one grain.",
        .only_when = io::When{"start.kind", {"fresh", "continued"}}},
       {.key = "chute.height",
        .unit = "m",
@@ -85,7 +85,8 @@ std::vector<Grain> place_grains(const io::Settings& settings, const SizeDistribu
       area / (loose * empty.box.length) + sizes.largest() + 2.0 * empty.walls.front().radius;
   reject_low_chute(settings, covered.box.width, empty);
   covered.walls.push_back(wall_at(covered.box.width, settings, covered.box, "chute.length"));
-  std::vector<Grain> grains = packed_grains(settings, radii_of_area(sizes, area), covered);
+  std::vector<Grain> grains =
+      packed_grains(settings, radii_of_area(settings, sizes, area), covered);
   if (grains.empty())
     settings.reject("chute.layers", "no start without overlaps was found",
                     "choose grains of more equal size");

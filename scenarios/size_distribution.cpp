@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace riesel::scenarios {
 
 namespace {
 
 constexpr double cut_off = 3.0;  // standard deviations of the truncated normal distribution
-constexpr auto file_key = "grains.sizes_from";
+constexpr double variance_within_cut_off = 0.97334;  // of a deviation of 1
+constexpr auto diameter_key = "grains.diameter", file_key = "grains.sizes_from";
 
 std::vector<double> diameters_from_file(const io::Settings& settings) {
   const io::CsvTable table = io::read_csv(settings, file_key, {{.name = "diameter", .unit = "m"}});
@@ -29,7 +31,7 @@ io::SettingsTable size_settings() {
   const io::When spread_out = {"grains.size_distribution", {"uniform", "truncated_normal"}};
   const io::When of_two_sizes = {"grains.size_distribution", {"bidisperse"}};
   return {
-      {.key = "grains.diameter",
+      {.key = diameter_key,
        .unit = "m",
        .fallback = "1 mm",
        .range = io::positive(),
@@ -79,7 +81,7 @@ io::SettingsTable size_settings() {
 
 SizeDistribution::SizeDistribution(const io::Settings& settings)
     : stream_(static_cast<std::uint64_t>(settings.integer("seed")), Use::radius),
-      mean_(settings.number("grains.diameter")) {
+      mean_(settings.number(diameter_key)) {
   const std::string& kind = settings.text("grains.size_distribution");
   if (kind == "file") {
     kind_ = Kind::file;
@@ -125,5 +127,22 @@ double SizeDistribution::largest() const {
   }
   return *std::max_element(of_file_.begin(), of_file_.end());
 }
+
+double SizeDistribution::mean_square() const {
+  switch (kind_) {
+  case Kind::uniform:
+    return mean_ * mean_ * (1.0 + spread_ * spread_ / 3.0);
+  case Kind::truncated_normal:
+    return mean_ * mean_ * (1.0 + variance_within_cut_off * spread_ * spread_);
+  case Kind::bidisperse:
+    return mean_ * mean_ * std::lerp(small_ * small_, large_ * large_, large_fraction_);
+  case Kind::file:
+    break;
+  }
+  return std::inner_product(of_file_.begin(), of_file_.end(), of_file_.begin(), 0.0)
+         / static_cast<double>(of_file_.size());
+}
+
+const char* SizeDistribution::key() const { return kind_ == Kind::file ? file_key : diameter_key; }
 
 }  // namespace riesel::scenarios

@@ -21,6 +21,10 @@ public:
   double diameter(std::uint64_t grain) const;
   /// m, no grain is larger.
   double largest() const;
+  /// m^2, of the diameters: what is expected of many grains.
+  double mean_square() const;
+  /// The setting that says how large they are.
+  const char* key() const;
 
 private:
   double relative_diameter(std::uint64_t grain) const;

@@ -15,6 +15,8 @@ Scenario shear_cell();
 
 namespace {
 
+constexpr auto law_key = "contact.law";
+
 struct Registry {
   std::vector<Scenario> scenarios = {
       single_wall_grain(), wall_array(),     bead_column(),
@@ -43,17 +45,23 @@ void add_to(std::vector<Entry>& entries, Entry entry) {
   entries.push_back(std::move(entry));
 }
 
+bool is_built_in_law(const std::string& name) {
+  const io::SettingsTable table = io::common_settings();
+  const auto row = std::ranges::find(table, law_key, &io::Setting::key);
+  return std::ranges::find(row->choices, name) != row->choices.end();
+}
+
 /// The law becomes one more choice, with its rows behind those of the other laws. It has no
 /// collision time in closed form, which takes the speed of an impact.
 void add_rows(const Law& law, io::SettingsTable& table) {
   auto place = table.begin();
   for (auto row = table.begin(); row != table.end(); ++row) {
-    if (row->key == "contact.law") row->choices.push_back(law.name);
+    if (row->key == law_key) row->choices.push_back(law.name);
     if (row->key == "contact.impact_speed") row->only_when->values.push_back(law.name);
-    if (row->only_when && row->only_when->key == "contact.law") place = row + 1;
+    if (row->only_when && row->only_when->key == law_key) place = row + 1;
   }
   io::SettingsTable rows = law.own_settings;
-  for (io::Setting& row : rows) row.only_when = io::When{"contact.law", {law.name}};
+  for (io::Setting& row : rows) row.only_when = io::When{law_key, {law.name}};
   table.insert(place, rows.begin(), rows.end());
 }
 
@@ -68,7 +76,12 @@ const Scenario& named(const std::string& name) {
 }
 
 void add(Scenario scenario) { add_to(registry().scenarios, std::move(scenario)); }
-void add(Law law) { add_to(registry().laws, std::move(law)); }
+
+void add(Law law) {
+  if (is_built_in_law(law.name))
+    throw std::logic_error("'" + law.name + "' is a law of riesel already");
+  add_to(registry().laws, std::move(law));
+}
 
 const Law* added_law(const std::string& name) { return find(registry().laws, name); }
 

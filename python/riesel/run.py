@@ -77,8 +77,8 @@ class Histogram:
 
 @dataclass(frozen=True)
 class FinalState:
-    """The grains, contacts and walls at the end: m, m/s, kg. Grains are in the order of their ids;
-    columns of vectors have the shape (grains, 2), x across and y along the tube."""
+    """The grains, contacts and walls at one moment: m, m/s, kg. Grains are in the order of their
+    ids; columns of vectors have the shape (grains, 2), x across and y along the tube."""
 
     time: float  #: s
     step: int
@@ -117,17 +117,21 @@ class Run:
         return Tree(json.loads(self._read("summary.json", self._go_on)))
 
     def estimate(self, name: str) -> Estimate:
-        """A value of the summary that has an error: estimate("mean_axial_velocity")."""
-        pair = self.summary[name]
-        return Estimate(*(math.nan if pair[key] is None else float(pair[key])
-                          for key in ("value", "error")))
+        """A value of the summary that has an error: estimate("mean_axial_velocity"). That of
+        estimate("balance.n_dot") stands among the errors of the balance."""
+        section, _, last = name.rpartition(".")
+        for value, error in ((f"{name}.value", f"{name}.error"),
+                             (name, f"{section}.errors.{last}")):
+            if value in self.summary and error in self.summary:
+                return Estimate(_known(self.summary[value]), _known(self.summary[error]))
+        raise KeyError(f"{name}: the summary has no such value with an error")
 
     @cached_property
     def validity(self) -> Validity:
         """Of a flow. The points of a curve each have a verdict of their own, in its table."""
         if "validity.verdict" not in self.summary:
-            raise NotThere(f"{self.directory}: impacts have no verdict of the whole run; see "
-                           "curve['verdict']")
+            raise NotThere(f"{self.directory}: impacts and columns of beads have no verdict of the "
+                           "whole run; see curve['verdict']")
         return Validity(self.summary["validity.verdict"],
                         [Finding(**finding) for finding in self.summary["validity.findings"]])
 
@@ -152,9 +156,10 @@ class Run:
 
     @cached_property
     def final(self) -> FinalState:
-        """The state at the end."""
+        """Of a flow, the state at the last checkpoint: if `is_done` that at its end, and of a run
+        that failed that in which it did. `step` and `time` tell which it is."""
         with opened(self._run_file, self._go_on) as file:
-            group = part(file, "final", self._written_at_the_end)
+            group = part(file, "final", "only flows have one, from their first checkpoint on")
             return FinalState(time=float(group.attrs["time"]), step=int(group.attrs["step"]),
                               width=float(group.attrs["box_width"]),
                               length=float(group.attrs["box_length"]), grains=table_of(group),
@@ -167,10 +172,10 @@ class Run:
 
     @cached_property
     def curve(self) -> Table:
-        """Of an impact scenario: a row per point, as in docs/files.md; "verdict" is 0 for valid, 1
-        for suspect, 2 for unphysical."""
+        """Of an impact scenario or bead_column: a row per point, as in docs/files.md; "verdict" is
+        0 for valid, 1 for suspect, 2 for unphysical."""
         with opened(self._run_file, self._go_on) as file:
-            return table_of(part(file, "curve", "only impact scenarios have one"))
+            return table_of(part(file, "curve", "only impact scenarios and bead_column have one"))
 
     @cached_property
     def provenance(self) -> Mapping[str, str]:
@@ -205,6 +210,10 @@ class Run:
         if not path.exists():
             raise NotThere(f"{path}: is not there; {remedy}")
         return path.read_text(encoding="utf-8")
+
+
+def _known(value: float | None) -> float:
+    return math.nan if value is None else float(value)
 
 
 def _histogram(group: Any) -> Histogram:

@@ -3,7 +3,7 @@
 import subprocess
 import unittest
 
-from riesel_command import COMMAND, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files
+from riesel_command import BAD_INPUT, COMMAND, FAILED, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files
 
 
 def mounts_are_permitted():
@@ -36,11 +36,11 @@ class Directories(CommandTest):
     def test_a_file_in_the_way_is_named(self):
         self.write("tube.yaml", SMALL_TUBE)
         before = bytes_of_files(self.home)
-        for out in ("tube.yaml", "tube.yaml/out"):
+        for out, status in (("tube.yaml", BAD_INPUT), ("tube.yaml/out", FAILED)):
             with self.subTest(out):
                 result = self.riesel("run", "tube.yaml", "--out", out)
-                self.assertNotEqual(result.returncode, 0)
-                self.assert_one_message(result.stderr, f"{out}: ", "Not a directory")
+                self.assertEqual((result.returncode, result.stdout), (status, ""), result)
+                self.assert_one_message(result.stderr, f"{out}: ", "directory")
                 self.assert_nothing_written(before)
 
 

@@ -59,6 +59,18 @@ class Flows(CommandTest):
                 length = file["particles/walls/box/edges"][1]
                 self.assertLess(abs(way - length * np.round(way / length)).max(), 1e-8)
 
+    def test_a_shear_cell_that_only_gets_hotter_has_no_error_bars(self):
+        """Nothing takes out what the walls put in."""
+        out = self.run_of("cell", CELL, "--set", "contact.restitution=1", "--set", "contact.friction=0", "--set",
+                          "run.duration=0.2 s")
+        summary = self.summary(out)
+        self.assertEqual(summary["state"], "accelerating")
+        temperature = summary["fluctuations"]["granular_temperature"]
+        self.assertGreater(temperature["value"], 0.5)
+        self.assertIsNone(temperature["error"])
+        self.assertIsNone(summary["mean_axial_velocity"]["error"])
+        self.assertGreater(summary["fluctuations"]["sigma_vx"]["error"], 0.0)
+
     def test_smooth_walls_cannot_be_passed(self):
         out = self.run_of("smooth", SMOOTH)
         summary = self.summary(out)

@@ -23,6 +23,12 @@ class New(CommandTest):
                 change = next(change for change in SHORT if f"{change.split('=')[0].split('.')[1]}:" in text)
                 self.run_to_end(f"{scenario}.yaml", scenario, "--set", change)
 
+    def test_what_it_tells_to_do_next_can_be_copied(self):
+        result = self.riesel("new", "periodic_tube", "my tube.yaml")
+        self.assert_done(result)
+        for command in ("check", "run"):
+            self.assertIn(f"riesel {command} 'my tube.yaml'", result.stdout)
+
     def test_with_all_comments_removed_it_has_every_setting(self):
         for scenario in self.scenarios():
             with self.subTest(scenario):
@@ -41,9 +47,10 @@ class New(CommandTest):
 
                 add(yaml.safe_load(whole))
                 page = self.riesel("settings").stdout
-                common, *own = re.split(r"^## ", page, flags=re.MULTILINE)[1:]
-                own = next(part for part in own if part.startswith(f"Scenario `{scenario}`"))
-                self.assertEqual(keys, set(re.findall(r"^\| `([a-z_.]+)` \|", common + own, re.MULTILINE)))
+                sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:]
+                own = "".join(section for section in sections
+                              if section.startswith("All ") or f"`{scenario}`" in section.splitlines()[0])
+                self.assertEqual(keys, set(re.findall(r"^\| `([a-z_.]+)` \|", own, re.MULTILINE)))
 
     def test_nothing_is_written_over(self):
         self.write("periodic_tube.yaml", "mine")

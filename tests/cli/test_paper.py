@@ -1,4 +1,4 @@
-"""The files of the paper's figures: each sweep can be run, and docs/paper.md says what they give."""
+"""The files of the paper's figures: each sweep can be run, and the manual says what they give."""
 
 import subprocess
 import sys
@@ -9,8 +9,11 @@ from riesel_command import PATIENCE, SHIPPED, CommandTest, plain_number
 DOCS = SHIPPED.parent / "docs"
 sys.path.insert(0, str(DOCS / "paper"))
 
-from fig6_thresholds import Threshold  # noqa: E402
-from tube import Run, plus_minus, seeds_text  # noqa: E402
+from fig6 import fast_states  # noqa: E402
+from fig6_thresholds import Threshold, thresholds  # noqa: E402
+from tube import Run, grouped, plus_minus, runs_of, seeds_text, stay_cells  # noqa: E402
+
+PAGE, LONG_TABLES = DOCS / "paper.md", DOCS / "paper-tables.md"
 
 # file: number of its points
 POINTS = {
@@ -33,7 +36,7 @@ class Paper(CommandTest):
         return lines
 
     def assert_quoted(self, figure):
-        manual = (DOCS / "paper.md").read_text(encoding="utf-8").splitlines()
+        manual = [line for page in (PAGE, LONG_TABLES) for line in page.read_text(encoding="utf-8").splitlines()]
         for line in self.tables_of(figure):
             self.assertIn(line, manual)
 
@@ -76,6 +79,26 @@ def slow_run(e_n, seed, share_5="1.0", **other):
 
 def runaway(e_n, seed):
     return slow_run(e_n, seed, share_5="0.0", state="accelerating", share="0.01", brake_failure="1")
+
+
+class ShortTables(unittest.TestCase):
+    """Those of the page itself, which are not printed by figures.py."""
+
+    def assert_told(self, cells):
+        page = PAGE.read_text(encoding="utf-8")
+        for cell in filter(None, cells):
+            self.assertIn(f"| {cell} ", page)
+
+    def test_slow_states(self):
+        runs = runs_of(DOCS / "paper/fig6_slow.csv")
+        self.assert_told(stay_cells(of_this)[1] for _, of_this in grouped(runs, "k_n", "e_n"))
+
+    def test_ends_of_the_slow_branch(self):
+        self.assert_told(end.text for (_, _, length, _, attraction), end in thresholds(DOCS / "paper")
+                         if length == 48 and attraction == "keep")
+
+    def test_fast_states(self):
+        self.assert_told(state.text for state in fast_states(DOCS / "paper"))
 
 
 class Thresholds(unittest.TestCase):

@@ -1,6 +1,6 @@
 """run --profile tells where the time went, and changes nothing."""
 
-from riesel_command import SMALL_TUBE, CommandTest
+from riesel_command import SHIPPED, SMALL_TUBE, CommandTest
 
 PHASES = ["fly", "build", "search", "forces", "receive", "appointments", "stepping, other",
           "measure", "output"]
@@ -31,3 +31,10 @@ class Profile(CommandTest):
         self.assertGreater(windows["appointments"][1], 0.0)
         unprofiled = self.state_hash(self.run_small_tube("unprofiled"))
         self.assertEqual({hash_of_plain, hash_of_windows}, {unprofiled})
+
+    def test_it_is_refused_where_nothing_is_profiled(self):
+        for scenario in ("single_wall_grain", "bead_column"):
+            with self.subTest(scenario):
+                result = self.riesel("run", SHIPPED / f"{scenario}.yaml", "--out", "out", "--profile")
+                self.assert_refused(result, "--profile", scenario, "no effect")
+                self.assert_nothing_written({})

@@ -310,6 +310,9 @@ class Impacts(Report):
             self.assertLess(bad, len(curve))
             # the last full point begins the dashed piece
             self.assertEqual(drawn, bad + 3 if is_dashed else len(curve) - bad)
+        for criterion in ("more than 0.5 of the braking", "more than 0.5 of the smaller radius",
+                          "more than 0.1 of the energy"):
+            self.assertIn(criterion, self.page.text)
 
     def test_every_point_is_in_the_table_and_the_verdicts_are_told(self):
         curve = self.summary(self.out)["curve"]

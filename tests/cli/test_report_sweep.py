@@ -48,6 +48,16 @@ set: {run.duration: 4 ms}
 axes: {contact.stiffness: [2000 N/m, 0.5 N/m, 1000 N/m]}
 """
 
+SHEAR_CELL = """\
+base:
+  scenario: shear_cell
+  contact: {stiffness: 2000 N/m, restitution: 0.9}
+  grains: {area_fraction: 0.3}
+  cell: {width: 10 mm, length: 10 mm}
+  run: {duration: 5 ms}
+axes: {cell.velocity: [1 m/s, 2 m/s]}
+"""
+
 IMPACTS = """\
 base: wall.yaml
 set: {impact.axial_velocity: {from: 0.3 m/s, to: 30 m/s, points: 5, spacing: log}}
@@ -192,13 +202,15 @@ class Marks(SweepReport):
         directories = self.point_directories(sweep)
         steady, accelerating, unphysical = directories[:3]
         self.change(steady, state="steady")
-        self.change(accelerating, state="accelerating")
+        mean = {**self.summary(accelerating)["mean_axial_velocity"], "error": None}
+        self.change(accelerating, state="accelerating", mean_axial_velocity=mean)
         for point in directories:
             verdict = "unphysical" if point == unphysical else "valid"
             self.change(point, validity={**self.summary(point)["validity"], "verdict": verdict})
         page = self.report_on(sweep)
         self.assertIn("1 accelerating, 1 steady, 10 too_short", page.text)
         self.assertIn("1 unphysical, 11 valid", page.text)
+        self.assertIn(f"{mean['value']:.4g} (error not known)accelerating", page.text)
         links = self.links(sweep)
         for point in directories:
             link, _ = links[point.name]
@@ -208,6 +220,9 @@ class Marks(SweepReport):
             crosses = [line for line in link.findall(f"{SVG}line")
                        if line.get("x1") != line.get("x2") and line.get("y1") != line.get("y2")]
             self.assertEqual(len(crosses), 2 if point == unphysical else 0)
+            bars_and_arrows = [line for line in link.findall(f"{SVG}line")
+                               if line.get("x1") == line.get("x2")]
+            self.assertEqual(len(bars_and_arrows), 1)  # an arrow has no bar beside it
 
     def test_velocities_of_different_size_have_a_logarithmic_axis(self):
         sweep = self.copy()
@@ -273,6 +288,14 @@ class OtherSweeps(SweepReport):
         self.assertRegex(page.text, "failed: .*grain")
         self.assertEqual(len(self.links(sweep)), 2)
 
+    def test_without_gravity_nothing_is_compared_with_it(self):
+        sweep = self.sweep(SHEAR_CELL)
+        page = self.report_on(sweep)
+        self.assertEqual(page.mistakes, [])
+        self.assertIn("brake failure", page.text)
+        self.assertNotIn("n_dot dv_y / g", page.text)
+        self.assertNotIn("inf ±", page.text)
+
     def test_impacts_are_drawn_as_in_the_paper(self):
         sweep = self.sweep(IMPACTS)
         page = self.report_on(sweep)
@@ -285,6 +308,7 @@ class OtherSweeps(SweepReport):
         for point in self.point_directories(sweep):
             verdicts = [p["verdict"] for p in self.summary(point)["curve"]]
             self.assertRegex(page.text, rf"{point.name}\d+(5|15)0{verdicts.count('valid')} valid")
+        self.assertIn("errors of the time step", page.text)
         drawn = [tuple(map(float, place.split(",")))
                  for line in root.findall(f"{SVG}g[@class='curve']/{SVG}polyline")
                  for place in line.get("points").split()]

@@ -19,7 +19,7 @@ BEYOND_A_SCHEMA = {
 }
 # A key, and values that are right or wrong for it.
 VALUES = {
-    "tube.width": (["20 mm", 0.02, "1e-2 m", ".5cm", "20 µm", "2 meters"],
+    "tube.width": (["20 mm", 0.02, "1e-2 m", ".5cm", "20000 µm", "2 meters"],
                    ["20 kg", "20 s", "mm", "-20 mm", -1, 0, "0,02 m", True, None, [1], "20 mm mm", "1 2"]),
     "contact.stiffness": (["2000 N/m", "2 kN/m", "2 kg/s^2", "2 N m-1", 2000], ["2000 N", "2 m/N", "x", -2]),
     "gravity": (["9.81 m/s^2", "9.81 m/s2", "9.81 m s^-2", "981 cm/s2", 0], ["9.81 m/s", "-1 m/s^2"]),
@@ -106,7 +106,7 @@ class Schema(CommandTest):
                     self.write("tube.yaml", yaml.safe_dump(settings, allow_unicode=True))
                     result = self.riesel("run", "tube.yaml", "--out", f"{key}-{number}", "--set",
                                          "run.duration=1 us")
-                    self.assertNotIn("expected", result.stderr)  # it may not fit the rest
+                    self.assert_done(result)
 
     def test_keys_that_hang_on_others(self):
         hertz = yaml.safe_load(SMALL_TUBE)

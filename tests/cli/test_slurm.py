@@ -2,6 +2,7 @@
 time of a task is not enough. The script alone is looked at without Slurm."""
 
 import json
+import os
 import re
 import signal
 import subprocess
@@ -10,8 +11,8 @@ import time
 import unittest
 
 import slurm_cluster
-from riesel_command import BAD_INPUT
-from test_sweep import SweepTest
+from riesel_command import BAD_INPUT, FAILED, bytes_of_files
+from test_sweep import ONE_FAILS, SweepTest
 
 FOUR = """\
 base: tube.yaml
@@ -86,6 +87,54 @@ class Script(SweepTest):
     def test_options_of_slurm_want_slurm(self):
         self.write("sweep.yaml", FOUR)
         self.assertEqual(self.riesel("sweep", "sweep.yaml", "--tasks", 3).returncode, BAD_INPUT)
+
+    def test_options_that_slurm_would_ignore_are_refused(self):
+        self.write("sweep.yaml", FOUR)
+        for options in (["--jobs", 2], ["--prepare"]):
+            with self.subTest(options):
+                result = self.riesel("sweep", "sweep.yaml", "--slurm", *options)
+                self.assertEqual((result.returncode, result.stdout), (BAD_INPUT, ""), result)
+                for option in ("--slurm", options[0]):
+                    self.assertIn(option, result.stderr)
+                self.assertFalse((self.home / "sweeps").exists())
+
+    def test_what_failed_is_submitted_again_only_if_asked(self):
+        self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
+        before = bytes_of_files(self.home)
+        self.assertEqual(self.script(ONE_FAILS), "# nothing is left to be done\n")
+        self.assertIn("#SBATCH --array=1\n", self.script(ONE_FAILS, "--retry-failed"))
+        self.assertEqual(bytes_of_files(self.home), before)
+
+
+class Submission(SweepTest):
+    """To programs that stand for those of Slurm."""
+
+    def setUp(self):
+        super().setUp()
+        (self.home / "slurm").mkdir()
+        self.stand_in("scontrol", "echo 'MaxArraySize = 1001'")
+        self.stand_in("sbatch", "echo 17")
+
+    def stand_in(self, name, text):
+        self.write(f"slurm/{name}", f"#!/bin/sh\n{text}\n").chmod(0o755)
+
+    def submit(self, *options):
+        return self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm", *options,
+                           PATH=f"{self.home / 'slurm'}:{os.environ['PATH']}")
+
+    def test_what_failed_is_tried_once_more(self):
+        self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
+        nothing = self.submit()
+        self.assert_done(nothing)
+        self.assertEqual(nothing.stdout, self.riesel("status", "out").stdout)
+        result = self.submit("--retry-failed")
+        self.assert_done(result)
+        self.assertIn("submitted as job 17; see 'riesel status out'", result.stdout)
+        self.assertIn("#SBATCH --array=1\n", (self.home / "out/slurm.sh").read_text())
+        for _ in range(2):  # as if the task were queued again
+            self.assertEqual(self.riesel("sweep-task", "out", 1, "--of", 3).returncode, FAILED)
+        self.assert_done(self.riesel("collect", "out"))
+        self.assertEqual([row["attempts"] for row in self.rows()], ["1", "2", "1"])
 
 
 @unittest.skipIf(slurm_cluster.why_not(), slurm_cluster.why_not())

@@ -386,6 +386,16 @@ class Mistakes(SweepTest):
             with self.subTest(arguments):
                 self.assertEqual(self.riesel(*arguments).returncode, status)
 
+    def test_options_of_running_are_refused_where_nothing_is_run(self):
+        self.write("sweep.yaml", GRID)
+        for options in (["--jobs", 2], ["--retry-failed"], ["--max-walltime", "1 h"]):
+            with self.subTest(options):
+                result = self.riesel("sweep", "sweep.yaml", "--prepare", *options)
+                self.assertEqual((result.returncode, result.stdout), (BAD_INPUT, ""), result)
+                for option in ("--prepare", options[0]):
+                    self.assertIn(option, result.stderr)
+                self.assertFalse((self.home / "sweeps").exists())
+
     def test_help_names_the_options(self):
         for command, options in {"sweep": ["FILE", "--out", "--jobs", "--dry-run", "--prepare",
                                            "--retry-failed"],

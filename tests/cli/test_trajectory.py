@@ -226,10 +226,10 @@ class Trajectory(TrajectoryTest):
         whole = file.read_bytes()
         for content in (b"", whole[:300], whole[:100] + b"x" + whole[101:]):
             file.write_bytes(content)
-            self.assert_failed(self.riesel("resume", out, *longer), "out/trajectory.h5",
-                               "does not fit the checkpoint", "restore the file")
+            self.assert_refused(self.riesel("resume", out, *longer), "out/trajectory.h5",
+                                "does not fit the checkpoint", "restore the file")
         file.unlink()
-        self.assert_failed(self.riesel("resume", out, *longer), "out/trajectory.h5", "is missing", "restore")
+        self.assert_refused(self.riesel("resume", out, *longer), "out/trajectory.h5", "is missing", "restore")
         file.write_bytes(whole)
         self.resume_to_end(out, *longer)
 

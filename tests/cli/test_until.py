@@ -3,10 +3,14 @@ happens on the way, or when the time is up."""
 
 import csv
 import itertools
+import math
 import random
 import re
 import signal
 import time
+
+import h5py
+import numpy as np
 
 from riesel_command import DONE, SHIPPED, SMALL_TUBE, CommandTest, data_of
 
@@ -48,7 +52,8 @@ class UntilTest(CommandTest):
     def end_of(self, out):
         summary = self.summary(out)
         mean = summary["mean_axial_velocity"]
-        return summary["ended_by"], summary["state"], mean["error"] / mean["value"]
+        relative_error = math.nan if mean["error"] is None else mean["error"] / mean["value"]
+        return summary["ended_by"], summary["state"], relative_error
 
 
 class Until(UntilTest):
@@ -87,6 +92,33 @@ class Until(UntilTest):
         out = self.run_until("out", "--set", "start.axial_velocity=20 m/s", "--set",
                              "run.until.relative_error=100 %", "--set", "run.until.at_most=0.5 s")
         self.assertEqual(self.end_of(out)[:2], ("at_most", "accelerating"))
+
+    def test_a_runaway_has_no_error_bar_wherever_its_mean_is_told(self):
+        out = self.run_until("out", "--set", "start.axial_velocity=20 m/s", "--set", "run.until.at_most=0.5 s")
+        mean = self.summary(out)["mean_axial_velocity"]
+        self.assertGreater(mean["value"], 20.0)
+        self.assertIsNone(mean["error"])
+        self.assert_done(self.riesel("report", out))
+        page = (out / "report.html").read_text(encoding="utf-8")
+        self.assertIn(f"Mean axial velocity {mean['value']:.4g} (error not known) m/s after ", page)
+        self.assertIn("Orange: the mean after the transient; its error is not known.", page)
+        self.assertNotIn("68 % error bar). State", page)
+
+    def test_of_a_runaway_in_a_sweep_the_table_has_no_error(self):
+        self.write("sweep.yaml", "base: until.yaml\nset: {run.until.at_most: 0.5 s}\n"
+                                 "axes: {start.axial_velocity: [20 m/s, 25 m/s]}\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
+        with open(self.home / "out/sweep.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["state"] for row in rows], ["accelerating"] * 2)
+        self.assertEqual([row["mean_axial_velocity.error"] for row in rows], [""] * 2)
+        self.assertGreater(float(rows[0]["mean_axial_velocity.value"]), 20.0)
+        with h5py.File(self.home / "out/sweep.h5", "r") as file:
+            self.assertTrue(np.isnan(file["points/mean_axial_velocity.error"][()]).all())
+        self.assert_done(self.riesel("report", "out"))
+        page = (self.home / "out/report.html").read_text(encoding="utf-8")
+        self.assertRegex(page, r"[0-9.]+ \(error not known\)</td><td[^>]*>accelerating")
+        self.assertRegex(page, r"[0-9.]+ \(error not known\) m/s, accelerating")
 
     def test_the_screen_tells_how_it_ended(self):
         result = self.riesel("run", "until.yaml", "--out", "out")

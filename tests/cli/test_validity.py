@@ -144,5 +144,6 @@ class Balance(Validity):
         summary, _ = self.tube("fast", start__axial_velocity="20 m/s", run__duration="0.3 s")
         balance = summary["balance"]
         self.assertEqual(summary["state"], "accelerating")
+        self.assertIsNone(summary["mean_axial_velocity"]["error"])
         self.assertGreater(balance["gravity"] - balance["n_dot_dv_y"],
                            10.0 * balance["errors"]["n_dot_dv_y"])

@@ -97,11 +97,14 @@ TEST_CASE("A checkpoint comes back bit by bit") {
   CHECK((bits_of(read_checkpoint(directory / "c.h5")) == bits_of(checkpoint)));
 }
 
-TEST_CASE("A checkpoint without grains, contacts, walls and texts comes back") {
+TEST_CASE("A checkpoint of a grain at a smooth wall without contacts and texts comes back") {
   const ScratchDirectory directory;
   Checkpoint checkpoint;
   checkpoint.state.box = {.width = 1.0, .length = 1.0};
   checkpoint.state.time_step = 1.0;
+  checkpoint.state.walls = {WallLattice::smooth_at(0.0)};
+  add_grain(checkpoint.state,
+            {.x = 0.5, .y = 0.5, .vx = 0.0, .vy = 0.0, .radius = 0.1, .mass = 1.0});
   write_checkpoint(directory / "c.h5", checkpoint);
   CHECK((bits_of(read_checkpoint(directory / "c.h5")) == bits_of(checkpoint)));
 }
@@ -294,6 +297,8 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
   CHECK(refusal([](auto& c) { c.state.origin.energy = nan; })
         == "the energy, momentum or moment at the start is not finite");
   CHECK(refusal([](auto& c) { c.state.step = -1; }) == "the number of steps is negative");
+  CHECK(refusal([](auto& c) { c.state.walls.clear(); }) == "there are 0 walls");
+  CHECK(refusal([](auto& c) { c.state.walls.resize(3); }) == "there are 3 walls");
   CHECK(refusal([](auto& c) { c.state.walls[0].line = nan; })
         == "the line of wall 0 is not finite");
   CHECK(refusal([](auto& c) { c.state.walls[0].radius = 0.0; })
@@ -308,6 +313,7 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "wall 1 moves too far or too fast");
   CHECK(refusal([](auto& c) { c.state.walls[1].motion.amplitude_x = 1.0; })
         == "wall 1 moves too far or too fast");
+  CHECK(refusal([](auto& c) { c.state.grains.resize(0); }) == "there are no grains");
   CHECK(refusal([](auto& c) { c.state.grains.radius[1] = nan; })
         == "the radius of grain 1 is not positive");
   CHECK(refusal([](auto& c) { c.state.grains.mass[2] = -1.0; })

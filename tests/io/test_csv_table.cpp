@@ -61,6 +61,12 @@ TEST_CASE("what is wrong with a table is told with its place and a remedy") {
   }
 }
 
+TEST_CASE("places are counted in characters, as editors do") {
+  check_begins(complaint("x (\xC2\xB5m),vx,y\n1,2,3\n"), "t.csv:1:11: y: unknown column;");
+  check_begins(complaint("x,vx\n1, \xC3\xA9\xC3\xA9 \n"), "t.csv:2:4: vx: ");
+  check_begins(complaint("x,vx\n\xC3\xA9,2,3\n"), "t.csv:2:5: has 3 cells,");
+}
+
 TEST_CASE("a value can be rejected at its place") {
   const CsvTable table = parse_csv("x,vx\n1,2\n3,  4\n", "t.csv", columns);
   try {

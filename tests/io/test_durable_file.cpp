@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #include <csignal>
+#include <future>
 
 using namespace riesel::io;
 using namespace file_fixture;
@@ -77,6 +78,26 @@ TEST_CASE("Leftovers of a killed process do not stand in the way of a durable fi
   CHECK(contents(path) == "2");
   CHECK(contents(previous_generation(path)) == "1");
   CHECK(directory.names() == Names{"c.h5", "c.h5.previous"});
+}
+
+TEST_CASE("Of two who write the same file at the same time the later one waits") {
+  const ScratchDirectory directory;
+  const auto path = directory / "c.h5";
+  constexpr int times = 100;
+  const auto content = [](char letter) { return std::string(10'000, letter); };
+  const auto write = [&](char letter) {
+    for (int i = 0; i < times; ++i) write_durably(path, content(letter), Previous::keep);
+  };
+  write_durably(path, content('a'));
+  auto other = std::async(std::launch::async, write, 'b');
+  write('a');
+  CHECK_NOTHROW(other.get());
+  const auto whole = [&](const std::string& text) {
+    return text == content('a') || text == content('b');
+  };
+  CHECK(whole(contents(path)));
+  CHECK(whole(contents(previous_generation(path))));
+  CHECK_FALSE(fs::exists(directory / "c.h5.tmp"));
 }
 
 TEST_CASE("A durable file in a missing directory is an error that says so") {

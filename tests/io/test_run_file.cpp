@@ -64,7 +64,7 @@ std::vector<T> read(const Hdf5Group& group, const std::string& name) {
 TEST_CASE("A run file holds its provenance and describes its columns from the beginning") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;
-  const auto file = RunFile::create(path, provenance, columns);
+  RunFile::create(path, provenance, columns).flush();
   const auto root = Hdf5File::open(path).root();
   CHECK(root.text_attribute("format") == "riesel run");
   CHECK(root.group("provenance").read_text("host", 100) == "here");
@@ -156,7 +156,7 @@ TEST_CASE("Two run files can be open at the same time") {
 TEST_CASE("Each resume of a run file is recorded") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;
-  RunFile::create(path, provenance, columns);
+  RunFile::create(path, provenance, columns).flush();
   RunFile::reopen(path, {{"host", "b"}, {"run", "1f"}}, columns, 0).flush();
   RunFile::reopen(path, {{"host", "c"}, {"run", "1f"}}, columns, 0).flush();
   const auto origin = Hdf5File::open(path).root().group("provenance");
@@ -189,7 +189,7 @@ TEST_CASE("A run file that does not fit is refused") {
 TEST_CASE("A run does not go on with a file without a seal") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;
-  RunFile::create(path, provenance, columns);
+  RunFile::create(path, provenance, columns).flush();
   overwrite(path, contents(path).substr(seal_size));
   CHECK_FALSE(
       message_of<FileError>([&] { RunFile::reopen(path, provenance, columns, 0); }).empty());

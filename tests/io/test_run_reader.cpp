@@ -138,7 +138,7 @@ TEST_CASE("A run file that is damaged or no record of a flow is refused") {
   CHECK(complaint(path).find("is damaged") != std::string::npos);
   fs::remove(path);
 
-  auto file = RunFile::create(path, {}, columns);
+  RunFile::create(path, {}, columns).flush();
   CHECK(complaint(path).find("no final state") != std::string::npos);
   fs::remove(path);
 

@@ -2,6 +2,8 @@
 #include "io/settings_reference.hpp"
 #include "tests/io/settings_fixture.hpp"
 
+#include <numbers>
+
 using namespace settings_fixture;
 
 namespace {
@@ -34,6 +36,35 @@ TEST_CASE("common settings stand in the reference page once") {
     REQUIRE(page.find("| `" + row.key + "` |") != std::string::npos);
     CHECK(page.find("## Scenario") > page.rfind("| `" + row.key + "` |"));
   }
+}
+
+TEST_CASE("rows that several scenarios share stand in the reference page once") {
+  const auto row = [](const std::string& key) { return Setting{.key = key, .doc = key + "."}; };
+  const auto page = settings_reference({{"a", {row("w"), row("x"), row("y"), row("z"), row("s")}},
+                                        {"b", {row("x"), row("y"), row("z"), row("s")}},
+                                        {"c", {row("s"), row("t")}},
+                                        {"d", {row("s"), row("t")}}});
+  const auto section = [&](const std::string& title) {
+    const auto begin = page.find("## " + title + "\n");
+    REQUIRE(begin != std::string::npos);
+    const auto section_text = page.substr(begin, page.find("\n## ", begin) - begin);
+    std::string keys;
+    for (const char key : {'s', 't', 'w', 'x', 'y', 'z'})
+      if (section_text.find(std::string("| `") + key + "` |") != std::string::npos) keys += key;
+    return keys;
+  };
+  CHECK(section("Scenarios `a`, `b`") == "xyz");
+  CHECK(section("Scenario `a`") == "sw");  // a single row is not worth a section of several
+  CHECK(section("Scenario `b`") == "s");
+  CHECK(section("Scenario `c`") == "st");
+  CHECK(section("Scenario `d`") == "st");
+}
+
+TEST_CASE("ranges of angles are in degrees") {
+  constexpr double right_angle = std::numbers::pi / 2.0;
+  const auto page = settings_reference(
+      {{"x", {{.key = "a", .unit = "rad", .range = between(-right_angle, right_angle)}}}});
+  CHECK(page.find("| rad, from -90 to 90 degrees |") != std::string::npos);
 }
 
 TEST_CASE("bars within a cell are escaped") {

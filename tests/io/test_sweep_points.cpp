@@ -32,6 +32,10 @@ const SettingsTables& sweep_tables() {
                                      .doc = "Grains.",
                                      .only_when = When{"start.kind", {"file"}},
                                      .names_content = true});
+    with_start.at("tube").push_back({.key = "tube.obstacles",
+                                     .kind = Kind::path,
+                                     .doc = "Obstacles, if there are any.",
+                                     .names_content = true});
     with_start.at("tube").push_back({.key = "start.speed",
                                      .unit = "m/s",
                                      .fallback = "1 m/s",
@@ -170,6 +174,17 @@ TEST_CASE("the name of a point depends on what stands in a file, not on where th
   CHECK(name_with("a.csv", "2\n") != expected);
   // That it cannot be read is for the run to say.
   CHECK(name("set: {start.kind: file, start.from: none.csv}\n") != expected);
+}
+
+TEST_CASE("what stands in a file that may be left out counts where it is given") {
+  const file_fixture::ScratchDirectory directory;
+  const auto name_with = [&](const char* content) {
+    std::ofstream(directory / "a.csv") << content;
+    return name("set: {tube.obstacles: " + (directory / "a.csv").string() + "}\n");
+  };
+  const auto expected = name_with("1\n");
+  CHECK(name_with("2\n") != expected);
+  CHECK(name("") != expected);
 }
 
 TEST_CASE("a continuation goes forward and back, each point from the one before") {

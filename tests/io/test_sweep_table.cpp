@@ -82,6 +82,20 @@ TEST_CASE("The CSV table quotes what must be and has nothing for a missing value
            ",\"say \"\"no\"\"\nnow\",0.30000000000000004\n");
 }
 
+TEST_CASE("A column with a name that no data set can have is told, and nothing is written") {
+  const ScratchDirectory directory;
+  SweepTable table(1);
+  table.set(0, "plain", 1.0);
+  write_hdf5(directory / "plain.h5", table, "base: a.yaml\n");
+  CHECK(directory.names() == std::vector<std::string>{"plain.h5"});
+  table.set(0, "a/b", 1.0);
+  const auto error =
+      message_of<FileError>([&] { write_hdf5(directory / "sweep.h5", table, "base: a.yaml\n"); });
+  CHECK(contains(error, "sweep.h5: cannot hold the table (cannot create the data set /points/a/b"));
+  CHECK(contains(error, "; remove the point whose summary.json has such a name"));
+  CHECK(directory.names() == std::vector<std::string>{"plain.h5"});
+}
+
 TEST_CASE("A summary is flattened: single values with dotted names, no lists") {
   const ScratchDirectory directory;
   const auto path = directory / "summary.json";

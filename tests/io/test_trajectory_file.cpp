@@ -6,8 +6,12 @@
 #include "io/hdf5_file.hpp"
 #include "tests/io/file_fixture.hpp"
 
+#include <sys/resource.h>
+
 #include <array>
+#include <csignal>
 #include <numeric>
+#include <stdexcept>
 
 using namespace riesel;
 using namespace riesel::io;
@@ -78,6 +82,19 @@ TEST_CASE("a trajectory without frames is a file, too") {
   CHECK(directory.names() == std::vector<std::string>{"trajectory.h5", "trajectory.xdmf2"});
 }
 
+TEST_CASE("settings that a trajectory cannot hold are refused, and nothing is written") {
+  const ScratchDirectory directory;
+  const auto path = directory / "trajectory.h5";
+  const std::string longest(65'000, 'x'), longer(70'000, 'x');
+  const auto error = message_of<FileError>(
+      [&] { TrajectoryFile::create(path, run, state_of_frame(0), steps_per_frame, longer); });
+  CHECK(error.starts_with(path.string() + ": cannot hold the settings (700"));
+  CHECK(error.ends_with("; shorten them, or run without a trajectory"));
+  CHECK(directory.names().empty());
+  TrajectoryFile::create(path, run, state_of_frame(0), steps_per_frame, longest);
+  CHECK(Hdf5File::open(path).root().group("parameters").text_attribute("settings") == longest);
+}
+
 TEST_CASE("frames are there after a commit, however many") {
   const ScratchDirectory directory;
   const auto path = directory / "trajectory.h5";
@@ -100,6 +117,31 @@ TEST_CASE("what is not committed cannot be seen, and does no harm") {
   file.commit();
   append_frames(file, 100, 300);
   CHECK(steps_of(path) == steps_expected(100));
+}
+
+TEST_CASE("a commit that fails leaves the frames of the one before, and is the last one") {
+  const ScratchDirectory directory;
+  const auto path = directory / "trajectory.h5";
+  const int status = in_other_process([&] {
+    auto file = create(path);
+    append_frames(file, 0, 10);
+    file.commit();
+    append_frames(file, 10, 20);
+    const rlimit limit = {.rlim_cur = 1000, .rlim_max = 1000};
+    std::signal(SIGXFSZ, SIG_IGN);
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 1;
+    const auto error = message_of<FileError>([&] { file.commit(); });
+    if (!contains(error, "File too large; raise the limit on the size of files")) return 2;
+    const std::string left = contents(path);
+    if (message_of<std::logic_error>([&] { file.commit(); }).empty()) return 3;
+    return contents(path) == left ? 0 : 4;
+  });
+  CHECK(status == 0);
+  CHECK(steps_of(path) == steps_expected(10));
+  auto file = reopen(path, 9);
+  append_frames(file, 10, 30);
+  file.commit();
+  CHECK(steps_of(path) == steps_expected(30));
 }
 
 TEST_CASE("arrays that belong to no frame are in the order of the ids") {

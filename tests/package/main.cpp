@@ -19,9 +19,22 @@ bool is_refused(const char* name) {
   return false;
 }
 
+/// The laws of the house cannot be replaced.
+bool is_refused_as_law(const char* name) {
+  try {
+    riesel::scenarios::add(
+        riesel::scenarios::Law{.name = name, .own_settings = {}, .make = nullptr});
+  } catch (const std::logic_error&) {
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 int main() {
+  for (const char* law : {"linear", "power", "hertz"})
+    if (!is_refused_as_law(law)) return 1;
   if (!is_refused("periodic_tube") || is_refused("own") || !is_refused("own")) return 1;
   riesel::scenarios::settings_tables();
   if (!is_refused("another")) return 1;  // too late

@@ -67,7 +67,8 @@ State through_checkpoint(const State& state, const std::filesystem::path& scratc
 
 State travel(State state, const ContactModel& model, const Leg& leg, Dice& dice,
              const std::filesystem::path& scratch) {
-  if (leg.through_file) state = through_checkpoint(state, scratch);
+  const bool is_flow = state.grains.size() > 0 && !state.walls.empty();  // only those are kept
+  if (leg.through_file && is_flow) state = through_checkpoint(state, scratch);
   if (leg.shuffle) state = shuffled(std::move(state), 7);
   const std::int64_t last = state.step + leg.steps;
   Simulation simulation(std::move(state), model, leg.threads, leg.stepping, leg.askew);

@@ -8,12 +8,17 @@ import h5py
 import numpy as np
 import riesel
 
-from riesel_command import SMALL_TUBE, CommandTest
+from riesel_command import SMALL_TUBE, CommandTest, saved_step
 
 IMPACTS = """\
 scenario: wall_array
 contact: {stiffness: 2000 N/m, restitution: 0.7}
 impact: {starts: 3, normal_velocity: 0.1 m/s, axial_velocity: [0.5 m/s, 30 m/s]}
+"""
+COLUMN = """\
+scenario: bead_column
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+column: {beads: 3, gap_ratio: [0.1, 10]}
 """
 SWEEP = """\
 base: tube.yaml
@@ -66,6 +71,18 @@ class Flow(CommandTest):
         unknown.summary = riesel.Tree({"x": {"value": 2.0, "error": None}})
         self.assertEqual(unknown.estimate("x").value, 2.0)
         self.assertTrue(math.isnan(unknown.estimate("x").error))
+
+    def test_estimates_of_the_balance_have_the_errors_that_stand_beside_it(self):
+        balance = json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))["balance"]
+        for name in ("n_dot", "dv_y", "n_dot_dv_y"):
+            self.assertEqual(self.run_of_it.estimate(f"balance.{name}"),
+                             (balance[name], balance["errors"][name]))
+            self.assertGreater(balance["errors"][name], 0.0)
+
+    def test_an_estimate_of_what_has_no_error_is_a_key_error(self):
+        for name in ("grains", "state", "balance", "balance.gravity", "balance.x", "x"):
+            with self.assertRaisesRegex(KeyError, f"{name}: .*no such value with an error"):
+                self.run_of_it.estimate(name)
 
     def test_settings_are_the_effective_ones_in_si_units(self):
         settings = self.run_of_it.settings
@@ -153,6 +170,17 @@ class Impacts(CommandTest):
         for part in ("profiles", "histograms", "final", "validity", "trajectory"):
             with self.assertRaisesRegex(riesel.NotThere, "out.*; "):
                 getattr(run, part)
+        with self.assertRaisesRegex(riesel.NotThere, "only flows have one"):
+            run.final
+
+    def test_a_column_of_beads_has_a_curve_and_no_verdict_of_all(self):
+        run = riesel.Run(self.run_to_end(self.write("column.yaml", COLUMN), "out"))
+        points = run.summary["column"]
+        self.assertEqual(len(points), 2)
+        for name in ("gap", "restitution", "contacts"):
+            np.testing.assert_array_equal(run.curve[name], [point[name] for point in points])
+        with self.assertRaisesRegex(riesel.NotThere, r"columns of beads .* see curve\['verdict'\]"):
+            run.validity
 
 
 class NotThere(CommandTest):
@@ -168,17 +196,28 @@ class NotThere(CommandTest):
         with self.assertRaisesRegex(riesel.NotThere, "manifest.json: is not there; "):
             riesel.Sweep(self.home)
 
-    def test_a_run_that_is_not_over(self):
+    def unfinished_run(self):
         self.write("tube.yaml", SMALL_TUBE.replace("5 ms", "1000 s"))
         result = self.riesel("run", "tube.yaml", "--out", "run", "--max-walltime", "1 s")
         self.assertEqual(result.returncode, 3, result)
-        run = riesel.Run(self.home / "run")
+        return riesel.Run(self.home / "run")
+
+    def test_a_run_that_is_not_over(self):
+        run = self.unfinished_run()
         self.assertFalse(run.is_done)
         self.assertGreater(len(run.series["time"]), 1)
         with self.assertRaisesRegex(riesel.NotThere, "summary.json.*riesel resume"):
             run.summary
         with self.assertRaisesRegex(riesel.NotThere, "come to its end"):
             run.profiles
+        with self.assertRaisesRegex(riesel.NotThere, "only impact scenarios and bead_column"):
+            run.curve
+
+    def test_the_state_of_a_run_that_is_not_over_is_that_of_its_checkpoint(self):
+        run = self.unfinished_run()
+        self.assertEqual(run.final.step, saved_step(run.directory))
+        self.assertGreater(run.final.step, 0)
+        self.assertGreaterEqual(run.final.time, run.series["time"][-1])
 
 
 class OfSweep(CommandTest):

@@ -148,7 +148,7 @@ class FaultTest(CommandTest):
 
     def calls_but_whole_files(self):
         """The calls, with a star for each file that is written as a whole, in the right order."""
-        file, name, directory = "open write fsync close", "rename", "open fsync close"
+        file, name, directory = "open open write fsync close", "rename", "fsync close"  # the directory first
         rest = " ".join(self.calls)
         # The generation before is kept, but not by the first.
         for naming in ("link rename rename", "link rename", name):

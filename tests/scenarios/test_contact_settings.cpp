@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 using namespace scenario_fixture;
 using Catch::Matchers::WithinRel;
@@ -37,6 +38,18 @@ TEST_CASE("restitution is that of a grain and the wall, unless it is said to be 
   CHECK_THAT(damping({}), WithinRel(wall, 1e-12));
   CHECK_THAT(damping({"contact.restitution_of=wall"}), WithinRel(wall, 1e-12));
   CHECK_THAT(damping({"contact.restitution_of=grains"}), WithinRel(grains, 1e-12));
+}
+
+TEST_CASE("a law from outside cannot take the name of one of the house") {
+  for (const char* name : {"linear", "power", "hertz"}) {
+    std::string told;
+    try {
+      scenarios::add(scenarios::Law{.name = name, .own_settings = {}, .make = nullptr});
+    } catch (const std::logic_error& error) {
+      told = error.what();
+    }
+    CHECK(told == "'" + std::string(name) + "' is a law of riesel already");
+  }
 }
 
 TEST_CASE("the paper's damping of 1e4 1/s is a restitution of 0.70 at the wall") {

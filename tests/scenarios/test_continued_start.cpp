@@ -156,6 +156,19 @@ TEST_CASE("A continued start is refused where the earlier run does not fit") {
   check_mentions(complaint(yaml, {"start.kind=continued"}), {"start.from", "is missing"});
 }
 
+TEST_CASE("A continued start is refused if the earlier state has not as many walls") {
+  const EarlierRun earlier;
+  io::Checkpoint forged = io::read_checkpoint(earlier.directory() / io::checkpoint_name);
+  const auto at_last_wall = [](std::int32_t wall) { return wall == 1; };
+  forged.state.walls.pop_back();
+  std::erase_if(forged.state.contacts, [&](auto& c) { return at_last_wall(c.name.wall); });
+  std::erase_if(forged.state.open_visits, [&](auto& v) { return at_last_wall(v.wall); });
+  const auto file = earlier.directory() / "forged.h5";
+  io::write_checkpoint(file, forged);
+  check_mentions(complaint(continued_yaml(file)),
+                 {"start.from: has a state with 1 wall, and periodic_tube has 2", "checkpoint.h5"});
+}
+
 TEST_CASE("A continued start does not take an older state than the newest without a word") {
   const EarlierRun earlier;
   const auto newest = earlier.directory() / io::checkpoint_name;

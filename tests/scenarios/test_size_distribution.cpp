@@ -1,6 +1,8 @@
 // Sizes of grains: their moments against closed forms, the same for the same seed, and what is
 // refused.
 #include "scenarios/size_distribution.hpp"
+
+#include "scenarios/flow_start.hpp"
 #include "tests/io/file_fixture.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
@@ -126,6 +128,45 @@ TEST_CASE("no size is larger than the largest") {
   const double largest = SizeDistribution(read(tube_yaml, kind)).largest();
   CHECK(*std::ranges::max_element(diameters) <= largest);
   CHECK(*std::ranges::max_element(diameters) > 0.9 * largest);
+}
+
+TEST_CASE("the mean square is that of what is drawn") {
+  const FileOfSizes file("diameter (mm)\n0.5\n1\n1.5\n");
+  const std::vector<Overrides> kinds = {
+      {"grains.polydispersity=0.3"},
+      {"grains.size_distribution=truncated_normal", "grains.polydispersity=0.3"},
+      {"grains.size_distribution=bidisperse", "grains.size_ratio=3", "grains.large_fraction=0.2"},
+      file.overrides()};
+  for (const Overrides& kind : kinds) {
+    CAPTURE(kind);
+    double squares = 0.0;
+    for (const double d : draw(kind)) squares += d * d;
+    const double expected = SizeDistribution(read(tube_yaml, kind)).mean_square();
+    CHECK(std::abs(squares / many / expected - 1.0) < 0.01);  // the standard error is 0.3 %
+  }
+}
+
+TEST_CASE("more grains than can be counted are refused before they are made") {
+  const std::vector<std::string> told = {"grains of this size would be needed, more than 1e+09",
+                                         "choose larger grains"};
+  const auto check_refused = [&](const Overrides& overrides, const std::string& expected) {
+    const std::string message = complaint(tube_yaml, overrides);
+    check_mentions(message, told);
+    check_mentions(message, {expected});
+  };
+  check_refused({"grains.diameter=0.5 um"}, "grains.diameter: about 1.12e+09 grains");
+  check_refused({"grains.diameter=1 nm"}, "grains.diameter: about 2.8e+14 grains");
+  check_refused({"grains.diameter=1e-200"}, "grains.diameter: about ");
+  check_refused(FileOfSizes("diameter (mm)\n1e-6\n").overrides(),
+                "grains.sizes_from: about 2.8e+14 grains");
+}
+
+TEST_CASE("as many grains as fit into the memory of a large machine are not too many") {
+  const io::Settings settings = read(tube_yaml, {"grains.polydispersity=0"});
+  const double area = 0.25 * std::numbers::pi * mean * mean;
+  constexpr double count = 1e7;
+  const auto radii = scenarios::radii_of_area(settings, SizeDistribution(settings), count * area);
+  CHECK(std::abs(static_cast<double>(radii.size()) - count) <= 1.0);
 }
 
 TEST_CASE("masses go as the areas for grains of two sizes too") {
