@@ -7,7 +7,7 @@ MARKERS = {"slow": ("o", "C0"), "fast": ("^", "C3")}
 
 def cell_of(row):
     """The mean velocity if the wall carries the weight within two error bars and three per cent, else its share."""
-    velocity, error, share, share_error, gravity = (float(row[key]) for key in (
+    velocity, error, share, share_error, gravity = (float(row[key] or "nan") for key in (
         "mean_axial_velocity.value", "mean_axial_velocity.error", "balance.n_dot_dv_y", "balance.errors.n_dot_dv_y",
         "balance.gravity"))
     settled = row["state"] in ("steady", "too_short") and abs(share - gravity) < 2 * share_error + 0.03 * gravity
@@ -35,7 +35,8 @@ def draw_short(plt, rows):
         for row in (row for row in rows if float(row["contact.stiffness"]) == k_n):
             marker, color = MARKERS[row["branch"]]
             e_n, velocity = float(row["contact.restitution"]), float(row["mean_axial_velocity.value"])
-            axes.errorbar(e_n, velocity, float(row["mean_axial_velocity.error"]), color=color, marker=marker, capsize=2,
+            error = row["mean_axial_velocity.error"]
+            axes.errorbar(e_n, velocity, float(error) if error else None, color=color, marker=marker, capsize=2,
                           markerfacecolor=color if row["state"] == "steady" else "none")
             if row["state"] == "accelerating":
                 axes.annotate("", (e_n, 1.45 * velocity), (e_n, 1.1 * velocity),
