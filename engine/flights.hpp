@@ -17,8 +17,8 @@
 // Each slice of the candidates has a region, stepped by one thread. All regions do the same step;
 // what they tell each other is in border.hpp.
 //
-// See docs/performance.md for the figures and docs/architecture.md for how this compares with fixed
-// windows.
+// See docs/performance-log.md for the figures and docs/architecture.md for how this compares with
+// fixed windows.
 #pragma once
 
 #include "engine/candidates.hpp"

@@ -79,7 +79,7 @@ int team_size(int wanted) {
 /// What to try first. In units of what plain stepping takes for a grain without contacts, flights
 /// take some 2.5 more for a contact, and next to nothing for a grain; where there are so many
 /// grains that slices go askew, flights wait for memory and plain stepping does not:
-/// docs/performance.md.
+/// docs/performance-log.md.
 bool flights_look_faster(const State& state, int threads, const Askew& askew) {
   const auto contacts = static_cast<double>(state.contacts.size());
   const double price = askew.slices_per_thread(state, threads) > 1 ? 25.0 : 2.5;

@@ -23,8 +23,8 @@ namespace riesel::io {
 enum class Previous { discard, keep };
 
 /// Replaces `path` by a file with this content; on return it is on the disk. If anything fails, the
-/// old file is still there, NAME.tmp is not, and a FileError is thrown. Of two who write in the same
-/// directory at the same time the later one waits for the other.
+/// old file is still there, NAME.tmp is not, and a FileError is thrown. Of two who write in the
+/// same directory at the same time the later one waits for the other.
 void write_durably(const std::filesystem::path& path, std::string_view content,
                    Previous previous = Previous::discard);
 

@@ -104,8 +104,7 @@ Direction direction(double angle) {
 WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
                     const std::string& key_of_length) {
   const WallMotion motion = shaking(settings, box);
-  if (settings.text("wall.surface") == "smooth")
-    return WallLattice::smooth_at(line, motion);
+  if (settings.text("wall.surface") == "smooth") return WallLattice::smooth_at(line, motion);
   const double spacing = settings.number("wall.spacing");
   if (spacing > box.length)
     settings.reject("wall.spacing", "wider than the walls are long",
