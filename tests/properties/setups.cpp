@@ -102,6 +102,16 @@ void add_slopes(std::uint64_t seed, State& state) {
   }
 }
 
+/// Of 65 grains and a few more: whoever tells them apart by six bits takes the first ones for the
+/// last. Not closer than any grain of a set-up allows.
+void lengthen_walls(std::uint64_t seed, State& state) {
+  Dice dice(seed ^ 0x5ea3U);
+  constexpr double least_spacing = 0.1e-3;  // m
+  const std::int64_t count = 65 + dice.below(3);
+  if (dice.below(4) != 0 || state.box.length < least_spacing * static_cast<double>(count)) return;
+  for (WallLattice& wall : state.walls) wall.count = count;
+}
+
 ContactModel random_model(Dice& dice) {
   // One draw after the other: arguments of one call are evaluated in an order of the compiler's.
   const NormalLaw normal = random_normal_law(dice);
@@ -122,6 +132,7 @@ SetUp random_set_up(std::uint64_t seed) {
   State& state = set_up.start;
   state.gravity.y = dice.below(3) == 0 ? 0.0 : dice.between(-20.0, 20.0);
   if (dice.below(4) != 0) add_walls(state, 1 + dice.below(30));
+  lengthen_walls(seed, state);
   const double speed = power_of_ten(dice, -1.5, 1.2);
   constexpr double fastest_of_walls = 25.0;  // m/s, with what all grains have in common
   const double shortest =
