@@ -1,6 +1,5 @@
 #include "app/run_flow.hpp"
 
-#include "app/commands.hpp"
 #include "app/exit_status.hpp"
 #include "app/flow_failures.hpp"
 #include "app/flow_summary.hpp"
@@ -10,6 +9,7 @@
 #include "app/print_profile.hpp"
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
+#include "app/run_files.hpp"
 #include "app/schedule.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
@@ -22,11 +22,9 @@
 #include "engine/stopping_rule.hpp"
 #include "engine/tube_profiles.hpp"
 #include "io/durable_file.hpp"
-#include "io/file_error.hpp"
-#include "io/run_file.hpp"
+#include "io/provenance.hpp"
 #include "io/shell_words.hpp"
 #include "io/summary.hpp"
-#include "io/trajectory_file.hpp"
 #include "scenarios/run_limits.hpp"
 
 #include <fmt/core.h>
@@ -80,7 +78,6 @@ public:
           const Arguments& arguments, Past past, const FlowOptions& options)
       : settings_(std::move(settings)),
         past_(std::move(past)),
-        directory_(std::move(directory)),
         max_walltime_(options.max_walltime),
         verbosity_(options.verbosity),
         schedule_(settings_, state.time_step),
@@ -88,8 +85,8 @@ public:
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
         run_(past_.rows == 0 ? identity_of(settings_, simulation_.state()) : past_.run),
         limits_(scenarios::run_limits(settings_), past_.warnings),
-        file_(open(arguments)),
-        trajectory_(open_trajectory()),
+        files_(std::move(directory), origin(arguments), past_.rows, simulation_.state(),
+               schedule_.steps_per_frame),
         strips_(Strips::of(simulation_.state())),
         profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
         histograms_(past_.rows == 0 ? HistogramBlocks() : HistogramBlocks(past_.histograms)),
@@ -100,18 +97,19 @@ public:
 
   int run() {
     start_ = last_checkpoint_ = Clock::now();
-    if (past_.rows > 0) directory_.go_on(settings_);
+    if (past_.rows > 0) files_.directory().go_on(settings_);
     tell_beginning();
     try {
-      if (file_.rows() == 0) begin();
+      if (files_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
       if (past_.rows > 0 && (schedule_.is_row(first_step_) || schedule_.is_look(first_step_)))
         look();
       if (max_walltime_ && longest_save_ == 0.0) save();  // to know how long it takes
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
-      return fail(failure, fmt::format("; 'riesel resume {}' goes on from there with another limit",
-                                       io::in_quotes(directory_.file(post_mortem_name).string())));
+      return fail(failure,
+                  fmt::format("; 'riesel resume {}' goes on from there with another limit",
+                              io::in_quotes(files_.directory().file(post_mortem_name).string())));
     } catch (const RunFailure& failure) {
       return fail(failure, "");
     }
@@ -121,27 +119,13 @@ public:
   }
 
 private:
-  io::RunFile open(const Arguments& arguments) const {
-    const io::Provenance provenance =
-        io::collect_provenance({.arguments = arguments,
-                                .seed = settings_.integer("seed"),
-                                .threads = threads_,
-                                .source = past_.source,
-                                .settings = settings_.effective_yaml(),
-                                .run = run_});
-    const auto path = directory_.file(io::run_file_name);
-    if (past_.rows == 0) return io::RunFile::create(path, provenance, series_columns());
-    return as_input(
-        [&] { return io::RunFile::reopen(path, provenance, series_columns(), past_.rows); });
-  }
-
-  std::optional<io::TrajectoryFile> open_trajectory() const {
-    if (schedule_.steps_per_frame == 0) return {};
-    const auto open = past_.rows == 0 ? io::TrajectoryFile::create : io::TrajectoryFile::reopen;
-    return as_input([&] {
-      return open(directory_.file(io::trajectory_name), run_, simulation_.state(),
-                  schedule_.steps_per_frame, settings_.effective_yaml());
-    });
+  io::RunOrigin origin(const Arguments& arguments) const {
+    return {.arguments = arguments,
+            .seed = settings_.integer("seed"),
+            .threads = threads_,
+            .source = past_.source,
+            .settings = settings_.effective_yaml(),
+            .run = run_};
   }
 
   /// The first row, frame and checkpoint: from here on nothing is lost.
@@ -166,19 +150,19 @@ private:
   bool is_precise_enough() const {
     const State& state = simulation_.state();
     const bool asked = schedule_.relative_error && schedule_.is_row(state.step);
-    if (!asked || !is_time_to_look(static_cast<std::size_t>(file_.rows()))) return false;
+    if (!asked || !is_time_to_look(static_cast<std::size_t>(files_.rows()))) return false;
     const Judged judged = judged_by(state, interval());
-    return is_precise(file_.series(judged.series), *schedule_.relative_error,
+    return is_precise(files_.record().series(judged.series), *schedule_.relative_error,
                       judged.free_fall_gain);
   }
 
   /// For those who wait for it.
   void note_precision() {
-    if (!schedule_.relative_error || !is_time_to_look(static_cast<std::size_t>(file_.rows())))
+    if (!schedule_.relative_error || !is_time_to_look(static_cast<std::size_t>(files_.rows())))
       return;
     const Judged judged = judged_by(simulation_.state(), interval());
     const SteadyState so_far =
-        assess_steady_state(file_.series(judged.series), judged.free_fall_gain);
+        assess_steady_state(files_.record().series(judged.series), judged.free_fall_gain);
     precision_so_far_ =
         fmt::format("  error {:.2g} % of {:.2g} %", 100.0 * so_far.error / std::abs(so_far.mean),
                     100.0 * *schedule_.relative_error);
@@ -228,9 +212,8 @@ private:
   }
 
   void add_frame() {
-    if (!trajectory_) return;
     const auto start = Clock::now();
-    trajectory_->append(simulation_.state());
+    files_.add_frame(simulation_.state());
     times_.output += seconds_since(start);
   }
 
@@ -241,7 +224,7 @@ private:
         sum_over_strips(strips_, simulation_.state(), simulation_.model(), last_.mean_vy));
     histograms_.add(simulation_.state().tally);
     times_.measuring += seconds_since(start);
-    file_.append(series_row(last_, simulation_.state().tally));
+    files_.record().append(series_row(last_, simulation_.state().tally));
     note_precision();
     heed_limits();
   }
@@ -271,7 +254,7 @@ private:
             .source = past_.source,
             .run = run_,
             .warnings = limits_.warnings(),
-            .rows = file_.rows(),
+            .rows = files_.rows(),
             .wall_seconds = wall_seconds(),
             .profiles = profiles_,
             .histograms = histograms_.blocks()};
@@ -280,16 +263,13 @@ private:
   /// The series and the trajectory first: the checkpoint counts their rows and frames.
   void save() {
     const auto start = Clock::now();
-    directory_.require_in_place();
-    file_.write_final_state(simulation_.state());
-    file_.flush();
-    if (trajectory_) trajectory_->commit();
-    io::write_checkpoint(directory_.file(io::checkpoint_name), checkpoint());
+    files_.flush(simulation_.state());
+    io::write_checkpoint(files_.directory().file(io::checkpoint_name), checkpoint());
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
     longest_save_ = std::max(longest_save_, seconds_since(start));
     tell_more("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
-              file_.rows(), seconds_since(start));
+              files_.rows(), seconds_since(start));
   }
 
   /// For those who want to know more.
@@ -303,11 +283,11 @@ private:
   void tell_beginning() {
     const State& state = simulation_.state();
     if (past_.rows > 0 && verbosity_ != Verbosity::quiet)
-      tell("{}: goes on from t = {:.6g} s, step {} of {}\n", directory_.path().string(),
+      tell("{}: goes on from t = {:.6g} s, step {} of {}\n", files_.directory().path().string(),
            state.time(), state.step, schedule_.last_step);
     tell_more("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}",
-              directory_.path().string(), state.grains.size(), state.step, schedule_.last_step,
-              state.time_step, threads_, threads_ == 1 ? "" : "s");
+              files_.directory().path().string(), state.grains.size(), state.step,
+              schedule_.last_step, state.time_step, threads_, threads_ == 1 ? "" : "s");
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -325,21 +305,22 @@ private:
   }
 
   int tell_result() {
-    directory_.require_in_place();
-    io::FlowSummary s = summarise({file_, strips_, profiles_, interval(), limits_.warnings()},
-                                  simulation_.state(), simulation_.model(), last_);
+    files_.directory().require_in_place();
+    io::FlowSummary s =
+        summarise({files_.record(), strips_, profiles_, interval(), limits_.warnings()},
+                  simulation_.state(), simulation_.model(), last_);
     s.run = run_summary();
     s.ended_by = ended_by();
-    file_.write_validity(s.validity.verdict);
+    files_.record().write_validity(s.validity.verdict);
     const std::int64_t first = std::llround(s.transient_end / interval());  // sample after that
-    file_.write_profiles(strips_, tube_profiles(profiles_, strips_, each_strip(strips_), first),
-                         s.transient_end);
-    file_.write_histograms(
+    files_.record().write_profiles(
+        strips_, tube_profiles(profiles_, strips_, each_strip(strips_), first), s.transient_end);
+    files_.record().write_histograms(
         histogram_tables(simulation_.state().tally, histograms_.blocks(), first, interval()),
         s.transient_end);
-    file_.flush();
-    io::write_durably(directory_.file(io::summary_name), io::to_json(s));
-    if (verbosity_ != Verbosity::quiet) print_summary(s, directory_.path());
+    files_.record().flush();
+    io::write_durably(files_.directory().file(io::summary_name), io::to_json(s));
+    if (verbosity_ != Verbosity::quiet) print_summary(s, files_.directory().path());
     if (simulation_.profile().on())
       print_profile(simulation_.profile(), times_, simulation_.state().step - first_step_);
     return exit_done;
@@ -349,7 +330,7 @@ private:
     const bool by_signal = interrupting_signal() != 0;
     tell("{} at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
          by_signal ? "interrupted" : "out of time (--max-walltime)", simulation_.state().time(),
-         io::in_quotes(directory_.path().string()));
+         io::in_quotes(files_.directory().path().string()));
     return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
   }
 
@@ -357,11 +338,8 @@ private:
   int fail(const RunFailure& failure, const std::string& way_on) {
     progress_.finish();
     tell("riesel: the run failed: {}\n", failure.what());  // whatever the disk does
-    directory_.require_in_place();
-    file_.write_final_state(simulation_.state());
-    file_.flush();
-    if (trajectory_) trajectory_->commit();
-    const auto post_mortem = directory_.file(post_mortem_name);
+    files_.flush(simulation_.state());
+    const auto post_mortem = files_.directory().file(post_mortem_name);
     io::write_checkpoint(post_mortem, checkpoint());
     tell("the state of that moment is in {}{}\n", post_mortem.string(), way_on);
     return exit_failed;
@@ -369,7 +347,6 @@ private:
 
   const io::Settings settings_;
   const Past past_;
-  RunDirectory directory_;
   const std::optional<double> max_walltime_;  // s
   const Verbosity verbosity_;
   const Schedule schedule_;
@@ -377,8 +354,7 @@ private:
   Simulation simulation_;
   const std::uint64_t run_;  // see Checkpoint::run
   LimitWatch limits_;
-  io::RunFile file_;
-  std::optional<io::TrajectoryFile> trajectory_;
+  RunFiles files_;
   const Strips strips_;
   TimeBlocks profiles_;
   HistogramBlocks histograms_;

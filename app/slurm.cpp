@@ -54,7 +54,7 @@ std::string name_of(const fs::path& sweep) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
-constexpr auto script = R"(#!/bin/bash
+constexpr auto script_form = R"(#!/bin/bash
 # Written by {writer}. What is done is not done again: it may be submitted at any time.
 #SBATCH --job-name={name}
 #SBATCH --array={array}
@@ -109,7 +109,7 @@ std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   }
   for (const std::string& option : options.for_sbatch) more += "#SBATCH " + option + "\n";
   const fs::path directory = fs::absolute(sweep).lexically_normal();
-  return fmt::format(fmt::runtime(script), fmt::arg("writer", written_by()),
+  return fmt::format(fmt::runtime(script_form), fmt::arg("writer", written_by()),
                      fmt::arg("name", name_of(sweep)), fmt::arg("array", ranges_of(open)),
                      fmt::arg("threads", options.threads),
                      fmt::arg("log", io::in_quotes((directory / "slurm" / "%a.txt").string())),

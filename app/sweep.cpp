@@ -1,24 +1,19 @@
-// riesel sweep: many runs from one file. sweep-task: one of them, for a batch system that has its
-// own queue.
+// riesel sweep: many runs from one file.
 #include "app/commands.hpp"
-#include "app/cost.hpp"
 #include "app/exit_status.hpp"
 #include "app/print_sweep.hpp"
 #include "app/sweep_collect.hpp"
 #include "app/sweep_directory.hpp"
-#include "app/sweep_parts.hpp"
 #include "app/sweep_plan.hpp"
 #include "app/sweep_runner.hpp"
 #include "app/terminal.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
-#include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/shell_words.hpp"
 
 #include <fmt/core.h>
-#include <omp.h>
 
 #include <fstream>
 #include <iterator>
@@ -52,20 +47,6 @@ io::DirectoryLock lock(const fs::path& sweep) {
     throw UnusableInput(sweep.string() + ": holds a run; choose another directory with --out");
   io::make_directories(sweep);
   return io::DirectoryLock(sweep);
-}
-
-int cores() { return omp_get_max_threads(); }
-
-io::Manifest manifest_in(const fs::path& sweep) {
-  return as_input([&] { return io::read_manifest(sweep); });
-}
-
-void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path& sweep) {
-  if (point.parent.empty()) return;
-  if (standing_of(point_directory(sweep, point.parent)).status == RunStatus::done) return;
-  throw UnusableInput(fmt::format("{}: the point starts from its neighbour {}, which is not done; "
-                                  "run that one first",
-                                  point.name, point.parent));
 }
 
 /// An array of Slurm's default size, where nobody can be asked.
@@ -120,19 +101,6 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   return exit_done;
 }
 
-/// Which points a task is for.
-std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Manifest& manifest) {
-  const std::size_t count = options.parts.value_or(manifest.points.size());
-  if (options.index >= count)
-    throw UnusableInput(fmt::format("{}: has no {} {}; give an index from 0 to {}",
-                                    options.directory.string(), options.parts ? "part" : "point",
-                                    options.index, count - 1));
-  if (options.parts) return parts_of(manifest, count)[options.index];
-  const io::ManifestPoint& point = manifest.points[options.index];
-  reject_waiting_for_neighbour(point, options.directory);
-  return {point.name};
-}
-
 }  // namespace
 
 int sweep(const SweepOptions& options) {
@@ -173,38 +141,6 @@ int sweep(const SweepOptions& options) {
   print_status(plan.manifest, directory);
   if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
   return status;
-}
-
-int sweep_task(const SweepTaskOptions& options) {
-  io::Manifest manifest = manifest_in(options.directory);
-  const std::vector<std::string> names = names_for(options, manifest);
-  if (names.empty()) return exit_done;  // more parts than there are points
-  const int status = run_points(manifest, options.directory, names,
-                                {.jobs = 1,
-                                 .cores = options.threads.value_or(cores()),
-                                 .retry_failed = options.retry_failed,
-                                 .max_walltime = options.max_walltime});
-  for (const std::string& name : names) {
-    const RunStanding standing = standing_of(point_directory(options.directory, name));
-    fmt::print("point {}: {}{}{}\n", name, to_string(standing.status),
-               standing.reason.empty() ? "" : ": ", standing.reason);
-  }
-  return status;
-}
-
-int sweep_status(const fs::path& directory) {
-  io::Manifest manifest = manifest_in(directory);
-  refresh(manifest, directory);
-  print_status(manifest, directory);
-  return exit_done;
-}
-
-int sweep_collect(const fs::path& directory) {
-  io::Manifest manifest = manifest_in(directory);
-  refresh(manifest, directory);
-  write_table(manifest, directory);
-  print_status(manifest, directory);
-  return exit_done;
 }
 
 }  // namespace riesel::app

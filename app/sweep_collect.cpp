@@ -1,5 +1,9 @@
+// riesel collect: the table of a sweep, from what its runs have come to so far.
 #include "app/sweep_collect.hpp"
 
+#include "app/commands.hpp"
+#include "app/exit_status.hpp"
+#include "app/print_sweep.hpp"
 #include "app/sweep_directory.hpp"
 #include "io/durable_file.hpp"
 #include "io/settings_text.hpp"
@@ -59,6 +63,14 @@ void write_table(const io::Manifest& manifest, const fs::path& sweep) {
   }
   io::write_durably(sweep / io::sweep_csv_name, io::to_csv(table));
   io::write_hdf5(sweep / io::sweep_h5_name, table, io::read_settings_text(sweep / sweep_file_name));
+}
+
+int sweep_collect(const fs::path& directory) {
+  io::Manifest manifest = manifest_in(directory);
+  refresh(manifest, directory);
+  write_table(manifest, directory);
+  print_status(manifest, directory);
+  return exit_done;
 }
 
 }  // namespace riesel::app

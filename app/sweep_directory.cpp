@@ -1,5 +1,6 @@
 #include "app/sweep_directory.hpp"
 
+#include "app/commands.hpp"
 #include "app/run_directory.hpp"
 #include "io/checkpoint.hpp"
 #include "io/directory_lock.hpp"
@@ -53,6 +54,10 @@ std::string to_string(RunStatus status) {
 
 fs::path point_directory(const fs::path& sweep, const std::string& name) {
   return sweep / "points" / name;
+}
+
+io::Manifest manifest_in(const fs::path& sweep) {
+  return as_input([&] { return io::read_manifest(sweep); });
 }
 
 RunStanding standing_of(const fs::path& point) {

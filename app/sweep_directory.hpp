@@ -33,6 +33,9 @@ inline constexpr auto sweep_file_name = "sweep.yaml";
 /// The settings file of a point, within its directory.
 inline constexpr auto point_settings_name = "point.yaml";
 
+/// What was planned for the directory. Throws UnusableInput if there is no sweep in it.
+io::Manifest manifest_in(const std::filesystem::path& sweep);
+
 RunStanding standing_of(const std::filesystem::path& point);
 
 /// Brings the snapshot in the manifest up to date from the directories.

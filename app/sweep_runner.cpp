@@ -11,6 +11,7 @@
 #include "io/run_record.hpp"
 
 #include <fmt/core.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -291,6 +292,8 @@ private:
 };
 
 }  // namespace
+
+int cores() { return omp_get_max_threads(); }
 
 int run_points(io::Manifest& manifest, const fs::path& sweep, const std::vector<std::string>& names,
                const SweepRunOptions& options) {

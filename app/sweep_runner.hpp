@@ -17,6 +17,9 @@
 
 namespace riesel::app {
 
+/// Those of the machine, or as many as OMP_NUM_THREADS allows.
+int cores();
+
 struct SweepRunOptions {
   int jobs = 1;                             ///< processes at the same time
   int cores = 1;                            ///< shared by them

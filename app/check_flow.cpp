@@ -1,0 +1,155 @@
+#include "app/check_flow.hpp"
+
+#include "app/check_parts.hpp"
+#include "app/cost.hpp"
+#include "app/schedule.hpp"
+#include "app/stepping.hpp"
+#include "engine/closed_forms.hpp"
+#include "engine/observables.hpp"
+#include "io/trajectory_file.hpp"
+#include "scenarios/run_length.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace riesel::app {
+
+namespace {
+
+void print_critical_velocity(double chord_length, double t_col, double fastest) {
+  const double v_crit = chord_length / t_col;
+  line("v_crit",
+       "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col) with the random velocity of the "
+       "start; lower in a cooler flow",
+       v_crit, chord_length);
+  if (fastest > v_crit)
+    warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the "
+         "contact "
+         "can push them away (brake failure)",
+         fastest);
+}
+
+void warn_of_open_walls(const State& state) {
+  const WallLattice& wall = state.walls.front();
+  const double gap = wall.spacing(state.box) - 2.0 * wall.radius;
+  const double smallest =
+      2.0 * *std::min_element(state.grains.radius.begin(), state.grains.radius.end());
+  if (smallest < gap)
+    warn("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may leave the tube; "
+         "choose wall.spacing below {:.3g} m",
+         smallest, gap, smallest + 2.0 * wall.radius);
+}
+
+void print_trajectory(const io::Settings& settings, const State& state, double steps) {
+  const std::int64_t steps_per_frame = Schedule(settings, state.time_step).steps_per_frame;
+  if (steps_per_frame == 0) return;
+  const double frames = std::floor(steps / static_cast<double>(steps_per_frame)) + 1.0;
+  line("trajectory", "{:.0f} frames, {:.1f} MB", frames,
+       frames * static_cast<double>(io::bytes_per_frame(state)) / 1e6);
+}
+
+/// One restitution is that of one mass.
+void print_contacts_of_sizes(const NormalLaw& normal, const Grains& grains, double speed) {
+  const auto [lightest, heaviest] = std::ranges::minmax(grains.mass);
+  constexpr double alike = 1.5;
+  if (heaviest < alike * lightest) return;
+  print_contact("two lightest grains", normal, 0.5 * lightest, speed);
+  print_contact("two heaviest grains", normal, 0.5 * heaviest, speed);
+}
+
+/// Seen by what lies on it, in units of gravity where there is some.
+void print_shaking(const State& state) {
+  const WallMotion& motion = state.walls.front().motion;
+  if (!motion.oscillates()) return;
+  const double omega = 2.0 * std::numbers::pi * motion.frequency;
+  const double speed = motion.fastest_oscillation();
+  const double gravity = std::hypot(state.gravity.x, state.gravity.y);
+  line("walls shake", "up to {:.3g} m/s and {:.3g} m/s^2{}, {:.0f} steps per period", speed,
+       omega * speed, gravity > 0.0 ? fmt::format(" ({:.3g} g)", omega * speed / gravity) : "",
+       1.0 / (motion.frequency * state.time_step));
+}
+
+void print_bodies(const State& state) {
+  double area = 0.0;
+  for (const double radius : state.grains.radius) area += std::numbers::pi * radius * radius;
+  line("grains", "{}, area fraction {:.4f}", state.grains.size(),
+       area / (state.box.width * state.box.length));
+  const WallLattice& wall = state.walls.front();
+  print_shaking(state);
+  if (wall.smooth()) {
+    line("walls", "smooth");
+    return;
+  }
+  line("wall grains", "{} per wall, spacing {:.6g} m", wall.count, wall.spacing(state.box));
+  warn_of_open_walls(state);
+}
+
+/// `random`: m/s, root mean square of the random velocities at the start, per component.
+void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
+  const State& state = flow.state;
+  const NormalLaw& normal = flow.model.normal;
+  const double mass = settings.number("grains.mass");
+  const double radius = 0.5 * settings.number("grains.diameter");
+  // Grains of a normal distribution are rarely faster than four standard deviations; the common
+  // fall brings no two together.
+  const double fastest = std::max(4.0 * random, 1e-3);
+  const double both_fastest = std::numbers::sqrt2 * fastest;
+  const double smaller = state.walls.front().smaller_radius(radius);
+  const HeadOnContact grains{
+      .reduced_mass = 0.5 * mass, .speed = both_fastest, .smaller_radius = radius};
+  const double fastest_at_wall = fastest + state.walls.front().motion.fastest_oscillation();
+  const HeadOnContact wall{
+      .reduced_mass = mass, .speed = fastest_at_wall, .smaller_radius = smaller};
+  print_contact("grain and grain", normal, grains.reduced_mass, grains.speed);
+  print_contact("grain and wall", normal, wall.reduced_mass, wall.speed);
+  print_contacts_of_sizes(normal, state.grains, both_fastest);
+  line("time step", "{:.4g} s", state.time_step);
+  warn_of_time_step(settings);
+  print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
+  const double of_grains = expected_overlap_ratio(normal, grains);
+  const double at_wall = expected_overlap_ratio(normal, wall);
+  warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
+}
+
+void print_brake(const io::Settings& settings, const scenarios::Flow& flow, double random,
+                 double mean_vy) {
+  const WallLattice& wall = flow.state.walls.front();
+  if (wall.smooth()) return;
+  const double t_col =
+      collision_time(flow.model.normal, settings.number("grains.mass"), std::max(random, 1e-3));
+  const double reach = 0.5 * settings.number("grains.diameter") + wall.radius;
+  print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
+}
+
+void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
+  constexpr double seconds_to_measure = 0.3;
+  const auto n = static_cast<double>(flow.state.grains.size());
+  const double steps = steps_of(settings, flow);
+  const int threads = threads_for(settings, flow.state.grains.size());
+  const double speed = measured_speed(settings, flow, threads, seconds_to_measure);
+  const auto precision = scenarios::run_length(settings).relative_error;
+  if (precision) line("ends", "when the mean is known to {:.3g} %", 100.0 * *precision);
+  line("steps", "{}{:.0f}", precision ? "at most " : "", steps);
+  line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
+       precision ? "at most " : "", readable_time(n * steps / speed), threads,
+       threads == 1 ? "" : "s", speed / 1e6);
+  print_memory();
+  print_trajectory(settings, flow.state, steps);
+}
+
+}  // namespace
+
+void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
+  const Observables start = observe(flow.state);
+  const double random = std::sqrt(start.granular_temperature);
+  print_bodies(flow.state);
+  print_contacts(settings, flow, random);
+  print_brake(settings, flow, random, start.mean_vy);
+  print_cost(settings, flow);
+}
+
+}  // namespace riesel::app

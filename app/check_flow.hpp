@@ -1,0 +1,11 @@
+// What `riesel check` tells of a flow: grains and walls, contacts, brake failure, cost.
+#pragma once
+
+#include "io/settings.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace riesel::app {
+
+void check_flow(const io::Settings& settings, const scenarios::Flow& flow);
+
+}  // namespace riesel::app

@@ -1,0 +1,44 @@
+#include "app/check_impacts.hpp"
+
+#include "app/check_parts.hpp"
+#include "app/cost.hpp"
+#include "engine/closed_forms.hpp"
+
+#include <algorithm>
+
+namespace riesel::app {
+
+void check_impacts(const io::Settings& settings, const scenarios::ImpactCurve& curve) {
+  const ImpactSetup& setup = curve.setup;
+  double fastest_normal = 0.0, fastest = 0.0, slowest = 1e300, longest_step = 0.0,
+         shortest_step = 1e300;
+  for (const Impact& impact : curve.impacts) {
+    fastest_normal = std::max(fastest_normal, impact.v_x);
+    fastest = std::max(fastest, impact.v_y);
+    slowest = std::min(slowest, impact.v_y);
+    longest_step = std::max(longest_step, impact.time_step);
+    shortest_step = std::min(shortest_step, impact.time_step);
+  }
+  line("impacts", "{} in {} points, v_y = {:.3g} ... {:.3g} m/s", curve.impacts.size(),
+       curve.points.size(), slowest, fastest);
+  const double speed = std::max(fastest_normal, slowest);
+  print_contact("grain and wall", setup.model.normal, setup.grain_mass, speed);
+  line("time step", "{:.4g} s, down to {:.3g} s where passages are short", longest_step,
+       shortest_step);
+  warn_of_time_step(settings);
+  print_slip(settings, setup.model.slip, setup.grain_mass, longest_step);
+  const double smaller = std::min(setup.grain_radius, setup.reach() - setup.grain_radius);
+  if (fastest_normal > 0.0)
+    warn_of_overlap(
+        expected_overlap_ratio(setup.model.normal, {setup.grain_mass, fastest_normal, smaller}),
+        fastest_normal);
+  const double path = setup.single_wall_grain()
+                          ? chord(setup.reach(), curve.impacts.front().x)
+                          : chord_of_impact(setup.reach(), fastest_normal, setup.collision_time);
+  line("v_crit", "{:.3g} m/s: above it a grain passes a wall grain sooner than t_col",
+       path / setup.collision_time);
+  const int threads = threads_for_curve(settings);
+  print_cost_of_curve(measured_cost(curve, threads, 50), threads);
+}
+
+}  // namespace riesel::app

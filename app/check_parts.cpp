@@ -1,0 +1,78 @@
+#include "app/check_parts.hpp"
+
+#include "engine/closed_forms.hpp"
+#include "engine/validity.hpp"
+#include "scenarios/contact_settings.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <variant>
+
+namespace riesel::app {
+
+void print_contact(const char* what, const NormalLaw& normal, double reduced_mass, double speed) {
+  const double t_col = collision_time(normal, reduced_mass, speed);
+  if (const auto* linear = std::get_if<LinearLaw>(&normal)) {
+    const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass};
+    line(what, "t_col = {:.4g} s, e_N = {:.4f}", t_col, contact.restitution());
+  } else {
+    line(what, "t_col = {:.4g} s at {:.3g} m/s", t_col, speed);
+  }
+}
+
+double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact) {
+  return std::visit(
+      [&](const auto& law) {
+        return elastic_max_overlap(law.elastic_line(), contact.reduced_mass, contact.speed)
+               / contact.smaller_radius;
+      },
+      normal);
+}
+
+void warn_of_overlap(double ratio, double speed) {
+  line("expected overlap",
+       "up to {:.2g} of the radius of the smaller body, in an impact of {:.3g} m/s", ratio, speed);
+  if (ratio > suspect_overlap_ratio)
+    warn("overlaps over {:.3g} of the radius make the run suspect; raise contact.stiffness by a "
+         "factor {:.2g}",
+         suspect_overlap_ratio, std::pow(ratio / suspect_overlap_ratio, 2.0));
+}
+
+void print_slip(const io::Settings& settings, const SlipLaw& slip, double reduced_mass,
+                double time_step) {
+  const double inertia = scenarios::inertia(settings);
+  if (const double time = spring_time(slip, inertia, reduced_mass); std::isfinite(time))
+    line("tangential spring", "half a period = {:.4g} s", time);
+  constexpr auto damping = "contact.slip_damping";
+  const double gamma_t = settings.has(damping) ? settings.number(damping) : 0.0;
+  const double stable = 2.0 / slip_gain_by_turning(inertia);
+  if (gamma_t * time_step >= stable)
+    warn("{} is too strong for the time step: friction would change its sign from step to step; "
+         "raise run.steps_per_collision above {:.3g}",
+         damping, settings.number("run.steps_per_collision") * gamma_t * time_step / stable);
+}
+
+void warn_of_time_step(const io::Settings& settings) {
+  const double steps = settings.number("run.steps_per_collision");
+  if (steps < 20.0)
+    warn(
+        "{:.3g} steps per collision are few: errors grow with the square of the step; 50 keep them "
+        "at 1e-4",
+        steps);
+}
+
+void print_cost_of_curve(const CurveCost& cost, int threads) {
+  line("steps", "about {:.2g}", cost.steps);
+  line("expected time", "{} on {} thread{}", readable_time(cost.seconds), threads,
+       threads == 1 ? "" : "s");
+  print_memory();
+}
+
+void print_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  line("memory", "about {:.0f} MB", static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6);
+}
+
+}  // namespace riesel::app

@@ -1,0 +1,61 @@
+// riesel sweep-task: one point of a sweep, or a part of its points, for a batch system that has its
+// own queue.
+#include "app/commands.hpp"
+#include "app/exit_status.hpp"
+#include "app/sweep_directory.hpp"
+#include "app/sweep_parts.hpp"
+#include "app/sweep_runner.hpp"
+
+#include <fmt/core.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace riesel::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path& sweep) {
+  if (point.parent.empty()) return;
+  if (standing_of(point_directory(sweep, point.parent)).status == RunStatus::done) return;
+  throw UnusableInput(fmt::format("{}: the point starts from its neighbour {}, which is not done; "
+                                  "run that one first",
+                                  point.name, point.parent));
+}
+
+/// Which points a task is for.
+std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Manifest& manifest) {
+  const std::size_t count = options.parts.value_or(manifest.points.size());
+  if (options.index >= count)
+    throw UnusableInput(fmt::format("{}: has no {} {}; give an index from 0 to {}",
+                                    options.directory.string(), options.parts ? "part" : "point",
+                                    options.index, count - 1));
+  if (options.parts) return parts_of(manifest, count)[options.index];
+  const io::ManifestPoint& point = manifest.points[options.index];
+  reject_waiting_for_neighbour(point, options.directory);
+  return {point.name};
+}
+
+}  // namespace
+
+int sweep_task(const SweepTaskOptions& options) {
+  io::Manifest manifest = manifest_in(options.directory);
+  const std::vector<std::string> names = names_for(options, manifest);
+  if (names.empty()) return exit_done;  // more parts than there are points
+  const int status = run_points(manifest, options.directory, names,
+                                {.jobs = 1,
+                                 .cores = options.threads.value_or(cores()),
+                                 .retry_failed = options.retry_failed,
+                                 .max_walltime = options.max_walltime});
+  for (const std::string& name : names) {
+    const RunStanding standing = standing_of(point_directory(options.directory, name));
+    fmt::print("point {}: {}{}{}\n", name, to_string(standing.status),
+               standing.reason.empty() ? "" : ": ", standing.reason);
+  }
+  return status;
+}
+
+}  // namespace riesel::app
