@@ -66,7 +66,7 @@ RunDirectory RunDirectory::reopen(const fs::path& path) {
   if (!fs::exists(path / io::run_file_name))
     throw UnusableInput((path / io::run_file_name).string()
                         + ": is missing; restore the file, or start the run again elsewhere");
-  return RunDirectory(path, io::Signature::later);
+  return {path, io::Signature::later};
 }
 
 void RunDirectory::go_on(const io::Settings& settings) const {

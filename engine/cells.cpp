@@ -7,17 +7,6 @@
 
 namespace riesel {
 
-namespace {
-
-/// floor(count * y / period) for a y of the ring: exact.
-std::size_t part_of_ring(Fixed y, std::size_t count) {
-  __extension__ using Wide = unsigned __int128;
-  return static_cast<std::size_t>(
-      (static_cast<Wide>(static_cast<std::uint64_t>(y)) * static_cast<Wide>(count)) >> 64);
-}
-
-}  // namespace
-
 void Cells::sort(State& state, double range) {
   Grains& grains = state.grains;
 #pragma omp single
@@ -55,8 +44,9 @@ double Cells::quanta_from_left(Fixed x) const {
 std::uint32_t Cells::cell_at(const Grains& grains, std::size_t slot) const {
   const auto column =
       static_cast<std::size_t>(quanta_from_left(grains.x[slot]) * columns_per_quantum_);
-  return static_cast<std::uint32_t>(part_of_ring(grains.y[slot], rows_) * columns_
-                                    + std::min(column, columns_ - 1));
+  const auto row =
+      static_cast<std::size_t>(part_of_ring(grains.y[slot], static_cast<std::int64_t>(rows_)));
+  return static_cast<std::uint32_t>(row * columns_ + std::min(column, columns_ - 1));
 }
 
 /// Counting sort.
@@ -89,12 +79,7 @@ void Cells::permute(AlignedVector<T>& values) {
 }
 
 void Cells::permute(Grains& g) {
-  for (auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) permute(*component);
-  if (g.rotate())
-    for (auto* component : {&g.spin, &g.spin_kick}) permute(*component);
-  permute(g.radius);
-  permute(g.mass);
-  permute(g.id);
+  for_each_array_of(g, [&](auto& array) { permute(array); });
 }
 
 }  // namespace riesel

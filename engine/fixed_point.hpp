@@ -46,6 +46,14 @@ constexpr Fixed from_upper(std::int32_t upper) {
   return static_cast<Fixed>(static_cast<std::uint64_t>(upper) << 32);
 }
 
+/// floor(parts y / period), 0 <= result < parts, for a y of the ring that is shared out equally:
+/// exact.
+constexpr std::int64_t part_of_ring(Fixed y, std::int64_t parts) {
+  __extension__ using Wide = unsigned __int128;
+  return static_cast<std::int64_t>(
+      (static_cast<Wide>(static_cast<std::uint64_t>(y)) * static_cast<Wide>(parts)) >> 64);
+}
+
 /// The nearest double, as by static_cast, in operations that vectorise everywhere: the halves of
 /// the number are put where the exponents 2^84 and 2^52 make them worth 2^32 and 1.
 [[gnu::always_inline]] inline double real(Fixed a) {

@@ -68,8 +68,8 @@ struct LargestOverlap {
 };
 LargestOverlap largest_overlap(const State& state);
 
-/// J, what the run began with and the work of gravity and of walls, which may be negative, by size.
-/// `energies` are those of `state`.
+/// J, what the run began with and the sizes of the work of gravity and of that of walls, which may
+/// be negative. `energies` are those of `state`.
 double energy_turned_over(const State& state, const Energies& energies);
 
 /// How much of the energy of `state` is an error of the time step: the size of the residual, and

@@ -65,7 +65,7 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
 RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
                                            const CoarsePositions& positions, CoarseUnits units,
                                            float skin, std::uint32_t* near) {
-  constexpr float generous_square = 1.0F + 2e-6F;  // of what is rounded here
+  constexpr float rounded = 1.0F + 2e-6F;  // what is rounded here, and more
   std::size_t found = 0;
   alignas(cache_line) std::array<std::uint8_t, block> result{};
   for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
@@ -74,7 +74,7 @@ RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
 #pragma omp simd
     for (std::size_t p = 0; p < count; ++p) {
       const float far = std::sqrt(std::abs(some.reach2[p])) + skin;
-      const float far2 = some.reach2[p] > 0.0F ? far * far * generous_square : 0.0F;
+      const float far2 = some.reach2[p] > 0.0F ? far * far * rounded : 0.0F;
       result[p] = squared_distance(some, p) < far2;
     }
     // Every pair is written, and the next one over it unless it is near: no branch to guess.

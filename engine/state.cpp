@@ -89,13 +89,7 @@ void add(Hash& hash, const VisitTally& t) {
 }  // namespace
 
 void Grains::resize(std::size_t n) {
-  for (auto* component : {&x, &y, &ux, &uy, &kick_x, &kick_y}) component->resize(n);
-  radius.resize(n);
-  mass.resize(n);
-  id.resize(n);
-  if (!rotate()) return;
-  spin.resize(n);
-  spin_kick.resize(n);
+  for_each_array_of(*this, [&](auto& array) { array.resize(n); });
 }
 
 Fall fall_per_step(const State& state) {
@@ -150,24 +144,12 @@ double total_mass(const Grains& grains) {
 }
 
 Grains ordered_by_id(const Grains& grains) {
-  Grains ordered;
-  ordered.inertia = grains.inertia;
-  ordered.resize(grains.size());
-  for (std::size_t slot = 0; slot < grains.size(); ++slot) {
-    const auto i = static_cast<std::size_t>(grains.id[slot]);
-    ordered.x[i] = grains.x[slot];
-    ordered.y[i] = grains.y[slot];
-    ordered.ux[i] = grains.ux[slot];
-    ordered.uy[i] = grains.uy[slot];
-    ordered.kick_x[i] = grains.kick_x[slot];
-    ordered.kick_y[i] = grains.kick_y[slot];
-    ordered.radius[i] = grains.radius[slot];
-    ordered.mass[i] = grains.mass[slot];
-    ordered.id[i] = grains.id[slot];
-    if (!grains.rotate()) continue;
-    ordered.spin[i] = grains.spin[slot];
-    ordered.spin_kick[i] = grains.spin_kick[slot];
-  }
+  Grains ordered = grains;
+  const std::vector<std::size_t> slots = slots_by_id(grains);
+  for_each_array_of(ordered, [&](auto& array) {
+    const auto by_slot = array;
+    for (std::size_t id = 0; id < slots.size(); ++id) array[id] = by_slot[slots[id]];
+  });
   return ordered;
 }
 

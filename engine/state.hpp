@@ -50,6 +50,17 @@ struct Grains {
   void resize(std::size_t n);
 };
 
+/// Calls visit(array) for each array of the grains (const or not) that they have.
+template <class AnyGrains, class Visit>
+void for_each_array_of(AnyGrains& g, Visit visit) {
+  for (auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) visit(*array);
+  visit(g.radius);
+  visit(g.mass);
+  visit(g.id);
+  if (!g.rotate()) return;
+  for (auto* array : {&g.spin, &g.spin_kick}) visit(*array);
+}
+
 /// The system at step 0, for the balances of energy and momentum.
 struct Origin {
   double energy = 0.0;      ///< J, kinetic, and elastic where contacts last from before

@@ -89,7 +89,8 @@ Estimate variance_of_w(const ZoneBlocks& b) {
                                {StripSum::grains, (mean * mean - variance) / grains}});
 }
 
-/// Sum of m w^2 without that of the mean motion, (sum of m w)^2 / (sum of m), and `more` of it.
+/// Sum of m w^2 without that of the mean motion, (sum of m w)^2 / (sum of m); with that of contacts
+/// if it is asked for.
 Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
   const double mass = b.mean(StripSum::mass);
   const double mean = mass > 0.0 ? b.mean(StripSum::mass_w) / mass : 0.0;

@@ -120,9 +120,7 @@ void for_each_wall_grain_within(const WallLattice& wall, const Box& box, Fixed y
     visit(std::int64_t{0}, y);
     return;
   }
-  __extension__ using Wide = unsigned __int128;
-  const auto below = static_cast<std::int64_t>(
-      (static_cast<Wide>(static_cast<std::uint64_t>(y)) * static_cast<Wide>(wall.count)) >> 64);
+  const std::int64_t below = part_of_ring(y, wall.count);
   const auto more = static_cast<std::int64_t>(reach / wall.spacing(box));
   const std::int64_t n = wall.count;
   const std::int64_t low = below - more, high = below + 1 + more;

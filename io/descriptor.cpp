@@ -80,7 +80,7 @@ void Descriptor::sync() {
   check(uninterrupted([&] { return fsync(descriptor_); }));
 }
 
-void Descriptor::lock() {
+void Descriptor::lock() const {
   constexpr auto patience = std::chrono::seconds(10);
   constexpr auto pause = std::chrono::milliseconds(1);
   const auto last = std::chrono::steady_clock::now() + patience;

@@ -37,7 +37,7 @@ public:
   /// Waits until nobody else has locked the file in this way (flock), and locks it until it is
   /// closed; goes on without a lock where the file system has none, and after ten seconds, as the
   /// other process may be halted.
-  void lock();
+  void lock() const;
 
   /// Network file systems report here what could not be written.
   void close();
