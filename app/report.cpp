@@ -152,9 +152,8 @@ void report_on_run(const fs::path& directory) {
 }  // namespace
 
 int report(const fs::path& directory) {
-  if (fs::exists(directory / io::manifest_name))
-    write(as_input([&] { return report_of_sweep(directory); }),
-          directory);  // while it goes on, too
+  if (fs::exists(directory / io::manifest_name))  // while it goes on, too
+    write(as_input([&] { return report_of_sweep(directory); }), directory);
   else
     report_on_run(directory);
   fmt::print("{}\n", (directory / page_name).string());

@@ -20,11 +20,12 @@ io::RunFile open_record(const RunDirectory& directory, const io::RunOrigin& orig
 io::TrajectoryFile open_trajectory(const RunDirectory& directory, const io::RunOrigin& origin,
                                    std::int64_t rows, const State& state,
                                    std::int64_t steps_per_frame) {
-  const auto open = rows == 0 ? io::TrajectoryFile::create : io::TrajectoryFile::reopen;
-  return as_input([&] {
+  const auto by = [&](auto open) {
     return open(directory.file(io::trajectory_name), origin.run.value(), state, steps_per_frame,
                 origin.settings);
-  });
+  };
+  if (rows == 0) return by(io::TrajectoryFile::create);
+  return as_input([&] { return by(io::TrajectoryFile::reopen); });
 }
 
 }  // namespace

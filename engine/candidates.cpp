@@ -104,9 +104,8 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
   skin_ = std::max(least_skin * diameter, std::min(skin_per_diameter * diameter, longest_skin));
   steps_to_walls_ = steps_of_fall(std::abs(state.box.metres_x(fall_.x)), 0.5 * skin_);
   for (const WallLattice& wall : state.walls)
-    if (2.0 * (max_radius_ + wall.radius)
-            > static_cast<double>(WallLattice::most_told_apart - 1) * wall.spacing(state.box)
-        && !wall.smooth())
+    if (!wall.smooth()
+        && wall.spacing(state.box) < WallLattice::least_spacing(max_radius_ + wall.radius))
       throw std::invalid_argument("the grains of a wall are too close together");
 
   as_a_team(threads, [&](std::size_t member) {

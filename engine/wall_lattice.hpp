@@ -93,6 +93,11 @@ struct WallLattice {
 
   /// Grains of a wall that are no more places apart, also across the seam, have bits of their own.
   static constexpr std::int64_t most_told_apart = 31;
+  /// m, so far apart they must stand then, if no more are to touch bodies with this reach (m), the
+  /// sum of the radii.
+  static double least_spacing(double reach) {
+    return 2.0 * reach / static_cast<double>(most_told_apart - 1);
+  }
   /// One of 64 bits for grain k, 0 <= k < count.
   std::uint64_t bit_of(std::int64_t k) const {
     // A multiple of 64 places goes round, so that the bits follow each other across the seam. The

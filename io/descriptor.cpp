@@ -1,10 +1,10 @@
 #include "io/descriptor.hpp"
 
 #include "io/file_error.hpp"
+#include "io/patient_lock.hpp"
 #include "io/uninterrupted.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,7 +12,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstddef>
-#include <thread>
 #include <utility>
 
 namespace riesel::io {
@@ -81,12 +80,7 @@ void Descriptor::sync() {
 }
 
 void Descriptor::lock() const {
-  constexpr auto patience = std::chrono::seconds(10);
-  constexpr auto pause = std::chrono::milliseconds(1);
-  const auto last = std::chrono::steady_clock::now() + patience;
-  while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK
-         && std::chrono::steady_clock::now() < last)
-    std::this_thread::sleep_for(pause);
+  static_cast<void>(lock_patiently(descriptor_, std::chrono::seconds(10)));
 }
 
 void Descriptor::close() { check(::close(std::exchange(descriptor_, -1))); }

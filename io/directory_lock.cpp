@@ -1,6 +1,7 @@
 #include "io/directory_lock.hpp"
 
 #include "io/file_error.hpp"
+#include "io/patient_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -14,7 +15,6 @@
 #include <chrono>
 #include <optional>
 #include <string>
-#include <thread>
 
 namespace riesel::io {
 namespace {
@@ -37,16 +37,8 @@ std::string description_of_holder(int descriptor) {
   return {text.data(), static_cast<std::size_t>(size)};
 }
 
-/// Asks a few times: whoever only looks whether the lock is held (see is_held) has it for a moment.
-bool lock_patiently(int descriptor) {
-  constexpr int attempts = 5;
-  constexpr auto pause = std::chrono::milliseconds(10);
-  for (int attempt = 1;; ++attempt) {
-    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
-    if (errno != EWOULDBLOCK || attempt == attempts) return false;
-    std::this_thread::sleep_for(pause);
-  }
-}
+/// Whoever only looks whether the lock is held (see is_held) has it for a moment.
+constexpr auto patience = std::chrono::milliseconds(40);
 
 /// Of a path by `stat`, of an open file, whatever has its name by now, by `fstat`. Of no file:
 /// nothing, and errno tells why.
@@ -64,7 +56,7 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature s
       descriptor_(
           open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
-  if (lock_patiently(descriptor_)) {
+  if (lock_patiently(descriptor_, patience)) {
     if (signature == Signature::now) sign();
     directory_identity_ = identity_by(stat, directory.c_str());
     lock_identity_ = identity_by(fstat, descriptor_);

@@ -147,7 +147,7 @@ void reject_narrow_gap(const io::Settings& settings, double largest, const State
 }
 
 void reject_crowded_wall(const io::Settings& settings, double reach, double spacing) {
-  const double least = 2.0 * reach / static_cast<double>(WallLattice::most_told_apart - 1);
+  const double least = WallLattice::least_spacing(reach);
   if (spacing < least)
     settings.reject("wall.spacing", "too close together for grains of this size",
                     fmt::format("choose at least {:.3g} m; is a unit forgotten, as in '1.2 mm'?",

@@ -1,6 +1,7 @@
 """What all tests of the command share: calling it in a directory of its own, and reading what it
 leaves there. The command is the one that the environment variable RIESEL names."""
 
+import itertools
 import json
 import math
 import os
@@ -153,6 +154,15 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(result.returncode, BAD_INPUT, result)
         self.assertEqual(result.stdout, "")
         self.assert_one_message(result.stderr, *mentions)
+
+    def assert_sweep_refuses(self, *options):
+        """Options of `riesel sweep` that cannot stand beside each other: nothing is done."""
+        with self.subTest(options):
+            result = self.riesel("sweep", "sweep.yaml", *itertools.chain(*options))
+            self.assertEqual((result.returncode, result.stdout), (BAD_INPUT, ""), result)
+            for option, *_ in options:
+                self.assertIn(option, result.stderr)
+            self.assertFalse((self.home / "sweeps").exists())
 
     def assert_failed(self, result, *mentions):
         self.assertEqual(result.returncode, FAILED, result)

@@ -91,12 +91,7 @@ class Script(SweepTest):
     def test_options_that_slurm_would_ignore_are_refused(self):
         self.write("sweep.yaml", FOUR)
         for options in (["--jobs", 2], ["--prepare"]):
-            with self.subTest(options):
-                result = self.riesel("sweep", "sweep.yaml", "--slurm", *options)
-                self.assertEqual((result.returncode, result.stdout), (BAD_INPUT, ""), result)
-                for option in ("--slurm", options[0]):
-                    self.assertIn(option, result.stderr)
-                self.assertFalse((self.home / "sweeps").exists())
+            self.assert_sweep_refuses(["--slurm"], options)
 
     def test_what_failed_is_submitted_again_only_if_asked(self):
         self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)

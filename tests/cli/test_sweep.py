@@ -389,12 +389,7 @@ class Mistakes(SweepTest):
     def test_options_of_running_are_refused_where_nothing_is_run(self):
         self.write("sweep.yaml", GRID)
         for options in (["--jobs", 2], ["--retry-failed"], ["--max-walltime", "1 h"]):
-            with self.subTest(options):
-                result = self.riesel("sweep", "sweep.yaml", "--prepare", *options)
-                self.assertEqual((result.returncode, result.stdout), (BAD_INPUT, ""), result)
-                for option in ("--prepare", options[0]):
-                    self.assertIn(option, result.stderr)
-                self.assertFalse((self.home / "sweeps").exists())
+            self.assert_sweep_refuses(["--prepare"], options)
 
     def test_help_names_the_options(self):
         for command, options in {"sweep": ["FILE", "--out", "--jobs", "--dry-run", "--prepare",

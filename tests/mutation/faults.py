@@ -248,7 +248,7 @@ FAULTS = [
     ("a kick not kept in checkpoints", "io/state_layout.hpp",
      'visit("kick_y", "quantum_y / step^2", kick_y);',
      'visit("kick_y", "quantum_y / step^2", kick_x);'),
-    ("a lock that two can hold", "io/directory_lock.cpp",
+    ("a lock that two can hold", "io/patient_lock.cpp",
      "if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;",
      "if (flock(descriptor, LOCK_SH | LOCK_NB) == 0) return true;"),
 ]
