@@ -31,6 +31,16 @@ struct CandidatePairs {
     second.reserve(n);
     reach2.reserve(n);
   }
+  void resize(std::size_t n) {
+    first.resize(n);
+    second.resize(n);
+    reach2.resize(n);
+  }
+  void set(std::size_t pair, std::uint32_t i, std::uint32_t j, float square) {
+    first[pair] = i;
+    second[pair] = j;
+    reach2[pair] = square;
+  }
   void add(std::uint32_t i, std::uint32_t j, float square) {
     first.push_back(i);
     second.push_back(j);

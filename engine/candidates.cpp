@@ -49,11 +49,10 @@ std::int64_t steps_of_fall(double fall, double room) {
 std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
                                      std::uint32_t second) {
   const CandidatePairs& pairs = slice.pairs;
-  const auto [low, high] = std::equal_range(pairs.first.begin(), pairs.first.end(), first);
-  for (auto p = low; p != high; ++p) {
-    const auto index = static_cast<std::size_t>(p - pairs.first.begin());
-    if (pairs.second[index] == second) return static_cast<std::uint32_t>(index);
-  }
+  const auto low = std::lower_bound(pairs.first.begin(), pairs.first.end(), first);
+  for (auto p = static_cast<std::size_t>(low - pairs.first.begin());
+       p < pairs.size() && pairs.first[p] == first; ++p)
+    if (pairs.second[p] == second) return static_cast<std::uint32_t>(p);
   return std::nullopt;
 }
 
@@ -88,8 +87,9 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
                        std::size_t slices_per_thread)
     : slip_(slip),
       units_(state.box),
-      threads_(static_cast<std::size_t>(threads)),
-      slices_(threads_ * slices_per_thread),
+      cells_(threads),
+      team_(threads),
+      slices_(team_.members() * slices_per_thread),
       fall_(fall_per_step(state)) {
   const Grains& grains = state.grains;
   max_radius_ = *std::max_element(grains.radius.begin(), grains.radius.end());
@@ -159,12 +159,12 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
                             std::int64_t step, double ahead) {
   Profile& profile = share.front().profile;
   profile.begin_build();
-#pragma omp barrier
+  team_.arrive_and_wait();
   for (Slice& mine : share) {
     measure_displacements(coarse, mine, step);
     measure_speeds(state, mine);
   }
-#pragma omp barrier
+  team_.arrive_and_wait();
   const double room = 0.5 * skin_, left = room - largest(slices_, &Slice::farthest);
   if (left > std::max(smallest_useful_part * room, ahead) && step <= hold_until_) {
     for (Slice& mine : share) mine.gone = mine.farthest;
@@ -174,7 +174,7 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
       std::copy(&when_sorted_.x[mine.begin], &when_sorted_.x[mine.end], &coarse.x[mine.begin]);
       std::copy(&when_sorted_.y[mine.begin], &when_sorted_.y[mine.end], &coarse.y[mine.begin]);
     }
-#pragma omp barrier
+    team_.arrive_and_wait();
   }
   profile.done_build();
 }
@@ -182,26 +182,27 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
 void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t step) {
   for (Slice& mine : share)
     for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
-#pragma omp barrier  // all grains are at this step
+  team_.arrive_and_wait();  // all grains are at this step
   renew(state, share, step);
   for (Slice& mine : share) forget_contacts(mine);
   for (const Slice& slice : slices_) keep(state, share, slice.lasting);
-#pragma omp barrier
-#pragma omp single
-  end_lost_contacts(state);
+  team_.arrive_and_wait();
+  if (member_with(share) == 0) end_lost_contacts(state);
+  team_.arrive_and_wait();
   for (Slice& mine : share) mine.lasting = {};  // between sortings the memory serves others
 }
 
 void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
-  cells_.sort(state, range());
-#pragma omp single
-  start_over(state, step);
+  const std::size_t member = member_with(share);
+  cells_.sort(state, range(), member);
+  if (member == 0) start_over(state, step);
+  team_.arrive_and_wait();
   for (std::size_t slot = share.front().begin; slot < share.back().end; ++slot) {
     when_sorted_.x[slot] = upper_half(state.grains.x[slot]);
     when_sorted_.y[slot] = upper_half(state.grains.y[slot]);
     slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
   }
-#pragma omp barrier
+  team_.arrive_and_wait();
   for (Slice& mine : share) {
     list_pairs(state, mine, share.front().close);
     list_near_walls(state, mine);
@@ -210,7 +211,7 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
     mine.gone = 0.0;
     mine.inner.start_over(skin_);
   }
-#pragma omp barrier
+  team_.arrive_and_wait();
 }
 
 /// What all slices share: who has which slots, and the common motion that does not count as
@@ -220,8 +221,9 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   when_sorted_.resize(grains.size());
   slot_of_.resize(grains.size());
   for (std::size_t s = 0; s < slices_.size(); ++s) {
-    slices_[s].begin = grains.size() * s / slices_.size();
-    slices_[s].end = grains.size() * (s + 1) / slices_.size();
+    const SlotRange slots = part_of(grains.size(), s, slices_.size());
+    slices_[s].begin = slots.begin;
+    slices_[s].end = slots.end;
   }
   slices_are_thick_ =
       slices_.size() > 2 && std::all_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
@@ -252,11 +254,16 @@ void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPai
   for (std::size_t begin = mine.begin; begin < mine.end; begin += slots_at_a_time) {
     const SlotRange slots{begin, std::min(begin + slots_at_a_time, mine.end)};
     find_close(cells_, slots, when_sorted_, units_, farthest2, close);
+    std::size_t found = mine.pairs.size();
+    mine.pairs.resize(found + close.size());
     for (const auto& [i, j] : close) {
       const double reach = grains.radius[i] + grains.radius[j];
-      if (when_sorted_.squared_distance(i, j, units_) < units_.generous_square(reach + skin_))
-        mine.pairs.add(i, j, units_.generous_square(reach));
+      const float square = when_sorted_.squared_distance(i, j, units_);
+      // The next one is written over it if it is too far away: no branch to guess.
+      mine.pairs.set(found, i, j, units_.generous_square(reach));
+      found += square < units_.generous_square(reach + skin_) ? 1U : 0U;
     }
+    mine.pairs.resize(found);
     // Room for the rest without doubling again and again.
     if (begin == mine.begin)
       mine.pairs.reserve((mine.pairs.size() + 64) * (mine.end - mine.begin + 1)
@@ -339,8 +346,10 @@ std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice,
   const std::uint32_t a = slot_of_[static_cast<std::size_t>(contact.name.grain)];
   if (contact.name.wall != no_wall) return near_wall_in(slice, a, contact.name.wall);
   const std::uint32_t b = slot_of_[static_cast<std::size_t>(contact.name.partner)];
-  const auto found = slice.owns(a) ? pair_in(slice, a, b) : std::nullopt;
-  return !found && slice.owns(b) ? pair_in(slice, b, a) : found;
+  // Most often the first has the lower slot.
+  const auto [low, high] = std::minmax(a, b);
+  const auto found = slice.owns(low) ? pair_in(slice, low, high) : std::nullopt;
+  return !found && slice.owns(high) ? pair_in(slice, high, low) : found;
 }
 
 /// Goes on with those of the contacts that belong to the slices of `share`.

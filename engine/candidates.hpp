@@ -20,6 +20,7 @@
 #include "engine/pair_search.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
+#include "engine/team_barrier.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,9 +52,11 @@ public:
   const std::vector<Slice>& slices() const { return slices_; }
   /// The slices of one thread.
   std::span<Slice> share(std::size_t member) {
-    const std::size_t each = slices_.size() / threads_;
+    const std::size_t each = slices_.size() / team_.members();
     return std::span(slices_).subspan(member * each, each);
   }
+  /// Where the threads wait for each other.
+  TeamBarrier& team() { return team_; }
   CoarseUnits units() const { return units_; }
   /// The run cannot go on.
   bool in_trouble() const;
@@ -118,6 +121,9 @@ public:
   std::vector<Contact> contacts() const;
 
 private:
+  std::size_t member_with(std::span<const Slice> share) const {
+    return static_cast<std::size_t>(share.data() - slices_.data()) / share.size();
+  }
   double range() const { return 2.0 * max_radius_ + skin_; }  // m, the least height of a row
   void look_again(State& state, CoarsePositions& coarse, std::span<Slice> share, std::int64_t step,
                   double ahead);
@@ -158,7 +164,7 @@ private:
   CoarseUnits units_;
   Cells cells_;
   CoarsePositions when_sorted_;
-  std::size_t threads_;
+  TeamBarrier team_;
   std::vector<Slice> slices_;
   bool slices_are_thick_ = false;       // so that pairs are as ready_for() says
   std::vector<std::uint32_t> slot_of_;  // by id

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "engine/state.hpp"
+#include "engine/team_barrier.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,11 +22,19 @@ struct SlotRange {
   std::size_t size() const { return end - begin; }
 };
 
+/// Part number `part` of so many slots, shared out into `parts` as equal as can be.
+inline SlotRange part_of(std::size_t slots, std::size_t part, std::size_t parts) {
+  return {slots * part / parts, slots * (part + 1) / parts};
+}
+
 class Cells {
 public:
+  explicit Cells(int threads = 1) : team_(threads) {}
+
   /// Sorts the grains of `state` into cells of at least `range` (m): changes the slots, not the
-  /// grains. To be called by all threads of a team together, or outside of one.
-  void sort(State& state, double range);
+  /// grains. To be called by all threads together, each with its number; all is done when it
+  /// returns.
+  void sort(State& state, double range, std::size_t member = 0);
 
   /// Calls visit(SlotRange) for the ranges in which the later partners of `slot` stand: each
   /// unordered pair of grains closer than the range comes up exactly once over all slots, if the
@@ -50,10 +59,10 @@ private:
   double quanta_from_left(Fixed x) const;
   std::uint32_t cell_at(const Grains& grains, std::size_t slot) const;
   void count();
-  void permute(Grains& grains);
   template <class T>
-  void permute(AlignedVector<T>& values);
+  void permute(AlignedVector<T>& values, const SlotRange& mine);
 
+  TeamBarrier team_;
   std::size_t columns_ = 1, rows_ = 1;
   Fixed left_edge_ = 0;              // quanta of x
   double columns_per_quantum_ = 0.;  // of x

@@ -22,7 +22,6 @@ Airspace::Airspace(State& the_state, const ContactModel& the_model, Candidates& 
       candidates(the_candidates),
       courses(the_state),
       announcements(the_candidates.slices().size()),
-      barrier(static_cast<int>(the_candidates.slices().size())),
       tolerance(tolerance_per_diameter * mean_diameter(the_state.grains)) {}
 
 FlightRegion::FlightRegion(Airspace& airspace, std::size_t index)
@@ -51,12 +50,12 @@ bool FlightRegion::step(std::int64_t step) {
   keep_appointments(step);
   profile.done(Profile::Phase::search);
   step_contacts(step);
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
   suffer(step);
   profile.done(Profile::Phase::forces);
   correct_courses(step);
   announce(step);
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
   heed();
   appointments_.make(step, step + 1, hold_until_);
   profile.done(Profile::Phase::appointments);
@@ -72,18 +71,18 @@ bool FlightRegion::take_off(std::int64_t step) {
   }
   if (index_ == 0) airspace_.courses.set_origin(step);
   border_.mine().new_courses.clear();
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place)
     if (deflected_.in_use(place) && border_.owns(deflected_.slot(place))) set_course(place, step);
   announce(step);
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
   heed();
   appointments_.make(step, step + 1, hold_until_);
   return !trouble_;
 }
 
 void FlightRegion::land(std::int64_t step) {
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
   put_down(step);
 }
 
@@ -110,11 +109,11 @@ void FlightRegion::begin(std::int64_t step, std::int64_t earliest) {
   border_.list_foreign();
   appointments_.start_over();
   close_watch_.start_over(static_cast<std::uint32_t>(slice_.begin));
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
 
   border_.list_border();
   take_up_contacts(step);
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
 
   suffer(step);
   border_.mine().hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
@@ -124,7 +123,7 @@ void FlightRegion::begin(std::int64_t step, std::int64_t earliest) {
     if (deflected_.contacts(place) == 0) let_go_.push_back(place);
   }
   announce(step);
-  airspace_.barrier.arrive_and_wait();
+  airspace_.candidates.team().arrive_and_wait();
 
   heed();
   appointments_.make_all(step, earliest, hold_until_);

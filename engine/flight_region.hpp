@@ -14,7 +14,6 @@
 #include "engine/deflected_grains.hpp"
 #include "engine/skin_guard.hpp"
 #include "engine/state.hpp"
-#include "engine/team_barrier.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,8 +30,7 @@ struct Airspace {
   Candidates& candidates;
   Courses courses;
   std::vector<Announcement> announcements;  // one for each slice
-  TeamBarrier barrier;
-  const double tolerance;  ///< m, how far a deflected grain may be from its course
+  const double tolerance;                   ///< m, how far a deflected grain may be from its course
 };
 
 class alignas(cache_line) FlightRegion {

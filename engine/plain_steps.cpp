@@ -3,6 +3,7 @@
 #include "engine/contact_loop.hpp"
 #include "engine/kicks.hpp"
 #include "engine/pair_search.hpp"
+#include "engine/team_barrier.hpp"
 #include "engine/vector_kernel.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ std::size_t Askew::slices_per_thread(const State& state, int threads) const {
   return slices * members < 3 ? 1 : slices;
 }
 
-PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& candidates, int threads,
+PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& candidates,
                        const Askew& askew)
     : state_(state),
       model_(model),
@@ -47,8 +48,7 @@ PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& cand
       units_(state),
       most_steps_askew_(askew.most_steps(state)),
       coarse_(candidates.when_sorted()),
-      progress_(candidates.slices().size()),
-      barrier_(threads) {
+      progress_(candidates.slices().size()) {
   for (Slice& slice : candidates.slices())
     for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts})
       contacts->pad_with(static_cast<std::int64_t>(slice.begin));
@@ -62,9 +62,8 @@ void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last
     member.profile.begin_step(next);
     for (Slice& mine : share) move(member, mine, next);
     candidates_.compare_inner_lists(share);
-#pragma omp master
-    state_.step = next;
-    barrier_.arrive_and_wait();
+    if (number == 0) state_.step = next;
+    candidates_.team().arrive_and_wait();
     member.profile.done(Profile::Phase::fly);
     now += candidates_.ready_for(state_, coarse_, share, next,
                                  std::min(most_steps_askew_, last - now));
@@ -105,7 +104,7 @@ void PlainSteps::receive(Member& member, Slice& mine, std::span<const Slice> giv
 void PlainSteps::step_together(Member& member, std::int64_t step) {
   const double motion = candidates_.fastest();
   for (Slice& mine : member.share) touch(member, mine, step, motion);
-  barrier_.arrive_and_wait();
+  candidates_.team().arrive_and_wait();
   for (Slice& mine : member.share) receive(member, mine, candidates_.slices());
 }
 
@@ -118,7 +117,7 @@ void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t las
     p.touched = first - 1;
     p.done = false;
   }
-  barrier_.arrive_and_wait();
+  candidates_.team().arrive_and_wait();
   int idle = 0;
   while (std::any_of(progress.begin(), progress.end(), [](const Progress& p) { return !p.done; })) {
     bool any = false;
@@ -133,9 +132,8 @@ void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t las
     else if (idle > 0)
       pause_core();
   }
-#pragma omp master
-  state_.step = last;
-  barrier_.arrive_and_wait();
+  if (begin == 0) state_.step = last;
+  candidates_.team().arrive_and_wait();
 }
 
 /// Does what this slice can do now, up to its part of step `last`; false if that is nothing.

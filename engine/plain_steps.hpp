@@ -18,7 +18,6 @@
 #include "engine/contact_law.hpp"
 #include "engine/encounter.hpp"
 #include "engine/state.hpp"
-#include "engine/team_barrier.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -46,8 +45,7 @@ struct Askew {
 class PlainSteps {
 public:
   /// Nobody else steps with the candidates afterwards. Keeps references.
-  PlainSteps(State& state, const ContactModel& model, Candidates& candidates, int threads,
-             const Askew& askew);
+  PlainSteps(State& state, const ContactModel& model, Candidates& candidates, const Askew& askew);
 
   /// From step `now`, that of the state, to `last`, or until the run cannot go on: then perhaps
   /// some steps beyond the trouble. To be called by all threads of a team with the same steps;
@@ -82,7 +80,6 @@ private:
   const std::int64_t most_steps_askew_;
   CoarsePositions coarse_;  // of all grains
   std::vector<Progress> progress_;
-  TeamBarrier barrier_;
 };
 
 }  // namespace riesel

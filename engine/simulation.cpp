@@ -69,6 +69,7 @@ Askew sound(const Askew& askew) {
 /// OpenMP may grant fewer threads than asked for, and every slice needs one.
 int team_size(int wanted) {
   require(wanted > 0, "a simulation needs at least one thread");
+  if (wanted == 1) return 1;
   int granted = 1;
 #pragma omp parallel num_threads(wanted)
 #pragma omp single
@@ -185,7 +186,7 @@ void Simulation::prepare() {
   if (by_flights)
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
   else
-    plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, threads, askew_);
+    plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, askew_);
   profile_first_thread();
 }
 

@@ -9,10 +9,15 @@
 
 namespace riesel {
 
-/// Calls work(member) in each thread of a team of so many. Throws RunFailure, and does nothing, if
-/// the system grants fewer. What `work` throws ends the program, as the others would wait for ever.
+/// Calls work(member) in each thread of a team of so many, whose members wait for each other at
+/// TeamBarriers alone. Throws RunFailure, and does nothing, if the system grants fewer. What `work`
+/// throws in a team of several ends the program, as the others would wait for ever.
 template <class Work>
 void as_a_team(int members, Work work) {
+  if (members == 1) {  // to OpenMP a team like any other, with calls of the system
+    work(std::size_t{0});
+    return;
+  }
   bool complete = true;
 #pragma omp parallel num_threads(members)
   if (omp_get_num_threads() == members) {

@@ -4,13 +4,14 @@
 // first looks again and again, for about as long as it takes to put a thread to sleep and to wake
 // it; then it sleeps and leaves its core to others. So steps stay short where the team has its
 // cores to itself, and a busy machine costs no more than its share: OpenMP's own barrier, which
-// looks for milliseconds, takes the core from the very thread that it waits for, and std::barrier
-// sleeps too soon.
+// looks for milliseconds, takes the core from the very thread that it waits for, and asks the
+// system to wake sleepers each time, even in a team of one; std::barrier sleeps too soon.
 #pragma once
 
 #include "engine/aligned.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 namespace riesel {
@@ -31,6 +32,8 @@ public:
   static constexpr int looks = 500;
 
   explicit TeamBarrier(int members) : members_(members) {}
+
+  std::size_t members() const { return static_cast<std::size_t>(members_); }
 
   /// Returns when all members have called it as often as this one. What each did before is seen by
   /// all afterwards.
