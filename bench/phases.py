@@ -17,30 +17,31 @@ import sys
 # Names without templates, arguments and namespaces; the first that matches counts.
 PHASES = [
     ("forces of contacts, and their book-keeping",
-     r"step_lanes|LiveContacts::\w+|FlightRegion::(step_contacts|take_up|change_contacts|let_go|take_up_contacts)|"
+     r"StepLoop|LiveContacts::\w+|FlightRegion::(step_contacts|take_up|change_contacts|let_go|take_up_contacts)|"
      r"meeting_\w+|begin_contact|note_(over|lasting)|add_last_loss|\w*Tally::\w+|WallVisits::\w+|ExactSum\w*::\w+|"
      r"count_work_of_walls|see_from_the_other"),
     ("sorting, listing, sifting, linking",
-     r"Candidates::\w+|Cells::\w+|sift\w*|find_close\w*|pair_in|earlier|Appointments::(link|start_over|make_all)|"
+     r"Candidates::\w+|Cells::\w+|sift\w*|find_close\w*|pair_in|earlier|SieveLoop|Appointments::(link|start_over|make_all)|"
      r"Border::list_\w+|Courses::start_over|FlightRegion::(put_down|renew|begin)|candidate_in"),
-    ("foresight and entering of appointments", r"foresee\w*|Appointments::\w+|Calendar::\w+|flight_of|steps_\w+"),
+    ("foresight and entering of appointments", r"foresee|gather|ForesightLoop|Appointments::\w+|Calendar::\w+|flight_of|steps_\w+"),
     ("looking at what is due",
-     r"FlightRegion::(look_\w+|keep_appointments|position|foreign_position)|watch_lanes|CloseWatch::\w+|Border::foreign_motion"),
+     r"FlightRegion::(look_\w+|keep_appointments|position|foreign_position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
     ("moving deflected grains, and their courses",
      r"move_lanes|flag_strays|DeflectedGrains::\w+|SkinGuard::\w+|Border::\w+|"
      r"FlightRegion::(move|correct_courses|set_course|deflect|invite|release|suffer|announce|heed|step|take_off|land)"),
 ]
 ENGINE = "riesel::"
+LOOP = r"riesel::run_(converting|adding)_loop<"  # and which loop that is
 ELSEWHERE = r"riesel::(io|bench|scenarios|app)::|riesel::state_hash|riesel::Simulation::|riesel::observe|riesel::energies"
 
 
 def plain_name(symbol):
     """The name of a function without its templates, arguments and namespaces."""
     name, depth = "", 0
-    for letter in symbol.removeprefix(ENGINE).removeprefix("(anonymous namespace)::"):
+    for letter in re.sub(LOOP, "", symbol).removeprefix(ENGINE).removeprefix("(anonymous namespace)::"):
         depth += (letter in "<(") - (letter in ">)")
         name += letter if depth == 0 and letter not in ">)" else ""
-    return name
+    return name.split(",")[0]
 
 
 def samples(report):

@@ -13,38 +13,51 @@ struct Watched {
   Fixed *x, *y;
   const Fixed *ux, *uy;
   const double *reach2, *far2;
-  std::int64_t *flags, *block_flags;
 };
 
-/// Sets the flags of the pairs that are due, and those of blocks that have such a pair. The second
-/// grains go on along their courses.
-template <std::size_t lanes>
-RIESEL_VECTOR_KERNEL void watch_lanes(std::size_t count, Watched w, const std::int32_t* place_now,
-                                      const Fixed* deflected_x, const Fixed* deflected_y,
-                                      Fall fallen, double metre_x, double metre_y) {
-  for (std::size_t block = 0; block < count; block += lanes) {
-    std::int64_t any = 0;
-#pragma omp simd reduction(| : any)
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t k = block + lane;
-      const std::int64_t first = w.place[0][k], second = w.place[1][k];
-      const std::int64_t elsewhere =
-          (place_now[w.slot[0][k]] - first) | (place_now[w.slot[1][k]] - second);
-      w.x[k] = wrapped_sum(w.x[k], wrapped_sum(w.ux[k], fallen.x));
-      w.y[k] = wrapped_sum(w.y[k], wrapped_sum(w.uy[k], fallen.y));
-      const std::int64_t second_or_any = second < 0 ? 0 : second;
-      const Fixed x = second < 0 ? w.x[k] : deflected_x[second_or_any];
-      const Fixed y = second < 0 ? w.y[k] : deflected_y[second_or_any];
-      const double dx = real(wrapped_difference(x, deflected_x[first])) * metre_x;
-      const double dy = real(wrapped_difference(y, deflected_y[first])) * metre_y;
-      const double distance2 = dx * dx + dy * dy;
-      const bool due = distance2 < w.reach2[k] || distance2 > w.far2[k] || elsewhere != 0;
-      w.flags[k] = due ? 1 : 0;
-      any |= due ? 1 : 0;
-    }
-    w.block_flags[block / lanes] = any;
-  }
+/// What they are looked at with.
+struct Sight {
+  const std::int32_t* place;  // by slot
+  const Fixed *deflected_x, *deflected_y;
+  Fall fallen;
+  double metre_x, metre_y;
+};
+
+/// Whether pair k is due. Its second grain goes on along its course.
+template <class Numbers>
+[[gnu::always_inline]] inline bool is_due(const Watched& w, std::size_t k, const Sight& s) {
+  const std::int64_t first = w.place[0][k], second = w.place[1][k];
+  const std::int64_t elsewhere = (s.place[w.slot[0][k]] - first) | (s.place[w.slot[1][k]] - second);
+  w.x[k] = wrapped_sum(w.x[k], wrapped_sum(w.ux[k], s.fallen.x));
+  w.y[k] = wrapped_sum(w.y[k], wrapped_sum(w.uy[k], s.fallen.y));
+  const std::int64_t second_or_any = second < 0 ? 0 : second;
+  const Fixed x = second < 0 ? w.x[k] : s.deflected_x[second_or_any];
+  const Fixed y = second < 0 ? w.y[k] : s.deflected_y[second_or_any];
+  const double dx = Numbers::real(wrapped_difference(x, s.deflected_x[first])) * s.metre_x;
+  const double dy = Numbers::real(wrapped_difference(y, s.deflected_y[first])) * s.metre_y;
+  const double distance2 = dx * dx + dy * dy;
+  return distance2 < w.reach2[k] || distance2 > w.far2[k] || elsewhere != 0;
 }
+
+struct WatchLoop {
+  /// Sets the flags of the pairs that are due, and those of blocks that have such a pair; `count`
+  /// is a multiple of their lanes.
+  template <class Numbers>
+  [[gnu::always_inline]] static void run(std::size_t count, Watched w, Sight s, std::int64_t* flags,
+                                         std::int64_t* block_flags) {
+    constexpr std::size_t lanes = LaneFlags<std::int64_t>::lanes;
+    for (std::size_t block = 0; block < count; block += lanes) {
+      std::int64_t any = 0;
+#pragma omp simd reduction(| : any)
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const std::int64_t due = is_due<Numbers>(w, block + lane, s) ? 1 : 0;
+        flags[block + lane] = due;
+        any |= due;
+      }
+      block_flags[block / lanes] = any;
+    }
+  }
+};
 
 }  // namespace
 
@@ -96,25 +109,34 @@ void CloseWatch::remove(std::size_t i) {
 const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
                                                      const DeflectedGrains& deflected) {
   due_.clear();
-  if (pairs_.empty()) return due_;
-  Columns& c = columns_;
-  const Bodies bodies = deflected.bodies();
-  watch_lanes<Due::lanes>(Due::padded(pairs_.size()),
-                          {.slot = {c.slot[0].data(), c.slot[1].data()},
-                           .place = {c.place[0].data(), c.place[1].data()},
-                           .x = c.x.data(),
-                           .y = c.y.data(),
-                           .ux = c.ux.data(),
-                           .uy = c.uy.data(),
-                           .reach2 = c.reach2.data(),
-                           .far2 = c.far2.data(),
-                           .flags = are_due_.of_lanes.data(),
-                           .block_flags = are_due_.of_blocks.data()},
-                          courses_.places(), bodies.x, bodies.y, units.fallen, units.metre_x,
-                          units.metre_y);
   leaving_.clear();
-  are_due_.for_each_set(pairs_.size(),
-                        [this](std::size_t i, std::int64_t) { leaving_.push_back(i); });
+  const std::size_t count = pairs_.size();
+  if (count == 0) return due_;
+  const Columns& c = columns_;
+  const Watched watched{.slot = {c.slot[0].data(), c.slot[1].data()},
+                        .place = {c.place[0].data(), c.place[1].data()},
+                        .x = columns_.x.data(),
+                        .y = columns_.y.data(),
+                        .ux = c.ux.data(),
+                        .uy = c.uy.data(),
+                        .reach2 = c.reach2.data(),
+                        .far2 = c.far2.data()};
+  const Bodies bodies = deflected.bodies();
+  const Sight sight{.place = courses_.places(),
+                    .deflected_x = bodies.x,
+                    .deflected_y = bodies.y,
+                    .fallen = units.fallen,
+                    .metre_x = units.metre_x,
+                    .metre_y = units.metre_y};
+  constexpr std::size_t few = 5;  // for which gathering them into vectors takes too long
+  if (count <= few) {
+    for (std::size_t i = 0; i < count; ++i)
+      if (is_due<ByConversion>(watched, i, sight)) leaving_.push_back(i);
+  } else {
+    run_vector_loop<WatchLoop>(Due::padded(count), watched, sight, are_due_.of_lanes.data(),
+                               are_due_.of_blocks.data());
+    are_due_.for_each_set(count, [this](std::size_t i, std::int64_t) { leaving_.push_back(i); });
+  }
   // From the end, as the last pair takes the place of the one that goes.
   std::reverse(leaving_.begin(), leaving_.end());
   for (const std::size_t i : leaving_) {

@@ -128,14 +128,15 @@ relative_motion(const Bodies& b, std::int64_t i, const BodyMotion& wall, const S
 
 /// `reach` is the sum of the radii (m), `reduced_mass` in kg. The kick of the step before takes the
 /// velocity from the half step to the full one.
+template <class Numbers = ByConversion>
 [[gnu::always_inline]] inline Encounter encounter(const BodyMotion& m, double reach,
                                                   double reduced_mass, const StepUnits& units) {
-  const double half_vx = real(m.ux) * units.velocity_x;
-  const double half_vy = real(m.uy) * units.velocity_y;
-  return {.x = real(m.x) * units.metre_x,
-          .y = real(m.y) * units.metre_y,
-          .vx = half_vx + 0.5 * (real(m.kick_x) * units.velocity_x),
-          .vy = half_vy + 0.5 * (real(m.kick_y) * units.velocity_y),
+  const double half_vx = Numbers::real(m.ux) * units.velocity_x;
+  const double half_vy = Numbers::real(m.uy) * units.velocity_y;
+  return {.x = Numbers::real(m.x) * units.metre_x,
+          .y = Numbers::real(m.y) * units.metre_y,
+          .vx = half_vx + 0.5 * (Numbers::real(m.kick_x) * units.velocity_x),
+          .vy = half_vy + 0.5 * (Numbers::real(m.kick_y) * units.velocity_y),
           .half_vx = half_vx,
           .half_vy = half_vy,
           .reach = reach,
@@ -147,10 +148,11 @@ struct Spin {
   double now = 0.0, half = 0.0;  // zero: a wall grain
 };
 
+template <class Numbers = ByConversion>
 [[gnu::always_inline]] inline Spin spin_of(const Bodies& b, std::int64_t i,
                                            const StepUnits& units) {
-  const double half = real(b.spin[i]) * units.spin;
-  return {half + 0.5 * (real(b.spin_kick[i]) * units.spin), half};
+  const double half = Numbers::real(b.spin[i]) * units.spin;
+  return {half + 0.5 * (Numbers::real(b.spin_kick[i]) * units.spin), half};
 }
 
 /// What does not change of two bodies while they are in contact.

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 
@@ -54,17 +55,6 @@ constexpr std::int64_t part_of_ring(Fixed y, std::int64_t parts) {
       (static_cast<Wide>(static_cast<std::uint64_t>(y)) * static_cast<Wide>(parts)) >> 64);
 }
 
-/// The nearest double, as by static_cast, in operations that vectorise everywhere: the halves of
-/// the number are put where the exponents 2^84 and 2^52 make them worth 2^32 and 1.
-[[gnu::always_inline]] inline double real(Fixed a) {
-  constexpr double upper_origin = 0x1p84, lower_origin = 0x1p52, sign = 0x1p63;
-  const auto bits = static_cast<std::uint64_t>(a);
-  const auto upper = std::bit_cast<double>((bits >> 32) ^ std::uint64_t{0x4530000080000000});
-  const auto lower =
-      std::bit_cast<double>((bits & 0xffffffffU) | std::uint64_t{0x4330000000000000});
-  return (upper - (upper_origin + sign + lower_origin)) + lower;
-}
-
 /// Nearest integer to `quanta` (ties to even); |quanta| must be below 2^63. What llrint() gives,
 /// in additions that vectorise everywhere: a number is rounded by adding 1.5 * 2^52, which leaves
 /// no bits for fractions, first its upper part, then what remains.
@@ -77,6 +67,44 @@ constexpr std::int64_t part_of_ring(Fixed y, std::int64_t parts) {
   const double lower = quanta - (upper - shift) * 0x1p26 + shift;
   return wrapped_sum(wrapped_product(integer(upper), Fixed{1} << 26), integer(lower));
 }
+
+/// `quanta` without its fraction, to the nearest (ties to even). Beyond 2^52, where a double has
+/// none, to the nearest 2, 4 and so on.
+[[gnu::always_inline]] inline double rounded(double quanta) {
+  const double shift = std::copysign(0x1p52, quanta);  // away from zero: so the sum is whole
+  return (quanta + shift) - shift;
+}
+
+/// How integers become doubles, and back, by the instructions that there are for it. With AVX-512
+/// vectors have them, too.
+struct ByConversion {
+  /// The nearest double.
+  [[gnu::always_inline]] static double real(Fixed a) { return static_cast<double>(a); }
+  /// rounded(quanta). What is beyond 2^63 or not a number becomes any integer, as x86 does it: it
+  /// is for the caller to see.
+  [[gnu::always_inline]] static Fixed whole(double quanta) {
+    return static_cast<Fixed>(rounded(quanta));
+  }
+};
+
+/// The same bits, in additions that vectorise everywhere.
+struct ByAddition {
+  /// The halves of the number are put where the exponents 2^84 and 2^52 make them worth 2^32 and 1.
+  [[gnu::always_inline]] static double real(Fixed a) {
+    constexpr double upper_origin = 0x1p84, lower_origin = 0x1p52, sign = 0x1p63;
+    const auto bits = static_cast<std::uint64_t>(a);
+    const auto upper = std::bit_cast<double>((bits >> 32) ^ std::uint64_t{0x4530000080000000});
+    const auto lower =
+        std::bit_cast<double>((bits & 0xffffffffU) | std::uint64_t{0x4330000000000000});
+    return (upper - (upper_origin + sign + lower_origin)) + lower;
+  }
+  [[gnu::always_inline]] static Fixed whole(double quanta) {
+    return nearest_fixed(rounded(quanta));
+  }
+};
+
+/// The nearest double, outside of vector loops.
+[[gnu::always_inline]] inline double real(Fixed a) { return ByConversion::real(a); }
 
 /// (since + 1) + (since + 2) + ... + now: how often the fall per step^2 adds to y in these steps,
 /// in a frame that falls since step 0. 0 <= since <= now.

@@ -27,11 +27,19 @@ struct Forecast {
   AlignedVector<std::int64_t> free_steps;  ///< no contact before this step from now
   AlignedVector<std::int64_t> exact;  ///< 1 if only as long as the grains stray no farther than now
 
+  /// How the pairs approach each other, m and m per step: gathered one by one, as vectors are not
+  /// faster at that.
+  struct Approaches {
+    AlignedVector<double> x, y, ux, uy, reach, strays;
+  };
+  Approaches approaches;
+
   /// The first whole step that is not before `steps`, at most one too early; `forever` if beyond.
+  template <class Numbers = ByConversion>
   [[gnu::always_inline]] static std::int64_t whole_steps(double steps) {
     constexpr auto most = static_cast<double>(forever);
     constexpr double nearly_half = 0.499;  // up to the next whole step, but never beyond it
-    return nearest_fixed(steps < most ? steps + nearly_half : most);
+    return Numbers::whole(steps < most ? steps + nearly_half : most);
   }
 };
 
@@ -47,7 +55,7 @@ inline int strays_of_pair(const Slice& slice, const Courses& courses, std::uint3
 
 /// Whether what is foreseen for a pair with so many strays holds only as long as no other grain of
 /// it is deflected.
-inline bool is_exact(std::int64_t strays) { return strays < most_strays; }
+inline bool is_exact(double strays) { return strays < most_strays; }
 
 /// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on.
 /// A deflected grain may be off its course by `tolerance` (m). Where there is time enough, all

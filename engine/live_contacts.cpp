@@ -56,14 +56,11 @@ struct LiveContacts::Columns {
 namespace {
 
 /// Carries the motion of the second grain, as seen from the first, on by one step: gravity is the
-/// same for both, and integers add up to the bits that a look at both grains would give. What they
-/// do not know of are the last kicks, of all contacts of the two.
+/// same for both, and integers add up to the bits that a look at both grains would give. What is
+/// new are the last kicks, of all contacts of the two.
 template <class Columns>
-[[gnu::always_inline]] inline BodyMotion next_motion(const Columns& c, std::size_t i,
-                                                     const Bodies& b) {
-  const std::int64_t first = c.first[i], second = c.second[i];
-  const Fixed kick_x = wrapped_difference(b.kick_x[second], b.kick_x[first]);
-  const Fixed kick_y = wrapped_difference(b.kick_y[second], b.kick_y[first]);
+[[gnu::always_inline]] inline BodyMotion next_motion(const Columns& c, std::size_t i) {
+  const Fixed kick_x = c.partner[4][i], kick_y = c.partner[5][i];
   const Fixed ux = wrapped_sum(c.partner[2][i], kick_x);
   const Fixed uy = wrapped_sum(c.partner[3][i], kick_y);
   const Fixed x = wrapped_sum(c.partner[0][i], ux), y = wrapped_sum(c.partner[1][i], uy);
@@ -84,38 +81,40 @@ motion_of_wall(const Columns& c, std::size_t i, const Bodies& bodies, const Step
 }
 
 /// Looks at both bodies, where they are now.
-template <LiveContacts::Partner partner, class Columns>
+template <class Numbers, LiveContacts::Partner partner, class Columns>
 [[gnu::always_inline]] inline Encounter encounter_of(const Columns& c, std::size_t i,
                                                      const Bodies& bodies, const StepUnits& units) {
   if constexpr (partner == LiveContacts::Partner::grain)
-    return encounter(relative_motion(bodies, c.first[i], c.second[i]), c.reach[i],
-                     c.reduced_mass[i], units);
+    return encounter<Numbers>(relative_motion(bodies, c.first[i], c.second[i]), c.reach[i],
+                              c.reduced_mass[i], units);
   else
-    return encounter(motion_of_wall(c, i, bodies, units), c.reach[i], c.reduced_mass[i], units);
+    return encounter<Numbers>(motion_of_wall(c, i, bodies, units), c.reach[i], c.reduced_mass[i],
+                              units);
 }
 
 /// The same in a contact that has been followed up to the step before.
-template <LiveContacts::Partner partner, class Columns>
+template <class Numbers, LiveContacts::Partner partner, class Columns>
 [[gnu::always_inline]] inline Encounter
 next_encounter(const Columns& c, std::size_t i, const Bodies& bodies, const StepUnits& units) {
   if constexpr (partner == LiveContacts::Partner::grain)
-    return encounter(next_motion(c, i, bodies), c.reach[i], c.reduced_mass[i], units);
+    return encounter<Numbers>(next_motion(c, i), c.reach[i], c.reduced_mass[i], units);
   else
-    return encounter_of<partner>(c, i, bodies, units);
+    return encounter_of<Numbers, partner>(c, i, bodies, units);
 }
 
-template <LiveContacts::Partner partner, class Turn, class Columns>
+template <class Numbers, LiveContacts::Partner partner, class Turn, class Columns>
 [[gnu::always_inline]] inline Turn turning_of(const Columns& c, std::size_t i, const Bodies& bodies,
                                               double rolling_friction, const StepUnits& units) {
   if constexpr (std::is_same_v<Turn, Turning>) {
     Spin second;
     if constexpr (partner == LiveContacts::Partner::grain)
-      second = spin_of(bodies, c.second[i], units);
+      second = spin_of<Numbers>(bodies, c.second[i], units);
     return turning({.radius_first = c.radius[0][i],
                     .radius_second = c.radius[1][i],
                     .per_mass_first = c.per_mass_first[i],
                     .per_mass_second = c.per_mass_second[i]},
-                   spin_of(bodies, c.first[i], units), second, bodies.inertia, rolling_friction);
+                   spin_of<Numbers>(bodies, c.first[i], units), second, bodies.inertia,
+                   rolling_friction);
   } else {
     return {};
   }
@@ -187,27 +186,27 @@ template <LiveContacts::Partner partner, class Turn, class Slip, class Columns>
 
 /// Writes the kicks of contact i; returns the sum of their sizes, which is not a number if one of
 /// them is not.
-template <LiveContacts::Partner partner, class Columns>
+template <class Numbers, LiveContacts::Partner partner, class Columns>
 [[gnu::always_inline]] inline double kick_bodies(const Columns& c, std::size_t i, bool touching,
                                                  const Touch& t, const StepUnits& u) {
   const double fx = touching ? t.fx : 0.0, fy = touching ? t.fy : 0.0;
   const double x = fx * c.per_mass_first[i] * u.kick_x;
   const double y = fy * c.per_mass_first[i] * u.kick_y;
-  c.kick[0][i] = nearest_fixed(x);
-  c.kick[1][i] = nearest_fixed(y);
+  c.kick[0][i] = Numbers::whole(x);
+  c.kick[1][i] = Numbers::whole(y);
   double size = std::abs(x) + std::abs(y);
   if constexpr (partner == LiveContacts::Partner::grain) {
     const double other_x = -fx * c.per_mass_second[i] * u.kick_x;
     const double other_y = -fy * c.per_mass_second[i] * u.kick_y;
-    c.kick[2][i] = nearest_fixed(other_x);
-    c.kick[3][i] = nearest_fixed(other_y);
+    c.kick[2][i] = Numbers::whole(other_x);
+    c.kick[3][i] = Numbers::whole(other_y);
     size += std::abs(other_x) + std::abs(other_y);
   }
   return size;
 }
 
 /// Likewise for the torques, if the bodies turn.
-template <LiveContacts::Partner partner, class Turn, class Columns>
+template <class Numbers, LiveContacts::Partner partner, class Turn, class Columns>
 [[gnu::always_inline]] inline double twist_bodies(const Columns& c, std::size_t i, bool touching,
                                                   const Turn& turn, const Touch& t,
                                                   const StepUnits& u) {
@@ -217,12 +216,12 @@ template <LiveContacts::Partner partner, class Turn, class Columns>
     const double rolling = touching ? t.rolling_torque : 0.0;
     const double first =
         (turn.part_first * torque + rolling) * turn.per_inertia_first * u.spin_kick;
-    c.spin_kick[0][i] = nearest_fixed(first);
+    c.spin_kick[0][i] = Numbers::whole(first);
     size = std::abs(first);
     if constexpr (partner == LiveContacts::Partner::grain) {
       const double second =
           (turn.part_second * torque - rolling) * turn.per_inertia_second * u.spin_kick;
-      c.spin_kick[1][i] = nearest_fixed(second);
+      c.spin_kick[1][i] = Numbers::whole(second);
       size += std::abs(second);
     }
   }
@@ -231,39 +230,42 @@ template <LiveContacts::Partner partner, class Turn, class Columns>
 
 /// One step of `count` contacts, a multiple of the lanes for which there are `flags`. Lanes that do
 /// not touch compute nonsense, which is not kept.
-template <LiveContacts::Partner partner, class Turn, class Flag, class Columns, class Normal,
-          class Slip>
-RIESEL_VECTOR_KERNEL void step_lanes(const Columns& columns, std::size_t count, Flag* flags,
-                                     Flag* block_flags, const Bodies& bodies,
-                                     const StepUnits& units, Normal normal, Slip slip, double mu,
-                                     double rolling_friction, Attraction attraction) {
-  constexpr std::size_t lanes = LaneFlags<Flag>::lanes;
-  // Of copies only what is used is loaded, and once: what others refer to may change with each
-  // store.
-  const Columns c = columns;
-  const Bodies b = bodies;
-  const StepUnits u = units;
-  for (std::size_t block = 0; block < count; block += lanes) {
-    Flag any = 0;
+template <LiveContacts::Partner partner, class Turn>
+struct StepLoop {
+  template <class Numbers, class Flag, class Columns, class Normal, class Slip>
+  [[gnu::always_inline]] static void
+  run(const Columns& columns, std::size_t count, Flag* flags, Flag* block_flags,
+      const Bodies& bodies, const StepUnits& units, Normal normal, Slip slip, double mu,
+      double rolling_friction, Attraction attraction) {
+    constexpr std::size_t lanes = LaneFlags<Flag>::lanes;
+    // Of copies only what is used is loaded, and once: what others refer to may change with each
+    // store.
+    const Columns c = columns;
+    const Bodies b = bodies;
+    const StepUnits u = units;
+    for (std::size_t block = 0; block < count; block += lanes) {
+      Flag any = 0;
 #pragma omp simd reduction(| : any)
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t i = block + lane;
-      const Encounter e = next_encounter<partner>(c, i, b, u);
-      const bool touching = e.x * e.x + e.y * e.y < e.reach * e.reach;
-      const Turn turn = turning_of<partner, Turn>(c, i, b, rolling_friction, u);
-      const Touch t = touch(e, turn, stretch_of<Slip>(c, i, u), normal, slip, mu, attraction, u.dt);
-      carry_on<partner>(c, i, touching, e, turn, t, slip, u);
-      const double size = kick_bodies<partner>(c, i, touching, t, u)
-                          + twist_bodies<partner>(c, i, touching, turn, t, u);
-      // Kicks are integers: what is not a number, or beyond all bounds, must not become one.
-      const Flag bad = size < 0x1p62 ? 0 : unusable;
-      const Flag over = touching ? 0 : apart;
-      flags[i] = over | bad;
-      any |= c.reach[i] > 0.0 ? over | bad : 0;  // no lane of the padding
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const std::size_t i = block + lane;
+        const Encounter e = next_encounter<Numbers, partner>(c, i, b, u);
+        const bool touching = e.x * e.x + e.y * e.y < e.reach * e.reach;
+        const Turn turn = turning_of<Numbers, partner, Turn>(c, i, b, rolling_friction, u);
+        const Touch t =
+            touch(e, turn, stretch_of<Slip>(c, i, u), normal, slip, mu, attraction, u.dt);
+        carry_on<partner>(c, i, touching, e, turn, t, slip, u);
+        const double size = kick_bodies<Numbers, partner>(c, i, touching, t, u)
+                            + twist_bodies<Numbers, partner>(c, i, touching, turn, t, u);
+        // Kicks are integers: what is not a number, or beyond all bounds, must not become one.
+        const Flag bad = size < 0x1p62 ? 0 : unusable;
+        const Flag over = touching ? 0 : apart;
+        flags[i] = over | bad;
+        any |= c.reach[i] > 0.0 ? over | bad : 0;  // no lane of the padding
+      }
+      block_flags[block / lanes] = any;
     }
-    block_flags[block / lanes] = any;
   }
-}
+};
 
 }  // namespace
 
@@ -356,15 +358,21 @@ void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
   }
 }
 
-/// Contacts that have been added since the last step know nothing of their grains' motion yet: they
+/// Contacts get the last kicks of their grains: one by one, as vectors are slower at gathering.
+/// Those that have been added since the last step know nothing of their grains' motion yet: they
 /// get that of the step before.
-void LiveContacts::follow_bodies(const Bodies& bodies) {
+void LiveContacts::follow_bodies(const Columns& c, const Bodies& bodies) const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const std::int64_t first = c.first[i], second = c.second[i];
+    c.partner[4][i] = wrapped_difference(bodies.kick_x[second], bodies.kick_x[first]);
+    c.partner[5][i] = wrapped_difference(bodies.kick_y[second], bodies.kick_y[first]);
+  }
   for (std::size_t i = followed_; i < size(); ++i) {
-    const BodyMotion now = relative_motion(bodies, body_[0][i], body_[1][i]);
-    partner_motion_[0][i] = wrapped_difference(now.x, now.ux);
-    partner_motion_[1][i] = wrapped_difference(now.y, now.uy);
-    partner_motion_[2][i] = wrapped_difference(now.ux, now.kick_x);
-    partner_motion_[3][i] = wrapped_difference(now.uy, now.kick_y);
+    const BodyMotion now = relative_motion(bodies, c.first[i], c.second[i]);
+    c.partner[0][i] = wrapped_difference(now.x, now.ux);
+    c.partner[1][i] = wrapped_difference(now.y, now.uy);
+    c.partner[2][i] = wrapped_difference(now.ux, now.kick_x);
+    c.partner[3][i] = wrapped_difference(now.uy, now.kick_y);
   }
 }
 
@@ -429,11 +437,11 @@ void LiveContacts::remove(std::size_t i) {
 template <LiveContacts::Partner partner, class Turn, class Normal, class Slip>
 void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const ContactModel& model,
                         const Normal& normal, const Slip& slip) {
-  if constexpr (partner == Partner::grain) follow_bodies(bodies);
   const Columns c = columns();
+  if constexpr (partner == Partner::grain) follow_bodies(c, bodies);
   for (std::size_t i = size() - beginning_; i < size(); ++i) {
-    const Touch t = touch(encounter_of<partner>(c, i, bodies, units),
-                          turning_of<partner, Turn>(c, i, bodies, 0.0, units),
+    const Touch t = touch(encounter_of<ByConversion, partner>(c, i, bodies, units),
+                          turning_of<ByConversion, partner, Turn>(c, i, bodies, 0.0, units),
                           Stretch{.spring = 0.0, .time = 0.0}, normal, slip, model.friction,
                           model.attraction, units.dt);
     c.life[RIESEL_LIFE(begin)][i] = units.time - t.since;
@@ -443,9 +451,9 @@ void LiveContacts::step(const Bodies& bodies, const StepUnits& units, const Cont
   beginning_ = 0;
   followed_ = size();
   with_found([&](auto& found) {
-    step_lanes<partner, Turn>(c, found.padded(size()), found.of_lanes.data(),
-                              found.of_blocks.data(), bodies, units, normal, slip, model.friction,
-                              model.rolling_friction, model.attraction);
+    run_vector_loop<StepLoop<partner, Turn>>(
+        c, found.padded(size()), found.of_lanes.data(), found.of_blocks.data(), bodies, units,
+        normal, slip, model.friction, model.rolling_friction, model.attraction);
   });
 }
 

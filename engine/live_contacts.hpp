@@ -107,7 +107,7 @@ private:
   void become_rich();
   void make_harmless(std::size_t i);
   void follow_walls(const Bodies& bodies, const StepUnits& units);
-  void follow_bodies(const Bodies& bodies);
+  void follow_bodies(const Columns& columns, const Bodies& bodies) const;
   void pad();
   template <class Visit>
   void for_each_array(Visit visit);

@@ -8,11 +8,11 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 REPORT = """
 # Overhead  Symbol
-    30.00%  [.] riesel::(anonymous namespace)::step_lanes<(riesel::LiveContacts::Partner)0, riesel::NoTurning, 8ul, rie
+    30.00%  [.] riesel::run_converting_loop<riesel::(anonymous namespace)::StepLoop<(riesel::LiveContacts::Partner)0, riesel::NoTurning>, rie
     10.00%  [.] riesel::LiveContacts::step<(riesel::LiveContacts::Partner)0>(riesel::Bodies const&)
     20.00%  [.] riesel::Appointments::make
     15.00%  [.] riesel::Appointments::link
-     5.00%  [.] riesel::(anonymous namespace)::watch_lanes<8ul>
+     5.00%  [.] riesel::run_adding_loop<riesel::(anonymous namespace)::WatchLoop, unsigned long>
     12.00%  [k] exc_page_fault
      8.00%  [.] riesel::io::(anonymous namespace)::seal_text
 """

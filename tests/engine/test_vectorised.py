@@ -5,6 +5,7 @@ test notices.
 """
 
 import collections
+import itertools
 import json
 import os
 import pathlib
@@ -15,10 +16,12 @@ import unittest
 
 BUILD = pathlib.Path(os.environ["RIESEL_BUILD"])
 SIMD = "#pragma omp simd"
+MACHINES = ("x86-64-v3", "x86-64-v4")
 
-# How many instances of the loops of a file become vector loops with AVX2, at least. Those over
-# contacts: two partners, turning or not, four slip laws, the linear law and Hertz's, few contacts and
-# many; pow() and laws from outside cannot be vectorised.
+# How many instances of the loops of a file become vector loops, at least, with AVX2 and with AVX-512,
+# whose instructions make doubles of integers. Those over contacts: two partners, turning or not, four
+# slip laws, the linear law and Hertz's, few contacts and many; pow() and laws from outside cannot be
+# vectorised.
 EXPECTED = {
     "close_watch.cpp": [1],
     "deflected_grains.cpp": [1, 1],
@@ -36,13 +39,13 @@ def compile_commands():
             and "/tests/" not in e["file"]}
 
 
-def vectorised_lines(entry):
+def vectorised_lines(entry, machine):
     """The lines of the file at which a loop was vectorised, once for each instance."""
     words = shlex.split(entry["command"])
     words = words[next(i for i, w in enumerate(words) if re.search(r"(\+\+|g\+\+-\d+)$", w)):]
     words[words.index("-o") + 1] = os.devnull
     words = [w for w in words if not re.fullmatch(r"-g\d?", w)]
-    words += ["-march=x86-64-v3", "-DRIESEL_VECTOR_KERNEL=", "-fopt-info-vec-optimized", "-S"]
+    words += [f"-march={machine}", "-DRIESEL_VECTOR_KERNEL=", "-fopt-info-vec-optimized", "-S"]
     told = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True, check=True)
     at = re.escape(entry["file"]) + r":(\d+):\d+: optimized: loop vectorized"
     return collections.Counter(int(n) for n in re.findall(at, told.stdout + told.stderr))
@@ -56,13 +59,13 @@ class Vectorised(unittest.TestCase):
 
     def test_loops(self):
         commands = compile_commands()
-        for name, expected in EXPECTED.items():
-            with self.subTest(file=name):
+        for (name, expected), machine in itertools.product(EXPECTED.items(), MACHINES):
+            with self.subTest(file=name, machine=machine):
                 entry = commands[name]
                 lines = pathlib.Path(entry["file"]).read_text(encoding="utf-8").splitlines()
                 pragmas = [n for n, line in enumerate(lines, 1) if SIMD in line]
                 self.assertEqual(len(pragmas), len(expected))
-                told = vectorised_lines(entry)
+                told = vectorised_lines(entry, machine)
                 for pragma, number in zip(pragmas, expected):
                     # GCC names a line of the loop's head, of its body, or of what is inlined there.
                     near = sum(n for line, n in told.items() if abs(line - pragma) <= 10)
