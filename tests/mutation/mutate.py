@@ -41,7 +41,7 @@ def build(targets):
 def first_failure(*selection):
     """The name of a test that fails, or None."""
     tests = run("ctest", "--test-dir", BUILD, *selection, "--stop-on-failure", "-j2", "--timeout", "200")
-    failed = re.findall(r"^\s*\d+ - (.*?) \((?:\S+\s?)+\)", tests.stdout, re.M)
+    failed = re.findall(r"^\s*\d+ - (.*?) \((?!Skipped)(?:\S+\s?)+\)", tests.stdout, re.M)
     return failed[0] if failed else (None if tests.returncode == 0 else "?")
 
 
