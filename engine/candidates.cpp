@@ -87,7 +87,6 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
                        std::size_t slices_per_thread)
     : slip_(slip),
       units_(state.box),
-      cells_(threads),
       team_(threads),
       slices_(team_.members() * slices_per_thread),
       fall_(fall_per_step(state)) {
@@ -194,7 +193,7 @@ void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t st
 
 void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
   const std::size_t member = member_with(share);
-  cells_.sort(state, range(), member);
+  cells_.sort(state, range(), team_, member);
   if (member == 0) start_over(state, step);
   team_.arrive_and_wait();
   for (std::size_t slot = share.front().begin; slot < share.back().end; ++slot) {

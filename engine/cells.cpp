@@ -7,17 +7,17 @@
 
 namespace riesel {
 
-void Cells::sort(State& state, double range, std::size_t member) {
+void Cells::sort(State& state, double range, TeamBarrier& team, std::size_t member) {
   Grains& grains = state.grains;
   if (member == 0) lay_out(state, range);
-  team_.arrive_and_wait();
-  const SlotRange mine = part_of(grains.size(), member, team_.members());
+  team.arrive_and_wait();
+  const SlotRange mine = part_of(grains.size(), member, team.members());
   for (std::size_t i = mine.begin; i < mine.end; ++i) scratch_[i] = cell_at(grains, i);
-  team_.arrive_and_wait();
+  team.arrive_and_wait();
   if (member == 0) count();
-  team_.arrive_and_wait();
-  for_each_array_of(grains, [&](auto& array) { permute(array, mine); });
-  team_.arrive_and_wait();
+  team.arrive_and_wait();
+  for_each_array_of(grains, [&](auto& array) { permute(array, mine, team); });
+  team.arrive_and_wait();
 }
 
 void Cells::lay_out(const State& state, double range) {
@@ -71,11 +71,11 @@ void Cells::count() {
 
 /// Its part of the new values each thread first puts aside, until nobody needs the old ones.
 template <class T>
-void Cells::permute(AlignedVector<T>& values, const SlotRange& mine) {
+void Cells::permute(AlignedVector<T>& values, const SlotRange& mine, TeamBarrier& team) {
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
   for (std::size_t i = mine.begin; i < mine.end; ++i)
     scratch_[i] = std::bit_cast<Bits>(values[old_slot_[i]]);
-  team_.arrive_and_wait();
+  team.arrive_and_wait();
   for (std::size_t i = mine.begin; i < mine.end; ++i)
     values[i] = std::bit_cast<T>(static_cast<Bits>(scratch_[i]));
 }

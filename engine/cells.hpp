@@ -29,12 +29,10 @@ inline SlotRange part_of(std::size_t slots, std::size_t part, std::size_t parts)
 
 class Cells {
 public:
-  explicit Cells(int threads = 1) : team_(threads) {}
-
   /// Sorts the grains of `state` into cells of at least `range` (m): changes the slots, not the
-  /// grains. To be called by all threads together, each with its number; all is done when it
+  /// grains. To be called by all members of the team, each with its number; all is done when it
   /// returns.
-  void sort(State& state, double range, std::size_t member = 0);
+  void sort(State& state, double range, TeamBarrier& team, std::size_t member);
 
   /// Calls visit(SlotRange) for the ranges in which the later partners of `slot` stand: each
   /// unordered pair of grains closer than the range comes up exactly once over all slots, if the
@@ -60,9 +58,8 @@ private:
   std::uint32_t cell_at(const Grains& grains, std::size_t slot) const;
   void count();
   template <class T>
-  void permute(AlignedVector<T>& values, const SlotRange& mine);
+  void permute(AlignedVector<T>& values, const SlotRange& mine, TeamBarrier& team);
 
-  TeamBarrier team_;
   std::size_t columns_ = 1, rows_ = 1;
   Fixed left_edge_ = 0;              // quanta of x
   double columns_per_quantum_ = 0.;  // of x

@@ -24,6 +24,11 @@ State scattered(double width, double length, std::size_t grains, std::uint64_t s
 using Pair = std::pair<std::size_t, std::size_t>;
 
 /// How often each unordered pair of slots comes up.
+void sort_alone(Cells& cells, State& state, double range) {
+  TeamBarrier alone(1);
+  cells.sort(state, range, alone, 0);
+}
+
 std::map<Pair, int> visited_pairs(const Cells& cells, std::size_t grains) {
   std::map<Pair, int> visits;
   for (std::size_t i = 0; i < grains; ++i)
@@ -40,7 +45,7 @@ double distance(const State& state, std::size_t i, std::size_t j) {
 
 void check_pairs(State state, double range) {
   Cells cells;
-  cells.sort(state, range);
+  sort_alone(cells, state, range);
   const std::size_t n = state.grains.size();
   const std::map<Pair, int> visits = visited_pairs(cells, n);
   for (const auto& [pair, times] : visits) {
@@ -79,7 +84,7 @@ TEST_CASE("a single grain has no partners") {
   State state = empty_box(10e-3, 10e-3);
   add_grain(state, grain(3e-3, 3e-3, 0.0, 0.0));
   Cells cells;
-  cells.sort(state, 1e-3);
+  sort_alone(cells, state, 1e-3);
   CHECK(visited_pairs(cells, 1).empty());
 }
 
@@ -87,7 +92,7 @@ TEST_CASE("sorting changes the slots and not the grains") {
   const State before = scattered(7e-3, 20e-3, 200, 2);
   State after = before;
   Cells cells;
-  cells.sort(after, 1e-3);
+  sort_alone(cells, after, 1e-3);
   CHECK(state_hash(after) == state_hash(before));
   CHECK(after.grains.id != before.grains.id);
 }
@@ -95,18 +100,18 @@ TEST_CASE("sorting changes the slots and not the grains") {
 TEST_CASE("sorting what is sorted changes nothing") {
   State once = scattered(7e-3, 20e-3, 200, 3);
   Cells cells;
-  cells.sort(once, 1e-3);
+  sort_alone(cells, once, 1e-3);
   State twice = once;
-  cells.sort(twice, 1e-3);
+  sort_alone(cells, twice, 1e-3);
   CHECK(twice.grains.id == once.grains.id);
 }
 
 TEST_CASE("a grid that is used again forgets the grains it had") {
   Cells cells;
   State many = scattered(7e-3, 20e-3, 200, 4);
-  cells.sort(many, 1e-3);
+  sort_alone(cells, many, 1e-3);
   State few = scattered(7e-3, 5e-3, 20, 5);
-  cells.sort(few, 1e-3);
+  sort_alone(cells, few, 1e-3);
   for (const auto& [pair, times] : visited_pairs(cells, 20)) {
     CHECK(times == 1);
     CHECK(pair.second < 20);
