@@ -2,6 +2,8 @@
 
 #include "app/cost.hpp"
 #include "app/stepping.hpp"
+#include "app/sweep_runner.hpp"
+#include "engine/parallel_problems.hpp"
 #include "io/sweep_file.hpp"
 #include "io/sweep_points.hpp"
 #include "scenarios/continued_start.hpp"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <variant>
 
@@ -63,18 +66,23 @@ struct Cost {
 };
 
 /// Measures a few runs from the cheapest to the dearest, and takes each other one to be as fast as
-/// the nearest of them.
+/// the nearest of them. They are measured side by side, as they will be done.
 void estimate_seconds(std::vector<Cost*> costs) {
   constexpr std::size_t most_measured = 12;
   std::stable_sort(costs.begin(), costs.end(),
                    [](const Cost* a, const Cost* b) { return a->work < b->work; });
   const std::size_t measured = std::min(most_measured, costs.size());
+  std::vector<std::span<Cost*>> parts;
   for (std::size_t part = 0; part < measured; ++part) {
     const std::size_t begin = part * costs.size() / measured;
     const std::size_t end = (part + 1) * costs.size() / measured;
-    const double rate = seconds_per_work(costs[(begin + end) / 2]->point->settings);
-    for (std::size_t i = begin; i < end; ++i) costs[i]->seconds = rate * costs[i]->work;
+    parts.push_back(std::span(costs).subspan(begin, end - begin));
   }
+  const std::vector<double> rates = solve_all(parts, cores(), [](const std::span<Cost*>& part) {
+    return seconds_per_work(part[part.size() / 2]->point->settings);
+  });
+  for (std::size_t part = 0; part < measured; ++part)
+    for (Cost* const cost : parts[part]) cost->seconds = rates[part] * cost->work;
 }
 
 /// By the name of the run. Throws SettingsError for a run that cannot be.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr auto member = "tube_start";  // each run is one of this case
 constexpr int seeds = 6;
-constexpr double duration = 0.2;  // s of each run, at full effort
+constexpr double duration = 0.5;  // s of each run, at full effort
 
 /// What came out of all runs of a sweep.
 struct Outcome {
