@@ -4,17 +4,21 @@
 #include "engine/wall_lattice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
+#include <utility>
 
 namespace riesel {
 
 namespace {
 
-/// Enough for vectors to be full, not so many that they leave the cache.
-constexpr std::uint32_t appointments_at_a_time = 1024;
+/// Of a grain that are to be reconsidered: more than most grains have.
+constexpr std::uint32_t candidates_at_a_time = 8;
+
+/// That are sifted: not so many that they leave the cache.
+constexpr std::size_t pairs_at_a_time = 1024;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
@@ -72,9 +76,8 @@ double steps_to_nearest(const Flight& f, const WallLattice& wall, double reach, 
 void Appointments::start_over() {
   const std::size_t candidates = slice_.pairs.size() + slice_.near_walls.size();
   calendar_.clear();
-  due_.assign(candidates, {Appointment::never, false});
-  pairs_.clear();
-  near_walls_.clear();
+  due_.assign(candidates + candidates_at_a_time, {Appointment::never, false});
+  reconsidered_.clear();
   link();
 }
 
@@ -97,75 +100,94 @@ void Appointments::link() {
     first_link_[i] += first_link_[i - 1];
   }
   links_.clear();  // which makes the next line take no more than it needs
-  links_.resize(first_link_.back());
+  links_.resize(first_link_.back() + candidates_at_a_time);
   // Each link goes to the end of what is left of its grain's part.
   for_each_link([&](std::size_t grain, std::uint32_t candidate) {
     links_[--first_link_[grain + 1]] = candidate;
   });
   first_link_.erase(first_link_.begin());
-  first_link_.push_back(static_cast<std::uint32_t>(links_.size()));
+  first_link_.push_back(static_cast<std::uint32_t>(links_.size()) - candidates_at_a_time);
 }
 
-template <class Visit>
-void Appointments::for_each_candidate_of(std::uint32_t slot, Visit visit) const {
+/// Several candidates are written at a time, whether they are wanted, or there, or not.
+template <class Wanted>
+void Appointments::reconsider_if(std::uint32_t slot, Wanted wanted) {
   const std::size_t grain = border_.number(slot);
-  for (std::uint32_t p = first_pair_[grain]; p < first_pair_[grain + 1]; ++p) visit(p);
-  for (std::uint32_t l = first_link_[grain]; l < first_link_[grain + 1]; ++l) visit(links_[l]);
-}
-
-void Appointments::reconsider_candidate(std::uint32_t candidate) {
-  if (candidate < pair_count())
-    pairs_.push_back(candidate);
-  else
-    near_walls_.push_back(candidate - pair_count());
+  const auto add = [&](std::uint32_t count, auto candidate) {
+    for (std::uint32_t begin = 0; begin < count; begin += candidates_at_a_time) {
+      std::uint32_t* const room = reconsidered_.room_for(candidates_at_a_time);
+      std::size_t found = 0;
+      for (std::uint32_t k = begin; k < begin + candidates_at_a_time; ++k) {
+        room[found] = candidate(k);
+        found +=
+            static_cast<std::size_t>(wanted(room[found])) & static_cast<std::size_t>(k < count);
+      }
+      reconsidered_.take(found);
+    }
+  };
+  const std::uint32_t pair = first_pair_[grain], link = first_link_[grain];
+  add(first_pair_[grain + 1] - pair, [&](std::uint32_t k) { return pair + k; });
+  add(first_link_[grain + 1] - link, [&](std::uint32_t k) { return links_[link + k]; });
 }
 
 void Appointments::reconsider(std::uint32_t slot) {
-  for_each_candidate_of(slot, [&](std::uint32_t candidate) { reconsider_candidate(candidate); });
+  reconsider_if(slot, [](std::uint32_t) { return true; });
 }
 
 void Appointments::reconsider_exact(std::uint32_t slot) {
-  for_each_candidate_of(slot, [&](std::uint32_t candidate) {
-    if (due_[candidate].exact()) reconsider_candidate(candidate);
-  });
+  reconsider_if(slot, [this](std::uint32_t candidate) { return due_[candidate].exact(); });
 }
 
 void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
-  pairs_.clear();
-  near_walls_.resize(slice_.near_walls.size());
-  std::iota(near_walls_.begin(), near_walls_.end(), 0U);
+  reconsidered_.clear();
+  for (std::uint32_t near = 0; near < slice_.near_walls.size(); ++near) reconsider_near_wall(near);
   make(now, earliest, hold_until);
   const std::int64_t horizon = std::max(hold_until, earliest) - now;
-  for (std::size_t begin = 0; begin < pair_count(); begin += appointments_at_a_time) {
-    const std::size_t end = std::min<std::size_t>(begin + appointments_at_a_time, pair_count());
-    sift(slice_, {begin, end}, state_, horizon, tolerance_, pairs_);
+  for (std::size_t begin = 0; begin < pair_count(); begin += pairs_at_a_time) {
+    const std::size_t end = std::min<std::size_t>(begin + pairs_at_a_time, pair_count());
+    sift(slice_, {begin, end}, state_, horizon, tolerance_, reconsidered_);
     make(now, earliest, hold_until);
   }
 }
 
-/// Pairs that are in contact or watched have none.
+/// Whether it is a pair neither in contact nor watched.
 bool Appointments::needs_appointment(std::uint32_t pair) const {
-  const bool in_contact = slice_.pairs.reach2[pair] < 0.0F;
-  return !in_contact && !due_[pair].is_for(Appointment::always);
+  return !std::signbit(slice_.pairs.reach2[pair]) & !due_[pair].is_for(Appointment::always);
 }
 
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
   const Period period{.now = now, .earliest = earliest, .latest = std::max(hold_until, earliest)};
-  std::erase_if(pairs_, [this](std::uint32_t pair) { return !needs_appointment(pair); });
-  for (std::size_t begin = 0; begin < pairs_.size(); begin += appointments_at_a_time) {
-    const auto some = std::span(pairs_).subspan(
-        begin, std::min<std::size_t>(appointments_at_a_time, pairs_.size() - begin));
+  reconsidered_.keep_if([&](std::uint32_t candidate) {
+    if (candidate < pair_count()) return needs_appointment(candidate);
+    const double steps =
+        free_steps_at_wall(slice_.near_walls[candidate - pair_count()], period.now);
+    enter(candidate, Forecast::whole_steps(steps), true, period);
+    return false;
+  });
+  const auto pairs = std::as_const(reconsidered_).items();
+  for (std::size_t begin = 0; begin < pairs.size(); begin += Forecast::most_pairs) {
+    const auto some = pairs.subspan(begin, std::min(Forecast::most_pairs, pairs.size() - begin));
     foresee(slice_, some, state_, courses_, now, tolerance_, forecast_);
-    for (std::size_t k = 0; k < some.size(); ++k)
-      enter(some[k], forecast_.free_steps[k], forecast_.exact[k] != 0, period);
+    enter_pairs(some, period);
   }
-  for (const std::uint32_t near_wall : near_walls_) {
-    const double steps = free_steps_at_wall(slice_.near_walls[near_wall], now);
-    enter(pair_count() + near_wall, Forecast::whole_steps(steps), true, period);
+  reconsidered_.clear();
+}
+
+/// What has just been foreseen. Most pairs do not meet before all is made anew: of these it is
+/// noted without branches to guess.
+void Appointments::enter_pairs(std::span<const std::uint32_t> pairs, const Period& period) {
+  std::array<std::uint32_t, Forecast::most_pairs> soon;
+  std::size_t found = 0;
+  for (std::uint32_t k = 0; k < pairs.size(); ++k) {
+    const std::int64_t in_time = period.latest - period.now - forecast_.free_steps[k];
+    const auto late = static_cast<std::int32_t>(in_time >> 63);  // -1 if it is negative
+    due_[pairs[k]].replace_by({Appointment::never, forecast_.exact[k] != 0}, late);
+    soon[found] = k;
+    found += static_cast<std::size_t>(1 + late);
   }
-  pairs_.clear();
-  near_walls_.clear();
+  for (const std::uint32_t k : std::span(soon).first(found))
+    enter(pairs[k], forecast_.free_steps[k], forecast_.exact[k] != 0, period);
 }
 
 void Appointments::make_for_next_step(std::uint32_t pair, std::int64_t now, int strays) {

@@ -10,11 +10,13 @@
 #include "engine/calendar.hpp"
 #include "engine/courses.hpp"
 #include "engine/free_flight.hpp"
+#include "engine/selection.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace riesel {
@@ -33,6 +35,11 @@ public:
   bool is_for(std::int32_t step) const { return word_ >> 1 == step; }
   bool exact() const { return (word_ & 1) != 0; }
   void cancel() { *this = {never, exact()}; }
+  /// Becomes `other` if `mask` is -1, stays if it is 0: without a branch, which GCC makes of a
+  /// selection.
+  void replace_by(Appointment other, std::int32_t mask) {
+    word_ = (word_ & ~mask) | (other.word_ & mask);
+  }
 
 private:
   std::int32_t word_;
@@ -52,8 +59,10 @@ public:
   /// pair, or a grain near a wall, by their index in the slice.
   void reconsider(std::uint32_t slot);
   void reconsider_exact(std::uint32_t slot);
-  void reconsider_pair(std::uint32_t pair) { pairs_.push_back(pair); }
-  void reconsider_near_wall(std::uint32_t near_wall) { near_walls_.push_back(near_wall); }
+  void reconsider_pair(std::uint32_t pair) { reconsidered_.add(pair); }
+  void reconsider_near_wall(std::uint32_t near_wall) {
+    reconsidered_.add(pair_count() + near_wall);
+  }
 
   /// For a pair that is closer than the grains of it that may stray, 1 or 2, can go.
   void make_for_next_step(std::uint32_t pair, std::int64_t now, int strays);
@@ -70,7 +79,7 @@ public:
   /// appointment then.
   template <class LookAtPair, class LookAtNearWall>
   void keep(std::int64_t step, LookAtPair look_at_pair, LookAtNearWall look_at_near_wall) {
-    const auto& today = calendar_.due_in(step);
+    const auto today = calendar_.due_in(step);
     const std::int32_t now = since_sorted(step);
     for (const std::uint32_t candidate : today) {
       if (!due_[candidate].is_for(now)) continue;  // it has another appointment since
@@ -84,13 +93,13 @@ public:
 
 private:
   void link();
-  template <class Visit>
-  void for_each_candidate_of(std::uint32_t slot, Visit visit) const;
-  void reconsider_candidate(std::uint32_t candidate);
+  template <class Wanted>
+  void reconsider_if(std::uint32_t slot, Wanted wanted);
   bool needs_appointment(std::uint32_t pair) const;
   struct Period {
     std::int64_t now, earliest, latest;  // steps
   };
+  void enter_pairs(std::span<const std::uint32_t> pairs, const Period& period);
   void enter(std::uint32_t candidate, std::int64_t free_steps, bool exact, const Period& period);
   double free_steps_at_wall(const NearWall& near, std::int64_t now) const;
 
@@ -109,10 +118,10 @@ private:
   Calendar calendar_;
   std::vector<Appointment> due_;  // of each candidate
   // The candidates of a slot of the slice: pairs from first_pair_ on, and links_ from first_link_
-  // on.
+  // on. Of links_ and due_ a few more can be read.
   std::vector<std::uint32_t> first_pair_, first_link_, links_;
-  std::vector<std::uint32_t> pairs_, near_walls_;  // to be reconsidered
-  Forecast forecast_;
+  Selection reconsidered_;  // candidates
+  Forecast forecast_{};
 };
 
 }  // namespace riesel

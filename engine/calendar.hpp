@@ -5,11 +5,13 @@
 #pragma once
 
 #include "engine/aligned.hpp"
+#include "engine/selection.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace riesel {
@@ -31,18 +33,20 @@ public:
   }
 
   /// The appointments of this step, which leave the calendar.
-  const std::vector<std::uint32_t>& due_in(std::int64_t step) {
+  std::span<const std::uint32_t> due_in(std::int64_t step) {
     Bucket& from = bucket(step);
     today_.clear();
     while (from.count > 0) {
       const Sheet& sheet = sheets_[from.last];
       const std::uint32_t on_it = (from.count - 1) % Sheet::room + 1;
-      today_.insert(today_.end(), sheet.appointments.begin(), sheet.appointments.begin() + on_it);
+      // All of it, whatever is on it: so many words are copied at once.
+      std::copy_n(sheet.appointments.begin(), Sheet::room, today_.room_for(Sheet::room));
+      today_.take(on_it);
       from.count -= on_it;
       unused_.push_back(from.last);
       from.last = sheet.before;
     }
-    return today_;
+    return today_.items();
   }
 
   void clear() {
@@ -55,8 +59,8 @@ private:
   struct alignas(cache_line) Sheet {
     static constexpr std::uint32_t room = 15;  // so that it is one cache line
 
-    std::array<std::uint32_t, room> appointments;
-    std::uint32_t before;  // the sheet filled before this one
+    std::array<std::uint32_t, room> appointments{};
+    std::uint32_t before = 0;  // the sheet filled before this one
   };
   struct Bucket {
     std::uint32_t count = 0;  // of appointments: all sheets but the last are full
@@ -81,7 +85,7 @@ private:
   std::vector<Bucket> buckets_;
   AlignedVector<Sheet> sheets_;
   std::vector<std::uint32_t> unused_;  // sheets
-  std::vector<std::uint32_t> today_;
+  Selection today_;
 };
 
 }  // namespace riesel

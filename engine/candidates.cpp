@@ -91,7 +91,9 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
       slices_(team_.members() * slices_per_thread),
       fall_(fall_per_step(state)) {
   const Grains& grains = state.grains;
-  max_radius_ = *std::max_element(grains.radius.begin(), grains.radius.end());
+  const auto [least, most] = std::minmax_element(grains.radius.begin(), grains.radius.end());
+  max_radius_ = *most;
+  one_size_ = *least == *most;
   double largest_partner = max_radius_;
   for (const WallLattice& wall : state.walls)
     largest_partner = std::max(largest_partner, wall.radius);
@@ -244,24 +246,29 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   drift_.y = wrapped_sum(grains.uy.front(), middle);
 }
 
-/// First the pairs within the longest reach, a few at a time, then of them those within their own.
+/// First the pairs within the longest reach, a few at a time, then of them those within their own;
+/// which are all of them if all grains have one size.
 void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPair>& close) const {
   constexpr std::size_t slots_at_a_time = 1024;
   const Grains& grains = state.grains;
   const float farthest2 = units_.generous_square(range());
+  const float longest_reach2 = units_.generous_square(2.0 * max_radius_);
   mine.pairs.clear();
   for (std::size_t begin = mine.begin; begin < mine.end; begin += slots_at_a_time) {
     const SlotRange slots{begin, std::min(begin + slots_at_a_time, mine.end)};
     find_close(cells_, slots, when_sorted_, units_, farthest2, close);
     std::size_t found = mine.pairs.size();
     mine.pairs.resize(found + close.size());
-    for (const auto& [i, j] : close) {
-      const double reach = grains.radius[i] + grains.radius[j];
-      const float square = when_sorted_.squared_distance(i, j, units_);
-      // The next one is written over it if it is too far away: no branch to guess.
-      mine.pairs.set(found, i, j, units_.generous_square(reach));
-      found += square < units_.generous_square(reach + skin_) ? 1U : 0U;
-    }
+    if (one_size_)
+      for (const auto& [i, j] : close) mine.pairs.set(found++, i, j, longest_reach2);
+    else
+      for (const auto& [i, j] : close) {
+        const double reach = grains.radius[i] + grains.radius[j];
+        const float square = when_sorted_.squared_distance(i, j, units_);
+        // The next one is written over it if it is too far away: no branch to guess.
+        mine.pairs.set(found, i, j, units_.generous_square(reach));
+        found += square < units_.generous_square(reach + skin_) ? 1U : 0U;
+      }
     mine.pairs.resize(found);
     // Room for the rest without doubling again and again.
     if (begin == mine.begin)

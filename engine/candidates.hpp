@@ -161,6 +161,7 @@ private:
   SlipLaw slip_;  // of the contacts that end in a sorting
   double skin_;   // m
   double max_radius_;
+  bool one_size_;  // all grains have this radius
   CoarseUnits units_;
   Cells cells_;
   CoarsePositions when_sorted_;

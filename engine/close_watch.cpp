@@ -40,21 +40,17 @@ template <class Numbers>
 }
 
 struct WatchLoop {
-  /// Sets the flags of the pairs that are due, and those of blocks that have such a pair; `count`
-  /// is a multiple of their lanes.
+  /// Finds the pairs that are due; `count` is a multiple of the lanes.
   template <class Numbers>
-  [[gnu::always_inline]] static void run(std::size_t count, Watched w, Sight s, std::int64_t* flags,
-                                         std::int64_t* block_flags) {
-    constexpr std::size_t lanes = LaneFlags<std::int64_t>::lanes;
-    for (std::size_t block = 0; block < count; block += lanes) {
-      std::int64_t any = 0;
-#pragma omp simd reduction(| : any)
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const std::int64_t due = is_due<Numbers>(w, block + lane, s) ? 1 : 0;
-        flags[block + lane] = due;
-        any |= due;
-      }
-      block_flags[block / lanes] = any;
+  [[gnu::always_inline]] static void run(std::size_t count, Watched w, Sight s,
+                                         std::uint64_t* block_masks) {
+    using Due = LaneMasks<std::uint64_t>;
+    for (std::size_t block = 0; block < count / Due::lanes; ++block) {
+      std::uint64_t mask = 0;
+#pragma omp simd reduction(| : mask)
+      for (std::size_t lane = 0; lane < Due::lanes; ++lane)
+        mask |= Due::bit_if(is_due<Numbers>(w, block * Due::lanes + lane, s) ? 1 : 0, lane);
+      block_masks[block] = mask;
     }
   }
 };
@@ -133,9 +129,8 @@ const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
     for (std::size_t i = 0; i < count; ++i)
       if (is_due<ByConversion>(watched, i, sight)) leaving_.push_back(i);
   } else {
-    run_vector_loop<WatchLoop>(Due::padded(count), watched, sight, are_due_.of_lanes.data(),
-                               are_due_.of_blocks.data());
-    are_due_.for_each_set(count, [this](std::size_t i, std::int64_t) { leaving_.push_back(i); });
+    run_vector_loop<WatchLoop>(Due::padded(count), watched, sight, are_due_.of_blocks.data());
+    are_due_.for_each_found(count, [this](std::size_t i) { leaving_.push_back(i); });
   }
   // From the end, as the last pair takes the place of the one that goes.
   std::reverse(leaving_.begin(), leaving_.end());

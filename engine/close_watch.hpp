@@ -7,7 +7,7 @@
 #include "engine/deflected_grains.hpp"
 #include "engine/encounter.hpp"
 #include "engine/fixed_point.hpp"
-#include "engine/lane_flags.hpp"
+#include "engine/lane_masks.hpp"
 
 #include <array>
 #include <cstddef>
@@ -35,7 +35,7 @@ public:
                                            const DeflectedGrains& deflected);
 
 private:
-  using Due = LaneFlags<std::int64_t>;
+  using Due = LaneMasks<std::uint64_t>;
   /// The grains of the pairs, and where the second is if it flies.
   struct Columns {
     std::array<AlignedVector<std::int64_t>, 2> slot, place;

@@ -66,13 +66,8 @@ void count_work_of_walls(Slice& slice, const StepUnits& units);
 /// bodies; the place is that in the Bodies of that step.
 template <class GiveKick>
 void for_each_kick(const Slice& slice, GiveKick kick) {
-  const LiveContacts& pairs = slice.pair_contacts;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    kick(pairs.first(i), pairs.kick_of_first(i));
-    kick(pairs.second(i), pairs.kick_of_second(i));
-  }
-  const LiveContacts& walls = slice.wall_contacts;
-  for (std::size_t i = 0; i < walls.size(); ++i) kick(walls.first(i), walls.kick_of_first(i));
+  slice.pair_contacts.for_each_kick(kick);
+  slice.wall_contacts.for_each_kick(kick);
 }
 
 /// One step of the contacts of `slice`: those that last, and those that begin among its hits. The

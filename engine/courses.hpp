@@ -3,9 +3,10 @@
 // While flights go on the store (Grains) holds the course of each grain: its displacement per step,
 // and where it would have been in one step for all, the origin, had it always gone like this. So
 // two courses differ by a straight line in any step, whenever they were set: gravity and the time
-// since then do not enter. Integers make the detour over the origin exact. A flying grain keeps to
-// its course. A deflected one, which takes part in a contact, does not; where it is stands
-// elsewhere (DeflectedGrains), at a place that is noted here.
+// since then do not enter. Integers make the detour over the origin exact. Kicks that the store has
+// mean nothing meanwhile. A flying grain keeps to its course. A deflected one, which takes part in
+// a contact, does not; where it is stands elsewhere (DeflectedGrains), at a place that is noted
+// here.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -55,24 +56,27 @@ public:
   Fixed y(std::uint32_t slot, std::int64_t step) const {
     return wrapped_sum(grains_.y[slot], way(grains_.uy[slot], fall_.y, step));
   }
+  /// Without kicks, which a grain that keeps to its course does not get.
   Motion motion(std::uint32_t slot, std::int64_t step) const {
     return {.x = x(slot, step),
             .y = y(slot, step),
             .ux = grains_.ux[slot],
             .uy = grains_.uy[slot],
-            .kick_x = grains_.kick_x[slot],
-            .kick_y = grains_.kick_y[slot],
+            .kick_x = 0,
+            .kick_y = 0,
             .spin = grains_.spin_of(slot),
-            .spin_kick = grains_.spin_kick_of(slot)};
+            .spin_kick = 0};
   }
 
-  /// From `step` on the grain is expected to go on like this.
-  void set(std::uint32_t slot, Motion m, std::int64_t step) {
-    m.x = wrapped_difference(m.x, way(m.ux, fall_.x, step));
-    m.y = wrapped_difference(m.y, way(m.uy, fall_.y, step));
-    put(slot, m);
+  /// From `step` on the grain is expected to go on like this, with no more kicks.
+  void set(std::uint32_t slot, const Motion& m, std::int64_t step) {
+    grains_.x[slot] = wrapped_difference(m.x, way(m.ux, fall_.x, step));
+    grains_.y[slot] = wrapped_difference(m.y, way(m.uy, fall_.y, step));
+    grains_.ux[slot] = m.ux;
+    grains_.uy[slot] = m.uy;
+    if (grains_.rotate()) grains_.spin[slot] = m.spin;
   }
-  /// The same from the origin on, or from the step that is about to become it.
+  /// The grain is like this in the step that is about to become the origin.
   void put(std::uint32_t slot, const Motion& m) {
     grains_.x[slot] = m.x;
     grains_.y[slot] = m.y;

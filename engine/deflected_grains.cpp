@@ -7,48 +7,63 @@
 
 namespace riesel {
 
+struct DeflectedGrains::Axis {
+  const Fixed* kick;
+  Fixed *u, *position;
+  Fixed *off_u, *off;
+};
+
 namespace {
 
-/// Along one axis; `count` is a multiple of `lanes`.
-template <std::size_t lanes>
-RIESEL_VECTOR_KERNEL void move_lanes(std::size_t count, Fixed fallen, const Fixed* kick, Fixed* u,
-                                     Fixed* position, Fixed* off_u, Fixed* off) {
+/// Place i moves on by a step.
+template <class Axis>
+[[gnu::always_inline]] inline void move_along(const Axis& a, std::size_t i, Fixed fallen) {
+  const Fixed u = wrapped_sum(a.u[i], a.kick[i]);
+  const Fixed off_u = wrapped_sum(a.off_u[i], a.kick[i]);
+  a.u[i] = u;
+  a.position[i] = wrapped_sum(a.position[i], wrapped_sum(u, fallen));
+  a.off_u[i] = off_u;
+  a.off[i] = wrapped_sum(a.off[i], off_u);
+}
+
+/// `count` is a multiple of `lanes`.
+template <std::size_t lanes, class Axis>
+RIESEL_VECTOR_KERNEL void move_lanes(std::size_t count, const Axis& along_x, const Axis& along_y,
+                                     const Fall& fallen) {
+  const Axis x = along_x, y = along_y;  // what others refer to may change with each store
+  const Fall f = fallen;
   for (std::size_t block = 0; block < count; block += lanes) {
 #pragma omp simd
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t i = block + lane;
-      u[i] = wrapped_sum(u[i], kick[i]);
-      position[i] = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
-      off_u[i] = wrapped_sum(off_u[i], kick[i]);
-      off[i] = wrapped_sum(off[i], off_u[i]);
+      move_along(x, block + lane, f.x);
+      move_along(y, block + lane, f.y);
     }
   }
 }
 
-/// One axis of the deviation from the course.
-struct Deviation {
-  const Fixed *kick, *off_u, *off;
-  Fixed tolerance;
-};
+/// 1 if the next step leads beyond the tolerance (quanta).
+template <class Axis>
+[[gnu::always_inline]] inline std::uint64_t strays_along(const Axis& a, std::size_t i,
+                                                         Fixed tolerance) {
+  const Fixed next = wrapped_sum(a.off[i], wrapped_sum(a.off_u[i], a.kick[i]));
+  return next > tolerance || next < -tolerance ? 1 : 0;
+}
 
-/// Sets flags where the next step leads beyond the tolerance along an axis, and blocks[b] where one
-/// of its lanes has.
-template <std::size_t lanes>
-RIESEL_VECTOR_KERNEL void flag_strays(std::size_t count, Deviation x, Deviation y,
-                                      std::int64_t* flags, std::int64_t* blocks) {
-  for (std::size_t block = 0; block < count; block += lanes) {
-    std::int64_t any = 0;
-#pragma omp simd reduction(| : any)
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t i = block + lane;
-      const Fixed next_x = wrapped_sum(x.off[i], wrapped_sum(x.off_u[i], x.kick[i]));
-      const Fixed next_y = wrapped_sum(y.off[i], wrapped_sum(y.off_u[i], y.kick[i]));
-      const std::int64_t beyond_x = next_x > x.tolerance || next_x < -x.tolerance ? 1 : 0;
-      const std::int64_t beyond_y = next_y > y.tolerance || next_y < -y.tolerance ? 1 : 0;
-      flags[i] = beyond_x | beyond_y;
-      any |= beyond_x | beyond_y;
+/// Finds where the next step leads beyond the tolerance along an axis.
+template <class Strays, class Axis>
+RIESEL_VECTOR_KERNEL void find_strays(std::size_t count, const Axis& along_x, const Axis& along_y,
+                                      Fixed tolerance_x, Fixed tolerance_y,
+                                      std::uint64_t* block_masks) {
+  const Axis x = along_x, y = along_y;
+  for (std::size_t block = 0; block < count / Strays::lanes; ++block) {
+    std::uint64_t mask = 0;
+#pragma omp simd reduction(| : mask)
+    for (std::size_t lane = 0; lane < Strays::lanes; ++lane) {
+      const std::size_t i = block * Strays::lanes + lane;
+      mask |=
+          Strays::bit_if(strays_along(x, i, tolerance_x) | strays_along(y, i, tolerance_y), lane);
     }
-    blocks[block / lanes] = any;
+    block_masks[block] = mask;
   }
 }
 
@@ -120,12 +135,19 @@ Bodies DeflectedGrains::bodies() const {
           .inertia = inertia_};
 }
 
+DeflectedGrains::Axis DeflectedGrains::along(std::size_t axis) {
+  const auto column = [&](Column of_x) {
+    return columns_[static_cast<std::size_t>(of_x) + axis].data();
+  };
+  return {.kick = column(at_kick_x),
+          .u = column(at_ux),
+          .position = column(at_x),
+          .off_u = column(off_ux),
+          .off = column(off_x)};
+}
+
 void DeflectedGrains::move(const Fall& fallen) {
-  auto& c = columns_;
-  move_lanes<Strays::lanes>(padded_size(), fallen.x, c[at_kick_x].data(), c[at_ux].data(),
-                            c[at_x].data(), c[off_ux].data(), c[off_x].data());
-  move_lanes<Strays::lanes>(padded_size(), fallen.y, c[at_kick_y].data(), c[at_uy].data(),
-                            c[at_y].data(), c[off_uy].data(), c[off_y].data());
+  move_lanes<Strays::lanes>(padded_size(), along(x_axis), along(y_axis), fallen);
   for (std::size_t i = 0; i < spin_.size(); ++i) spin_[i] = wrapped_sum(spin_[i], spin_kick_[i]);
 }
 
@@ -144,21 +166,11 @@ void DeflectedGrains::set_course(Place place) {
 
 const std::vector<DeflectedGrains::Place>& DeflectedGrains::straying(Fixed tolerance_x,
                                                                      Fixed tolerance_y) {
-  const auto& c = columns_;
-  flag_strays<Strays::lanes>(padded_size(),
-                             {.kick = c[at_kick_x].data(),
-                              .off_u = c[off_ux].data(),
-                              .off = c[off_x].data(),
-                              .tolerance = tolerance_x},
-                             {.kick = c[at_kick_y].data(),
-                              .off_u = c[off_uy].data(),
-                              .off = c[off_y].data(),
-                              .tolerance = tolerance_y},
-                             strays_.of_lanes.data(), strays_.of_blocks.data());
+  find_strays<Strays>(padded_size(), along(x_axis), along(y_axis), tolerance_x, tolerance_y,
+                      strays_.of_blocks.data());
   straying_.clear();
-  strays_.for_each_set(end(), [this](std::size_t place, std::int64_t) {
-    straying_.push_back(static_cast<Place>(place));
-  });
+  strays_.for_each_found(
+      end(), [this](std::size_t place) { straying_.push_back(static_cast<Place>(place)); });
   return straying_;
 }
 

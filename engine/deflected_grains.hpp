@@ -8,7 +8,7 @@
 #include "engine/courses.hpp"
 #include "engine/encounter.hpp"
 #include "engine/fixed_point.hpp"
-#include "engine/lane_flags.hpp"
+#include "engine/lane_masks.hpp"
 
 #include <array>
 #include <cstddef>
@@ -50,7 +50,7 @@ public:
     const auto at = static_cast<std::size_t>(place);
     columns_[at_kick_x][at] = wrapped_sum(columns_[at_kick_x][at], kick.x);
     columns_[at_kick_y][at] = wrapped_sum(columns_[at_kick_y][at], kick.y);
-    if (rotate()) spin_kick_[at] = wrapped_sum(spin_kick_[at], kick.spin);
+    if (kick.spin != 0) spin_kick_[at] = wrapped_sum(spin_kick_[at], kick.spin);
   }
 
   /// From here on the course is the present motion, the kick included.
@@ -61,7 +61,7 @@ public:
 
 private:
   static constexpr std::uint32_t no_slot = UINT32_MAX;
-  /// off_...: actual minus course.
+  /// off_...: actual minus course. What is along y follows what is along x.
   enum Column {
     at_x,
     at_y,
@@ -75,8 +75,11 @@ private:
     off_uy,
     column_count
   };
+  static constexpr std::size_t x_axis = 0, y_axis = 1;
+  struct Axis;  // pointers to the columns along one axis, for the loops
+  Axis along(std::size_t axis);
 
-  using Strays = LaneFlags<std::int64_t>;
+  using Strays = LaneMasks<std::uint64_t>;
 
   bool rotate() const { return inertia_ > 0.0; }
   std::size_t padded_size() const { return Strays::padded(slots_.size()); }

@@ -131,7 +131,7 @@ void FlightRegion::begin(std::int64_t step, std::int64_t earliest) {
 
 /// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
 void FlightRegion::take_up_contacts(std::int64_t step) {
-  for (const Kick& kick : slice_.received) deflect(kick.slot, step);
+  for (const Kick& kick : slice_.received) deflected_.add_kick(deflect(kick.slot, step), kick.by);
   for (LiveContacts* contacts : {&slice_.pair_contacts, &slice_.wall_contacts})
     for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
 }
@@ -357,19 +357,18 @@ void FlightRegion::release(DeflectedGrains::Place place) {
 void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step) {
   const std::uint32_t slot = deflected_.slot(place);
   const Motion m = deflected_.motion(place);
-  airspace_.courses.set(slot,
-                        {.x = m.x,
-                         .y = m.y,
-                         .ux = wrapped_sum(m.ux, m.kick_x),
-                         .uy = wrapped_sum(m.uy, m.kick_y),
-                         .kick_x = 0,
-                         .kick_y = 0,
-                         .spin = wrapped_sum(m.spin, m.spin_kick),
-                         .spin_kick = 0},
-                        step);
+  const Motion course{.x = m.x,
+                      .y = m.y,
+                      .ux = wrapped_sum(m.ux, m.kick_x),
+                      .uy = wrapped_sum(m.uy, m.kick_y),
+                      .kick_x = 0,
+                      .kick_y = 0,
+                      .spin = wrapped_sum(m.spin, m.spin_kick),
+                      .spin_kick = 0};
+  airspace_.courses.set(slot, course, step);
   deflected_.set_course(place);
   std::int64_t& hold_until = border_.mine().hold_until;
-  hold_until = std::min(hold_until, skin_guard_.hold_until(slot, step));
+  hold_until = std::min(hold_until, skin_guard_.hold_until(slot, course, step));
   border_.announce_course(slot);
   appointments_.reconsider(slot);
 }

@@ -44,25 +44,26 @@ Paths paths_of(const Grains& g) {
           .radius = g.radius.data()};
 }
 
-/// Columns of Forecast::Approaches.
-struct ApproachingPairs {
-  const double *x, *y, *ux, *uy, *reach, *strays;
+struct Metres {
+  double x, y;  // per quantum
 };
 
 struct ForesightLoop {
   template <class Numbers>
-  [[gnu::always_inline]] static void run(std::size_t count, ApproachingPairs p, double tolerance,
-                                         std::int64_t* free_steps, std::int64_t* exact) {
+  [[gnu::always_inline]] static void run(std::size_t count, Metres metres, double tolerance,
+                                         Forecast* forecast) {
+    Forecast& f = *forecast;
 #pragma omp simd
     for (std::size_t k = 0; k < count; ++k) {
-      const double patient =
-          first_touch(p.x[k], p.y[k], p.ux[k], p.uy[k], p.reach[k] + most_strays * tolerance);
-      const double closer =
-          first_touch(p.x[k], p.y[k], p.ux[k], p.uy[k], p.reach[k] + p.strays[k] * tolerance);
-      free_steps[k] =
+      const double x = Numbers::real(f.x[k]) * metres.x, y = Numbers::real(f.y[k]) * metres.y;
+      const double ux = Numbers::real(f.ux[k]) * metres.x, uy = Numbers::real(f.uy[k]) * metres.y;
+      const double straying = Numbers::real(f.strays[k]) * tolerance;
+      const double patient = first_touch(x, y, ux, uy, f.reach[k] + most_strays * tolerance);
+      const double closer = first_touch(x, y, ux, uy, f.reach[k] + straying);
+      f.free_steps[k] =
           Forecast::whole_steps<Numbers>((patient >= few_steps ? patient : closer) * cautious);
-      const std::int64_t exact_if_close = is_exact(p.strays[k]) ? 1 : 0;
-      exact[k] = patient >= few_steps ? 0 : exact_if_close;
+      const std::int64_t exact_if_close = is_exact(f.strays[k]) ? 1 : 0;
+      f.exact[k] = patient >= few_steps ? 0 : exact_if_close;
     }
   }
 };
@@ -99,22 +100,19 @@ struct SieveLoop {
   }
 };
 
-/// The pairs on their courses in `step`, into the first places of `to`.
+/// The pairs on their courses in `step`, into the first places of the columns.
 void gather(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
-            const Courses& courses, std::int64_t step, Forecast::Approaches& to) {
+            const Courses& courses, std::int64_t step, Forecast& to) {
   const Paths c = paths_of(state.grains);
-  const double metre_x = state.box.quantum_x(), metre_y = state.box.quantum_y();
   const std::int64_t steps = step - courses.origin();
   for (std::size_t k = 0; k < which.size(); ++k) {
     const std::uint32_t i = slice.pairs.first[which[k]], j = slice.pairs.second[which[k]];
     const Fixed ux = wrapped_difference(c.ux[j], c.ux[i]);
     const Fixed uy = wrapped_difference(c.uy[j], c.uy[i]);
-    const Fixed x = wrapped_sum(wrapped_difference(c.x[j], c.x[i]), wrapped_product(steps, ux));
-    const Fixed y = wrapped_sum(wrapped_difference(c.y[j], c.y[i]), wrapped_product(steps, uy));
-    to.x[k] = real(x) * metre_x;
-    to.y[k] = real(y) * metre_y;
-    to.ux[k] = real(ux) * metre_x;
-    to.uy[k] = real(uy) * metre_y;
+    to.x[k] = wrapped_sum(wrapped_difference(c.x[j], c.x[i]), wrapped_product(steps, ux));
+    to.y[k] = wrapped_sum(wrapped_difference(c.y[j], c.y[i]), wrapped_product(steps, uy));
+    to.ux[k] = ux;
+    to.uy[k] = uy;
     to.reach[k] = (c.radius[i] + c.radius[j]) * generous;
     to.strays[k] = strays_of_pair(slice, courses, which[k]);
   }
@@ -123,44 +121,37 @@ void gather(const Slice& slice, std::span<const std::uint32_t> which, const Stat
 }  // namespace
 
 void sift(const Slice& slice, PairRange range, const State& state, std::int64_t steps,
-          double tolerance, std::vector<std::uint32_t>& may_touch) {
+          double tolerance, Selection& may_touch) {
   constexpr std::size_t at_a_time = 256;
   alignas(cache_line) std::array<std::int64_t, at_a_time> flags;
   const Horizon horizon{.metre_x = state.box.quantum_x(),
                         .metre_y = state.box.quantum_y(),
                         .steps = static_cast<double>(steps + 1) * generous,
                         .tolerance = tolerance};
-  may_touch.resize(range.end - range.begin);
-  std::size_t found = 0;
   for (std::size_t begin = range.begin; begin < range.end; begin += at_a_time) {
     const std::size_t count = std::min(at_a_time, range.end - begin);
     run_vector_loop<SieveLoop>(&slice.pairs.first[begin], &slice.pairs.second[begin], count,
                                paths_of(state.grains), horizon, flags.data());
+    std::uint32_t* const room = may_touch.room_for(count);
+    std::size_t found = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      may_touch[found] = static_cast<std::uint32_t>(begin + k);
+      room[found] = static_cast<std::uint32_t>(begin + k);
       found += static_cast<std::size_t>(flags[k]);
     }
+    may_touch.take(found);
   }
-  may_touch.resize(found);
 }
 
 void foresee(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result) {
-  const std::size_t room = (which.size() + lanes - 1) / lanes * lanes;
-  Forecast::Approaches& a = result.approaches;
-  if (result.free_steps.size() < room) {
-    for (auto* column : {&a.x, &a.y, &a.ux, &a.uy, &a.reach, &a.strays}) column->resize(2 * room);
-    for (auto* column : {&result.free_steps, &result.exact}) column->resize(2 * room);
-  }
-  gather(slice, which, state, courses, now, a);
-  const ApproachingPairs pairs{a.x.data(),  a.y.data(),     a.ux.data(),
-                               a.uy.data(), a.reach.data(), a.strays.data()};
-  std::int64_t *const free_steps = result.free_steps.data(), *const exact = result.exact.data();
+  gather(slice, which, state, courses, now, result);
+  const Metres metres{state.box.quantum_x(), state.box.quantum_y()};
   constexpr std::size_t few = 4;  // a vector would have to wait for what has just been stored
   if (which.size() <= few)
-    ForesightLoop::run<ByConversion>(which.size(), pairs, tolerance, free_steps, exact);
+    ForesightLoop::run<ByConversion>(which.size(), metres, tolerance, &result);
   else
-    run_vector_loop<ForesightLoop>(room, pairs, tolerance, free_steps, exact);
+    run_vector_loop<ForesightLoop>((which.size() + lanes - 1) / lanes * lanes, metres, tolerance,
+                                   &result);
 }
 
 }  // namespace riesel

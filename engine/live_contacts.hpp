@@ -2,17 +2,17 @@
 // instructions.
 //
 // Whoever steps the grains finds out which contacts begin; from then on nobody looks for them. A
-// contact costs its force and the book-keeping of its life, both in one loop over arrays, and its
+// contact costs its force and the book-keeping of its life, both in one loop over tiles, and its
 // end is noticed there.
 #pragma once
 
-#include "engine/aligned.hpp"
 #include "engine/contact.hpp"
+#include "engine/contact_kernel.hpp"
 #include "engine/contact_law.hpp"
-#include "engine/lane_flags.hpp"
+#include "engine/contact_tile.hpp"
 #include "engine/meeting.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,36 +20,29 @@
 
 namespace riesel {
 
-/// For a contact that no step of LiveContacts sees the end of: what friction took in its last step,
-/// and what is left in its spring. The meeting is that of name.grain and its partner, as
-/// meeting_of() has it.
-void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodies,
-                   const SlipLaw& slip, const StepUnits& units);
-
 class LiveContacts {
 public:
-  enum class Partner { grain, wall };
+  explicit LiveContacts(Partner partner) : partner_(partner) {}
 
-  explicit LiveContacts(Partner partner) : partner_(partner) {
-    found_of_few_.resize(LaneFlags<std::int64_t>::lanes);
-    pad();
-  }
-
-  /// Vectors are filled up with lanes that are no contacts. These look at the body in this place
+  /// Tiles are filled up with lanes that are no contacts. These look at the body in this place
   /// instead of the first of all, which others may be changing.
   void pad_with(std::int64_t place);
 
   std::size_t size() const { return meetings_.size(); }
   const Meeting& meeting(std::size_t i) const { return meetings_[i]; }
   Contact contact(std::size_t i) const;
-  std::int64_t first(std::size_t i) const { return body_[0][i]; }
-  std::int64_t second(std::size_t i) const { return body_[1][i]; }
+  std::int64_t first(std::size_t i) const { return tile(i).body[0][lane(i)]; }
+  std::int64_t second(std::size_t i) const { return tile(i).body[1][lane(i)]; }
   /// What the last step() gives to the bodies.
-  BodyKick kick_of_first(std::size_t i) const {
-    return {kick_[0][i], kick_[1][i], rich_ ? spin_kick_[0][i] : 0};
-  }
-  BodyKick kick_of_second(std::size_t i) const {
-    return {kick_[2][i], kick_[3][i], rich_ ? spin_kick_[1][i] : 0};
+  BodyKick kick_of_first(std::size_t i) const { return kick_of(tile(i), 0, lane(i)); }
+  BodyKick kick_of_second(std::size_t i) const { return kick_of(tile(i), 1, lane(i)); }
+  /// Calls give(place, kick) for all of them.
+  template <class Give>
+  void for_each_kick(Give give) const {
+    if (turning_)
+      give_kicks<true>(give);
+    else
+      give_kicks<false>(give);
   }
 
   void clear();
@@ -62,8 +55,8 @@ public:
   }
   /// Its bodies stand elsewhere now.
   void move(std::size_t i, std::int64_t first, std::int64_t second) {
-    body_[0][i] = first;
-    body_[1][i] = second;
+    tile(i).body[0][lane(i)] = first;
+    tile(i).body[1][lane(i)] = second;
   }
 
   /// Computes the kicks of this step and carries the lives on. `bodies` are at the step of `units`.
@@ -81,58 +74,41 @@ public:
   const std::optional<ContactName>& trouble() const { return trouble_; }
 
 private:
-  /// The life of a contact without its name: one array for each member of Contact.
-  static constexpr std::size_t life_members =
-      (sizeof(Contact) - offsetof(Contact, begin)) / sizeof(double);
-  /// Those from here on are of springs and torques.
-  static constexpr std::size_t poor_life_members =
-      (offsetof(Contact, spring) - offsetof(Contact, begin)) / sizeof(double);
-
-  struct Columns;  // pointers to the arrays, for the loop
-  Columns columns();
-  template <Partner partner, class Turn, class Normal, class Slip>
-  void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model,
-            const Normal& normal, const Slip& slip);
-  template <Partner partner>
-  void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
-  /// Calls use(found_of_few_) or use(found_of_many_).
-  template <class Use>
-  void with_found(Use use) {
-    if (size() <= LaneFlags<std::int64_t>::lanes)
-      use(found_of_few_);
-    else
-      use(found_of_many_);
+  ContactTile& tile(std::size_t i) { return tiles_[i / ContactTile::lanes]; }
+  const ContactTile& tile(std::size_t i) const { return tiles_[i / ContactTile::lanes]; }
+  static std::size_t lane(std::size_t i) { return i % ContactTile::lanes; }
+  static BodyKick kick_of(const ContactTile& tile, std::size_t body, std::size_t lane) {
+    return {tile.kick[body][0][lane], tile.kick[body][1][lane], tile.spin_kick[body][lane]};
   }
-  std::size_t members() const { return rich_ ? life_members : poor_life_members; }
-  void become_rich();
+  template <bool turning, class Give>
+  void give_kicks(Give give) const {
+    const auto give_to = [&](const ContactTile& tile, std::size_t body, std::size_t lane) {
+      const auto& kick = tile.kick[body];
+      give(tile.body[body][lane],
+           BodyKick{kick[0][lane], kick[1][lane], turning ? tile.spin_kick[body][lane] : 0});
+    };
+    const std::size_t count = size();
+    for (std::size_t begin = 0; begin < count; begin += ContactTile::lanes) {
+      const ContactTile& t = tile(begin);
+      const std::size_t lanes = std::min(ContactTile::lanes, count - begin);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        give_to(t, 0, lane);
+        if (partner_ == Partner::grain) give_to(t, 1, lane);
+      }
+    }
+  }
   void make_harmless(std::size_t i);
   void follow_walls(const Bodies& bodies, const StepUnits& units);
-  void follow_bodies(const Columns& columns, const Bodies& bodies) const;
-  void pad();
-  template <class Visit>
-  void for_each_array(Visit visit);
 
   Partner partner_;
-  std::size_t beginning_ = 0;  // contacts at the end of the arrays that begin in the next step
+  std::size_t beginning_ = 0;  // contacts at the end that begin in the next step
   std::size_t followed_ = 0;   // so many have been stepped; the others have been added since
+  bool any_level_ = false;     // with smooth walls
+  bool turning_ = false;       // the bodies rotate
   std::vector<Meeting> meetings_;
-  // The arrays are padded with lanes of zero reach, which never touch, to whole blocks.
   std::int64_t padding_body_ = 0;
-  std::array<AlignedVector<std::int64_t>, 2> body_;  // first and second
-  // Members of a BodyMotion: of the point of a wall, or of the second grain as seen from the first,
-  // which kicks alone change from step to step.
-  std::array<AlignedVector<Fixed>, 6> partner_motion_;
-  AlignedVector<double> reach_, reduced_mass_;
-  std::array<AlignedVector<double>, 2> per_mass_;  // 1/kg, of first and second
-  std::array<AlignedVector<double>, life_members> life_;
-  std::array<AlignedVector<Fixed>, 4> kick_;
-  bool any_level_ = false;  // with smooth walls
-  bool rich_ = false;       // there are springs or torques; else the arrays for them are empty
-  std::array<AlignedVector<double>, 2> radius_;    // m, of first and second
-  std::array<AlignedVector<Fixed>, 2> spin_kick_;  // likewise
-  // What the last step found of each contact: of so few that they are one vector, or of more.
-  LaneFlags<std::int64_t> found_of_few_;
-  LaneFlags<std::int32_t> found_of_many_;
+  ContactTiles tiles_;
+  ContactFindings found_;  // by the last step
   std::vector<std::size_t> ended_;
   std::optional<ContactName> trouble_;
 };

@@ -24,12 +24,6 @@ SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Cou
       courses_(courses),
       room_(room_in_skin(state.box, candidates.skin(), tolerance)) {}
 
-inline SkinGuard::Velocity SkinGuard::off_drift(std::size_t slot) const {
-  const auto& drift = candidates_.drift();
-  return {state_.box.metres_x(wrapped_difference(state_.grains.ux[slot], drift.x)),
-          state_.box.metres_y(wrapped_difference(state_.grains.uy[slot], drift.y))};
-}
-
 std::int64_t SkinGuard::hold_until(SlotRange slots) const {
   double fastest2 = 0.0;
   const Grains& g = state_.grains;
@@ -39,15 +33,18 @@ std::int64_t SkinGuard::hold_until(SlotRange slots) const {
                   courses_.sorted_at() + Forecast::whole_steps(room_ / std::sqrt(fastest2)) - 1);
 }
 
-std::int64_t SkinGuard::hold_until(std::uint32_t slot, std::int64_t now) const {
+std::int64_t SkinGuard::hold_until(std::uint32_t slot, const Motion& course,
+                                   std::int64_t now) const {
   const Box& box = state_.box;
   const auto common = candidates_.common_motion(now);
   const CoarsePositions& then = candidates_.when_sorted();
-  const double x = box.metres_x(wrapped_difference(
-      wrapped_difference(courses_.x(slot, now), from_upper(then.x[slot])), common.x));
-  const double y = box.metres_y(wrapped_difference(
-      wrapped_difference(courses_.y(slot, now), from_upper(then.y[slot])), common.y));
-  const auto [ux, uy] = off_drift(slot);
+  const auto& drift = candidates_.drift();
+  const double x = box.metres_x(
+      wrapped_difference(wrapped_difference(course.x, from_upper(then.x[slot])), common.x));
+  const double y = box.metres_y(
+      wrapped_difference(wrapped_difference(course.y, from_upper(then.y[slot])), common.y));
+  const double ux = box.metres_x(wrapped_difference(course.ux, drift.x));
+  const double uy = box.metres_y(wrapped_difference(course.uy, drift.y));
 
   // The first s with |(x, y) + s (ux, uy)| = room
   const double left = room_ * room_ - x * x - y * y;

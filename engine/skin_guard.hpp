@@ -23,16 +23,10 @@ public:
   /// The candidates hold for this step for sure if all of these grains, which have just been
   /// listed, keep to their courses.
   std::int64_t hold_until(SlotRange slots) const;
-  /// The same for one grain, whose course is that of step `now`.
-  std::int64_t hold_until(std::uint32_t slot, std::int64_t now) const;
+  /// The same for one grain that goes on like this from step `now` on.
+  std::int64_t hold_until(std::uint32_t slot, const Motion& course, std::int64_t now) const;
 
 private:
-  struct Velocity {
-    double x, y;  // m per step
-  };
-  /// Of a grain on its course, relative to the common motion.
-  Velocity off_drift(std::size_t slot) const;
-
   const State& state_;
   const Candidates& candidates_;
   const Courses& courses_;

@@ -50,8 +50,8 @@ struct alignas(cache_line) Slice {
 
   std::vector<std::uint32_t> hits;       ///< indices of inner pairs that may overlap in this step
   std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
-  LiveContacts pair_contacts{LiveContacts::Partner::grain};
-  LiveContacts wall_contacts{LiveContacts::Partner::wall};
+  LiveContacts pair_contacts{Partner::grain};
+  LiveContacts wall_contacts{Partner::wall};
   std::vector<Kick> received;    ///< of this step, by contacts of any slice on grains of the slice
   std::vector<Contact> lasting;  ///< contacts of the slice that are to outlive a sorting
   std::size_t kept = 0;          ///< how many of all those the slice has after it

@@ -1,0 +1,54 @@
+// Contacts side by side, as vector loops take them.
+#pragma once
+
+#include "engine/aligned.hpp"
+#include "engine/contact.hpp"
+#include "engine/fixed_point.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace riesel {
+
+/// Sixteen contacts, a lane of each row: all that a loop needs of them stands together, at known
+/// distances. Lanes that are no contacts have zeros, but for the bodies.
+struct alignas(cache_line) ContactTile {
+  static constexpr std::size_t lanes = 16;
+  template <class T>
+  using Row = std::array<T, lanes>;
+
+  /// The life of a contact: the members of Contact that follow its name, all of them doubles.
+  static constexpr std::size_t life_begin = offsetof(Contact, begin);
+  static constexpr std::size_t life_members = (sizeof(Contact) - life_begin) / sizeof(double);
+  static_assert(life_begin + life_members * sizeof(double) == sizeof(Contact));
+
+  std::array<Row<std::int64_t>, 2> body;  ///< places of first and second in Bodies
+  /// Members of a BodyMotion: of the point of a wall, or of the second grain as seen from the
+  /// first, which kicks alone change from step to step.
+  std::array<Row<Fixed>, 6> partner;
+  Row<double> reach, reduced_mass;              ///< m, kg
+  std::array<Row<double>, 2> per_mass, radius;  ///< 1/kg and m, of first and second
+  std::array<Row<double>, life_members> life;
+  std::array<std::array<Row<Fixed>, 2>, 2> kick;  ///< [body][axis], of the last step
+  std::array<Row<Fixed>, 2> spin_kick;            ///< [body]
+};
+
+/// The row of a tile's `life` that holds this member of Contact.
+#define RIESEL_LIFE(member)                                                                        \
+  ((offsetof(Contact, member) - offsetof(Contact, begin)) / sizeof(double))
+
+using Life = std::array<double, ContactTile::life_members>;
+
+inline Life life_of(const Contact& contact) {
+  Life life;
+  std::memcpy(life.data(), reinterpret_cast<const std::byte*>(&contact) + ContactTile::life_begin,
+              sizeof(life));
+  return life;
+}
+
+using ContactTiles = std::vector<ContactTile, CacheLineAllocator<ContactTile>>;
+
+}  // namespace riesel

@@ -1,0 +1,45 @@
+// A list that grows without branches to guess: whatever may belong to it is written behind its end,
+// and the end moves on only if it does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace riesel {
+
+class Selection {
+public:
+  std::size_t size() const { return size_; }
+  std::span<std::uint32_t> items() { return std::span(items_).first(size_); }
+  std::span<const std::uint32_t> items() const { return std::span(items_).first(size_); }
+
+  void clear() { size_ = 0; }
+  void add(std::uint32_t item) {
+    *room_for(1) = item;
+    take(1);
+  }
+  /// Where so many may be written; of these the first become items by take().
+  std::uint32_t* room_for(std::size_t more) {
+    if (items_.size() < size_ + more) items_.resize(2 * (size_ + more));
+    return items_.data() + size_;
+  }
+  void take(std::size_t more) { size_ += more; }
+  /// Without those that are not wanted.
+  template <class Wanted>
+  void keep_if(Wanted wanted) {
+    std::size_t kept = 0;
+    for (const std::uint32_t item : items()) {
+      items_[kept] = item;
+      kept += wanted(item) ? 1U : 0U;
+    }
+    size_ = kept;
+  }
+
+private:
+  std::vector<std::uint32_t> items_;  // and room
+  std::size_t size_ = 0;
+};
+
+}  // namespace riesel
