@@ -14,20 +14,23 @@ import re
 import subprocess
 import sys
 
+# In a call of std::visit the name of whoever is called stands among its arguments.
+VISITED = r"std::__detail::__variant::.*riesel::\(anonymous namespace\)::(\w+)<"
+
 # Names without templates, arguments and namespaces; the first that matches counts.
 PHASES = [
     ("forces of contacts, and their book-keeping",
-     r"StepLoop|LiveContacts::\w+|FlightRegion::(step_contacts|take_up|change_contacts|let_go|take_up_contacts)|"
+     r"StepLoop|LiveContacts::\w+|step_tiles|follow_bodies|FlightRegion::(step_contacts|take_up|change_contacts|let_go|take_up_contacts)|"
      r"meeting_\w+|begin_contact|note_(over|lasting)|add_last_loss|\w*Tally::\w+|WallVisits::\w+|ExactSum\w*::\w+|"
      r"count_work_of_walls|see_from_the_other"),
     ("sorting, listing, sifting, linking",
      r"Candidates::\w+|Cells::\w+|sift\w*|find_close\w*|pair_in|earlier|SieveLoop|Appointments::(link|start_over|make_all)|"
-     r"Border::list_\w+|Courses::start_over|FlightRegion::(put_down|renew|begin)|candidate_in"),
+     r"Border::list_\w+|Courses::start_over|FlightRegion::(put_down|renew|begin)|candidate_in|for_each_contact_of"),
     ("foresight and entering of appointments", r"foresee|gather|ForesightLoop|Appointments::\w+|Calendar::\w+|flight_of|steps_\w+"),
     ("looking at what is due",
      r"FlightRegion::(look_\w+|keep_appointments|position|foreign_position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
     ("moving deflected grains, and their courses",
-     r"move_lanes|flag_strays|DeflectedGrains::\w+|SkinGuard::\w+|Border::\w+|"
+     r"move_lanes|find_strays|DeflectedGrains::\w+|SkinGuard::\w+|Border::\w+|"
      r"FlightRegion::(move|correct_courses|set_course|deflect|invite|release|suffer|announce|heed|step|take_off|land)"),
 ]
 ENGINE = "riesel::"
@@ -54,6 +57,7 @@ def samples(report):
 
 def phase_of(symbol):
     """The phase of a function of the engine, "" if it is not known, None if it is not of the engine."""
+    symbol = re.sub(VISITED + ".*", ENGINE + r"\1", symbol)
     if not symbol.startswith(ENGINE) or re.match(ELSEWHERE, symbol):
         return None
     name = plain_name(symbol)

@@ -1,6 +1,6 @@
 // The two hottest loops of plain stepping, written once more for libraries of vector types.
 //
-// engine/pair_search.cpp and engine/live_contacts.cpp leave it to the compiler to make vectors of
+// engine/pair_search.cpp and engine/contact_kernel.cpp leave it to the compiler to make vectors of
 // plain loops. Here the vectors are explicit: each kernel is a template over `Lanes`, the few
 // operations that a library must provide, and does, operation by operation, what the engine does.
 // So the bits must be those of the engine, and main.cpp checks them.

@@ -8,8 +8,9 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 REPORT = """
 # Overhead  Symbol
-    30.00%  [.] riesel::run_converting_loop<riesel::(anonymous namespace)::StepLoop<(riesel::LiveContacts::Partner)0, riesel::NoTurning>, rie
-    10.00%  [.] riesel::LiveContacts::step<(riesel::LiveContacts::Partner)0>(riesel::Bodies const&)
+    30.00%  [.] riesel::run_converting_loop<riesel::(anonymous namespace)::StepLoop<(riesel::Partner)0, riesel::NoTurning>, rie
+     8.00%  [.] riesel::LiveContacts::step(riesel::Bodies const&)
+     2.00%  [.] std::__detail::__variant::__gen_vtable_impl<void (*)(riesel::(anonymous namespace)::step_tiles<(riesel::Partner)0>(std
     20.00%  [.] riesel::Appointments::make
     15.00%  [.] riesel::Appointments::link
      5.00%  [.] riesel::run_adding_loop<riesel::(anonymous namespace)::WatchLoop, unsigned long>
