@@ -150,9 +150,11 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
   }
 }
 
-/// Whether it is a pair neither in contact nor watched.
+/// Pairs that are in contact or watched have none. Both are looked at in any case: no branch.
 bool Appointments::needs_appointment(std::uint32_t pair) const {
-  return !std::signbit(slice_.pairs.reach2[pair]) & !due_[pair].is_for(Appointment::always);
+  const auto in_contact = static_cast<unsigned>(std::signbit(slice_.pairs.reach2[pair]));
+  const auto watched = static_cast<unsigned>(due_[pair].is_for(Appointment::always));
+  return (in_contact | watched) == 0;
 }
 
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {

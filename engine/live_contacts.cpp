@@ -23,7 +23,7 @@ void move_lane(ContactTile& from, std::size_t lane, ContactTile& to, std::size_t
   auto* const old_words = reinterpret_cast<std::byte*>(&from) + lane * sizeof(std::uint64_t);
   auto* const new_words = reinterpret_cast<std::byte*>(&to) + new_lane * sizeof(std::uint64_t);
   for (std::size_t row = 0; row < sizeof(ContactTile); row += sizeof(Row)) {
-    std::uint64_t word;
+    std::uint64_t word = 0;
     std::memcpy(&word, old_words + row, sizeof(word));
     std::memcpy(new_words + row, &word, sizeof(word));
     std::memset(old_words + row, 0, sizeof(word));
