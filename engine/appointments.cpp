@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <utility>
 
 namespace riesel {
 
@@ -167,7 +166,7 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
     enter(candidate, Forecast::whole_steps(steps), true, period);
     return false;
   });
-  const auto pairs = std::as_const(reconsidered_).items();
+  const auto pairs = reconsidered_.items();
   for (std::size_t begin = 0; begin < pairs.size(); begin += Forecast::most_pairs) {
     const auto some = pairs.subspan(begin, std::min(Forecast::most_pairs, pairs.size() - begin));
     foresee(slice_, some, state_, courses_, now, tolerance_, forecast_);

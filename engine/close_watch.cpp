@@ -40,12 +40,12 @@ template <class Numbers>
 }
 
 struct WatchLoop {
-  /// Finds the pairs that are due; `count` is a multiple of the lanes.
+  /// Finds the pairs that are due.
   template <class Numbers>
-  [[gnu::always_inline]] static void run(std::size_t count, Watched w, Sight s,
+  [[gnu::always_inline]] static void run(std::size_t blocks, Watched w, Sight s,
                                          std::uint64_t* block_masks) {
     using Due = LaneMasks<std::uint64_t>;
-    for (std::size_t block = 0; block < count / Due::lanes; ++block) {
+    for (std::size_t block = 0; block < blocks; ++block) {
       std::uint64_t mask = 0;
 #pragma omp simd reduction(| : mask)
       for (std::size_t lane = 0; lane < Due::lanes; ++lane)
@@ -129,7 +129,7 @@ const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
     for (std::size_t i = 0; i < count; ++i)
       if (is_due<ByConversion>(watched, i, sight)) leaving_.push_back(i);
   } else {
-    run_vector_loop<WatchLoop>(Due::padded(count), watched, sight, are_due_.of_blocks.data());
+    run_vector_loop<WatchLoop>(Due::blocks(count), watched, sight, are_due_.of_blocks.data());
     are_due_.for_each_found(count, [this](std::size_t i) { leaving_.push_back(i); });
   }
   // From the end, as the last pair takes the place of the one that goes.

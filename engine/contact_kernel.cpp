@@ -218,19 +218,6 @@ struct StepLoop {
   }
 };
 
-/// Calls visit(tile, lane) for the contacts begin <= i < end.
-template <class Visit>
-[[gnu::always_inline]] inline void for_each_lane(std::span<ContactTile> tiles, std::size_t begin,
-                                                 std::size_t end, Visit visit) {
-  for (std::size_t i = begin; i < end;) {
-    ContactTile& tile = tiles[i / ContactTile::lanes];
-    const std::size_t lane = i % ContactTile::lanes;
-    const std::size_t lanes = std::min(ContactTile::lanes - lane, end - i);
-    for (std::size_t l = lane; l < lane + lanes; ++l) visit(tile, l);
-    i += lanes;
-  }
-}
-
 /// Contacts get the last kicks of their grains: one by one, as vectors are slower at gathering.
 /// Those that have been added since the last step know nothing of their grains' motion yet: they
 /// get that of the step before.
@@ -267,8 +254,8 @@ void step_tiles(std::span<ContactTile> tiles, const ContactCounts& counts, const
   });
   found.with_masks(counts.all, [&](auto& masks) {
     run_vector_loop<StepLoop<partner, Turn>>(
-        tiles.data(), masks.padded(counts.all) / masks.lanes, masks.of_blocks.data(), bodies, units,
-        normal, slip, model.friction, model.rolling_friction, model.attraction);
+        tiles.data(), masks.blocks(counts.all), masks.of_blocks.data(), bodies, units, normal, slip,
+        model.friction, model.rolling_friction, model.attraction);
   });
 }
 

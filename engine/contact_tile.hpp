@@ -5,11 +5,12 @@
 #include "engine/contact.hpp"
 #include "engine/fixed_point.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
+#include <span>
 
 namespace riesel {
 
@@ -49,6 +50,19 @@ inline Life life_of(const Contact& contact) {
   return life;
 }
 
-using ContactTiles = std::vector<ContactTile, CacheLineAllocator<ContactTile>>;
+using ContactTiles = AlignedVector<ContactTile>;
+
+/// Calls visit(tile, lane) for the contacts begin <= i < end of `tiles`, const or not.
+template <class Tile, class Visit>
+[[gnu::always_inline]] inline void for_each_lane(std::span<Tile> tiles, std::size_t begin,
+                                                 std::size_t end, Visit visit) {
+  for (std::size_t i = begin; i < end;) {
+    Tile& tile = tiles[i / ContactTile::lanes];
+    const std::size_t lane = i % ContactTile::lanes;
+    const std::size_t lanes = std::min(ContactTile::lanes - lane, end - i);
+    for (std::size_t l = lane; l < lane + lanes; ++l) visit(tile, l);
+    i += lanes;
+  }
+}
 
 }  // namespace riesel

@@ -24,12 +24,11 @@ struct LaneMasks {
 
   AlignedVector<Mask> of_blocks;
 
+  /// That hold `count` lanes.
+  static constexpr std::size_t blocks(std::size_t count) { return (count + lanes - 1) / lanes; }
   /// `count` rounded up to whole blocks.
-  static constexpr std::size_t padded(std::size_t count) {
-    return (count + lanes - 1) / lanes * lanes;
-  }
-  /// `count` is one of whole blocks.
-  void resize(std::size_t count) { of_blocks.resize(count / lanes); }
+  static constexpr std::size_t padded(std::size_t count) { return blocks(count) * lanes; }
+  void resize(std::size_t count) { of_blocks.resize(blocks(count)); }
 
   /// The bit of a lane for finding number 0 or 1, if it was made. To be given 0 or 1: GCC 12 makes
   /// no vectors of a selection between the bit and nothing.

@@ -73,8 +73,7 @@ void LiveContacts::clear() {
   meetings_.clear();
   beginning_ = followed_ = 0;
   any_level_ = false;
-  std::fill(tiles_.begin(), tiles_.end(), ContactTile{});
-  pad_with(padding_body_);
+  tiles_.clear();
 }
 
 void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
@@ -82,9 +81,8 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   meetings_.push_back(meeting);
   any_level_ = any_level_ || meeting.level;
   if (i == tiles_.size() * ContactTile::lanes) {
-    tiles_.push_back({});
+    for (auto& bodies : tiles_.emplace_back().body) bodies.fill(padding_body_);
     found_.resize(tiles_.size());
-    for (auto& bodies : tiles_.back().body) bodies.fill(padding_body_);
   }
   ContactTile& t = tile(i);
   const std::size_t l = lane(i);

@@ -12,10 +12,10 @@
 #include "engine/contact_tile.hpp"
 #include "engine/meeting.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace riesel {
@@ -77,25 +77,17 @@ private:
   ContactTile& tile(std::size_t i) { return tiles_[i / ContactTile::lanes]; }
   const ContactTile& tile(std::size_t i) const { return tiles_[i / ContactTile::lanes]; }
   static std::size_t lane(std::size_t i) { return i % ContactTile::lanes; }
+  template <bool turning = true>
   static BodyKick kick_of(const ContactTile& tile, std::size_t body, std::size_t lane) {
-    return {tile.kick[body][0][lane], tile.kick[body][1][lane], tile.spin_kick[body][lane]};
+    const auto& kick = tile.kick[body];
+    return {kick[0][lane], kick[1][lane], turning ? tile.spin_kick[body][lane] : 0};
   }
   template <bool turning, class Give>
   void give_kicks(Give give) const {
-    const auto give_to = [&](const ContactTile& tile, std::size_t body, std::size_t lane) {
-      const auto& kick = tile.kick[body];
-      give(tile.body[body][lane],
-           BodyKick{kick[0][lane], kick[1][lane], turning ? tile.spin_kick[body][lane] : 0});
-    };
-    const std::size_t count = size();
-    for (std::size_t begin = 0; begin < count; begin += ContactTile::lanes) {
-      const ContactTile& t = tile(begin);
-      const std::size_t lanes = std::min(ContactTile::lanes, count - begin);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        give_to(t, 0, lane);
-        if (partner_ == Partner::grain) give_to(t, 1, lane);
-      }
-    }
+    for_each_lane(std::span(tiles_), 0, size(), [&](const ContactTile& tile, std::size_t lane) {
+      give(tile.body[0][lane], kick_of<turning>(tile, 0, lane));
+      if (partner_ == Partner::grain) give(tile.body[1][lane], kick_of<turning>(tile, 1, lane));
+    });
   }
   void make_harmless(std::size_t i);
   void follow_walls(const Bodies& bodies, const StepUnits& units);

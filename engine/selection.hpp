@@ -11,8 +11,6 @@ namespace riesel {
 
 class Selection {
 public:
-  std::size_t size() const { return size_; }
-  std::span<std::uint32_t> items() { return std::span(items_).first(size_); }
   std::span<const std::uint32_t> items() const { return std::span(items_).first(size_); }
 
   void clear() { size_ = 0; }
