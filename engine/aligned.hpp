@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <new>
+#include <span>
 #include <vector>
 
 namespace riesel {
@@ -30,5 +31,20 @@ struct CacheLineAllocator {
 
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+/// Gives the memory of an array to others; `= {}` would keep it.
+template <class Array>
+void give_up(Array& array) {
+  array = Array();
+}
+
+/// Brings values from memory into the caches: one line after the other, which is faster than in the
+/// order in which they will be needed. (The processor drops most prefetches of so many lines.)
+template <class T>
+void fetch(std::span<T> values) {
+  const auto bytes = std::as_bytes(values);
+  for (std::size_t i = 0; i < bytes.size(); i += cache_line)
+    static_cast<void>(*static_cast<const volatile std::byte*>(&bytes[i]));
+}
 
 }  // namespace riesel

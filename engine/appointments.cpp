@@ -72,6 +72,11 @@ double steps_to_nearest(const Flight& f, const WallLattice& wall, double reach, 
 
 }  // namespace
 
+void Appointments::fetch() const {
+  riesel::fetch(std::span(due_));
+  for (const auto* list : {&first_pair_, &first_link_, &links_}) riesel::fetch(std::span(*list));
+}
+
 void Appointments::start_over() {
   const std::size_t candidates = slice_.pairs.size() + slice_.near_walls.size();
   calendar_.clear();
@@ -167,28 +172,30 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
     return false;
   });
   const auto pairs = reconsidered_.items();
+  Forecast forecast;
   for (std::size_t begin = 0; begin < pairs.size(); begin += Forecast::most_pairs) {
     const auto some = pairs.subspan(begin, std::min(Forecast::most_pairs, pairs.size() - begin));
-    foresee(slice_, some, state_, courses_, now, tolerance_, forecast_);
-    enter_pairs(some, period);
+    foresee(slice_, some, state_, courses_, now, tolerance_, forecast);
+    enter_pairs(some, forecast, period);
   }
   reconsidered_.clear();
 }
 
 /// What has just been foreseen. Most pairs do not meet before all is made anew: of these it is
 /// noted without branches to guess.
-void Appointments::enter_pairs(std::span<const std::uint32_t> pairs, const Period& period) {
+void Appointments::enter_pairs(std::span<const std::uint32_t> pairs, const Forecast& forecast,
+                               const Period& period) {
   std::array<std::uint32_t, Forecast::most_pairs> soon;
   std::size_t found = 0;
   for (std::uint32_t k = 0; k < pairs.size(); ++k) {
-    const std::int64_t in_time = period.latest - period.now - forecast_.free_steps[k];
+    const std::int64_t in_time = period.latest - period.now - forecast.free_steps[k];
     const auto late = static_cast<std::int32_t>(in_time >> 63);  // -1 if it is negative
-    due_[pairs[k]].replace_by({Appointment::never, forecast_.exact[k] != 0}, late);
+    due_[pairs[k]].replace_by({Appointment::never, forecast.exact[k] != 0}, late);
     soon[found] = k;
     found += static_cast<std::size_t>(1 + late);
   }
   for (const std::uint32_t k : std::span(soon).first(found))
-    enter(pairs[k], forecast_.free_steps[k], forecast_.exact[k] != 0, period);
+    enter(pairs[k], forecast.free_steps[k], forecast.exact[k] != 0, period);
 }
 
 void Appointments::make_for_next_step(std::uint32_t pair, std::int64_t now, int strays) {

@@ -91,6 +91,9 @@ public:
     }
   }
 
+  /// Brings what is known of the candidates into the caches.
+  void fetch() const;
+
 private:
   void link();
   template <class Wanted>
@@ -99,7 +102,8 @@ private:
   struct Period {
     std::int64_t now, earliest, latest;  // steps
   };
-  void enter_pairs(std::span<const std::uint32_t> pairs, const Period& period);
+  void enter_pairs(std::span<const std::uint32_t> pairs, const Forecast& forecast,
+                   const Period& period);
   void enter(std::uint32_t candidate, std::int64_t free_steps, bool exact, const Period& period);
   double free_steps_at_wall(const NearWall& near, std::int64_t now) const;
 
@@ -121,7 +125,6 @@ private:
   // on. Of links_ and due_ a few more can be read.
   std::vector<std::uint32_t> first_pair_, first_link_, links_;
   Selection reconsidered_;  // candidates
-  Forecast forecast_{};
 };
 
 }  // namespace riesel

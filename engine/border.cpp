@@ -1,5 +1,7 @@
 #include "engine/border.hpp"
 
+#include "engine/askew.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -22,6 +24,20 @@ auto find_in(const std::vector<BorderGrain>& border, std::uint32_t slot) {
 
 }  // namespace
 
+void Border::find_neighbours(bool slices_are_thick) {
+  const std::size_t slices = announcements_.size();
+  if (slices_are_thick) {
+    const auto [before, after] = PlaceInRing(index_, slices);
+    before_ = {before};
+    after_ = {after};
+    return;
+  }
+  before_.clear();
+  for (std::size_t i = 0; i < slices; ++i)
+    if (i != index_) before_.push_back(i);
+  after_ = before_;
+}
+
 void Border::list_foreign() {
   auto& foreign = mine().foreign;
   foreign.clear();
@@ -32,7 +48,7 @@ void Border::list_foreign() {
 
 void Border::list_border() {
   std::vector<std::uint32_t> slots;
-  for_each_other([&](const Announcement& other) {
+  for_each_before([&](const Announcement& other) {
     for (const std::uint32_t slot : other.foreign)
       if (owns(slot)) slots.push_back(slot);
   });
@@ -53,7 +69,7 @@ std::size_t Border::number_of_foreign(std::uint32_t slot) const {
 
 Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const {
   Motion m = courses_.motion(slot, step);
-  for_each_other([&](const Announcement& other) {
+  for_each_after([&](const Announcement& other) {
     const auto found = find_in(other.border, slot);
     if (found == other.border.end() || !found->deflected) return;
     m = found->motion;

@@ -3,10 +3,9 @@
 // A pair belongs to the slice of its first grain; the second may be foreign: of another slice,
 // where alone its course, its place and its motion are changed. What others need to know of a grain
 // its slice announces once per step, and what the contacts of others do to it is told to its slice.
-// There are two barriers in a step: announcements are written between the first and the second and
-// read after the second, what was done to foreign grains is written after the second and read
-// between the first and the second. Courses in the store are set between the first and the second
-// and may be read by all after the second.
+// Slices before this one have grains of it in their pairs and do things to them; of those after it
+// this one has grains in its pairs. If slices are thick (Candidates) that is one on either side,
+// else all others are both.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -33,6 +32,12 @@ struct BorderGrain {
   Motion motion;  ///< if deflected
 };
 
+/// A grain for which the candidates do not hold any more from this step on.
+struct Stray {
+  std::uint32_t slot;
+  std::int64_t step;
+};
+
 /// What one slice tells the others.
 struct alignas(cache_line) Announcement {
   std::vector<Deed> deeds;
@@ -42,6 +47,9 @@ struct alignas(cache_line) Announcement {
   std::int64_t step = 0;                   ///< that of their motion
   std::vector<std::uint32_t> new_courses;  ///< own grains of the border that have one
   std::int64_t hold_until = 0;             ///< step until which the candidates hold for sure
+  double fastest2 = 0.0;                   ///< (m per step)^2, as SkinGuard::fastest2()
+  double pushed2 = 0.0;                    ///< the same, as FlightRegion::set_out() expects it
+  std::vector<Stray> strays;               ///< while slices are askew
   bool trouble = false;                    ///< the run cannot go on
 };
 
@@ -55,7 +63,9 @@ public:
 
   bool owns(std::uint32_t slot) const { return slice_.owns(slot); }
 
-  /// After the candidates have been listed: which slots are foreign here.
+  /// After the candidates have been listed: who is before and who after this slice.
+  void find_neighbours(bool slices_are_thick);
+  /// Likewise: which slots are foreign here.
   void list_foreign();
   /// After all slices have: which own grains are foreign elsewhere.
   void list_border();
@@ -77,12 +87,17 @@ public:
   /// Announces it if it is at the border.
   void announce_course(std::uint32_t slot);
 
-  /// Calls visit(announcement) for those of the other slices.
+  /// Calls visit(announcement) for those of the slices before this one, or after it.
   template <class Visit>
-  void for_each_other(Visit visit) const {
-    for (std::size_t i = 0; i < announcements_.size(); ++i)
-      if (i != index_) visit(static_cast<const Announcement&>(announcements_[i]));
+  void for_each_before(Visit visit) const {
+    for (const std::size_t i : before_) visit(static_cast<const Announcement&>(announcements_[i]));
   }
+  template <class Visit>
+  void for_each_after(Visit visit) const {
+    for (const std::size_t i : after_) visit(static_cast<const Announcement&>(announcements_[i]));
+  }
+
+  const std::vector<std::size_t>& after() const { return after_; }
 
 private:
   std::size_t number_of_foreign(std::uint32_t slot) const;
@@ -91,6 +106,7 @@ private:
   const Courses& courses_;
   std::vector<Announcement>& announcements_;
   const std::size_t index_;
+  std::vector<std::size_t> before_, after_;
 };
 
 }  // namespace riesel

@@ -21,6 +21,13 @@ struct CandidatePairs {
   AlignedVector<float> reach2;
 
   std::size_t size() const { return first.size(); }
+  /// In either order; a look at all.
+  bool has(std::uint32_t i, std::uint32_t j) const {
+    for (std::size_t p = 0; p < size(); ++p)
+      if ((first[p] == i && second[p] == j) || (first[p] == j && second[p] == i)) return true;
+    return false;
+  }
+  std::size_t capacity() const { return first.capacity(); }
   void clear() {
     first.clear();
     second.clear();

@@ -190,7 +190,7 @@ void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t st
   team_.arrive_and_wait();
   if (member_with(share) == 0) end_lost_contacts(state);
   team_.arrive_and_wait();
-  for (Slice& mine : share) mine.lasting = {};  // between sortings the memory serves others
+  for (Slice& mine : share) give_up(mine.lasting);  // the memory serves others meanwhile
 }
 
 void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
@@ -258,6 +258,13 @@ void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPai
     const SlotRange slots{begin, std::min(begin + slots_at_a_time, mine.end)};
     find_close(cells_, slots, when_sorted_, units_, farthest2, close);
     std::size_t found = mine.pairs.size();
+    if (found + close.size() > mine.pairs.capacity()) {
+      // For all if the rest is like what has been seen, and not twice as much.
+      const double part = static_cast<double>(slots.end - mine.begin)
+                          / static_cast<double>(mine.end - mine.begin);
+      mine.pairs.reserve(
+          static_cast<std::size_t>(1.03 * static_cast<double>(found + close.size()) / part) + 64);
+    }
     mine.pairs.resize(found + close.size());
     if (one_size_)
       for (const auto& [i, j] : close) mine.pairs.set(found++, i, j, longest_reach2);
@@ -270,10 +277,6 @@ void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPai
         found += square < units_.generous_square(reach + skin_) ? 1U : 0U;
       }
     mine.pairs.resize(found);
-    // Room for the rest without doubling again and again.
-    if (begin == mine.begin)
-      mine.pairs.reserve((mine.pairs.size() + 64) * (mine.end - mine.begin + 1)
-                         / (slots.end - slots.begin));
   }
 }
 

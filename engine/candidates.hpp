@@ -57,6 +57,9 @@ public:
   }
   /// Where the threads wait for each other.
   TeamBarrier& team() { return team_; }
+  /// There are three slices or more, and the second grain of each pair is in the slice of the first
+  /// or in the next.
+  bool slices_are_thick() const { return slices_are_thick_; }
   CoarseUnits units() const { return units_; }
   /// The run cannot go on.
   bool in_trouble() const;
@@ -90,6 +93,9 @@ public:
   /// of when_sorted() then. To be called by all threads of a team; what it changes is complete
   /// when it returns.
   void sort_anew(State& state, std::span<Slice> share, std::int64_t step);
+
+  /// Until the next sorting nobody asks for cells: gives their memory to others.
+  void forget_cells() { cells_.forget(); }
 
   /// The candidates hold until this step, and while no grain has moved by half the skin from where
   /// it was when they were listed, relative to a common motion: free fall with a displacement per
@@ -167,7 +173,7 @@ private:
   CoarsePositions when_sorted_;
   TeamBarrier team_;
   std::vector<Slice> slices_;
-  bool slices_are_thick_ = false;       // so that pairs are as ready_for() says
+  bool slices_are_thick_ = false;
   std::vector<std::uint32_t> slot_of_;  // by id
 
   Fall fall_;                        // in a step

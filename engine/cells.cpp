@@ -20,6 +20,11 @@ void Cells::sort(State& state, double range, TeamBarrier& team, std::size_t memb
   team.arrive_and_wait();
 }
 
+void Cells::forget() {
+  for (auto* array : {&cell_of_slot_, &start_, &old_slot_}) give_up(*array);
+  give_up(scratch_);
+}
+
 void Cells::lay_out(const State& state, double range) {
   const Grains& grains = state.grains;
   const auto [leftmost, rightmost] = std::minmax_element(grains.x.begin(), grains.x.end());

@@ -33,6 +33,8 @@ public:
   /// grains. To be called by all members of the team, each with its number; all is done when it
   /// returns.
   void sort(State& state, double range, TeamBarrier& team, std::size_t member);
+  /// Until the next sort() nobody asks any more: gives the memory to others.
+  void forget();
 
   /// Calls visit(SlotRange) for the ranges in which the later partners of `slot` stand: each
   /// unordered pair of grains closer than the range comes up exactly once over all slots, if the
@@ -66,8 +68,7 @@ private:
   std::vector<std::uint32_t> cell_of_slot_;
   std::vector<std::uint32_t> start_;     // first slot of each cell, and one past the last
   std::vector<std::uint32_t> old_slot_;  // of each slot
-
-  // Kept, as sorting recurs: the cells of old slots, then the bits of the values being permuted.
+  // The cells of old slots, then the bits of the values being permuted.
   AlignedVector<std::uint64_t> scratch_;
 };
 

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace riesel {
 
@@ -93,6 +94,9 @@ public:
   std::int32_t place(std::uint32_t slot) const { return place_[slot]; }
   bool deflected(std::uint32_t slot) const { return place_[slot] != flying; }
   const std::int32_t* places() const { return place_.data(); }  ///< by slot
+  std::span<const std::int32_t> places(SlotRange slots) const {
+    return std::span(place_).subspan(slots.begin, slots.size());
+  }
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
 
 private:

@@ -14,6 +14,13 @@ namespace {
 /// fewer new courses, but more neighbours to look at in every step.
 constexpr double tolerance_per_diameter = 0.002;
 
+double fastest_shaking(const State& state) {
+  double most = 0.0;
+  for (const WallLattice& wall : state.walls)
+    most = std::max(most, wall.motion.fastest_oscillation() * state.time_step);
+  return most;
+}
+
 }  // namespace
 
 Airspace::Airspace(State& the_state, const ContactModel& the_model, Candidates& the_candidates)
@@ -22,12 +29,13 @@ Airspace::Airspace(State& the_state, const ContactModel& the_model, Candidates& 
       candidates(the_candidates),
       courses(the_state),
       announcements(the_candidates.slices().size()),
-      tolerance(tolerance_per_diameter * mean_diameter(the_state.grains)) {}
+      tolerance(tolerance_per_diameter * mean_diameter(the_state.grains)),
+      room(room_in_skin(the_state.box, the_candidates.skin(), tolerance)),
+      shaking(fastest_shaking(the_state)) {}
 
-FlightRegion::FlightRegion(Airspace& airspace, std::size_t index)
+FlightRegion::FlightRegion(Airspace& airspace, std::size_t index, Profile& profile)
     : airspace_(airspace),
       slice_(airspace.candidates.slices()[index]),
-      index_(index),
       units_(airspace.state),
       tolerance_x_(
           nearest_fixed(airspace.tolerance * std::sqrt(0.5) / airspace.state.box.quantum_x())),
@@ -35,60 +43,113 @@ FlightRegion::FlightRegion(Airspace& airspace, std::size_t index)
           nearest_fixed(airspace.tolerance * std::sqrt(0.5) / airspace.state.box.quantum_y())),
       border_(slice_, airspace.courses, airspace.announcements, index),
       deflected_(airspace.state.grains.inertia),
-      skin_guard_(airspace.state, airspace.candidates, airspace.courses, airspace.tolerance),
+      skin_guard_(airspace.state, airspace.candidates, airspace.courses, airspace.room),
       appointments_(airspace.state, slice_, airspace.courses, border_, airspace.tolerance),
-      close_watch_(airspace.courses) {}
+      close_watch_(airspace.courses),
+      profile_(profile) {}
 
-/// What a step is, in the order in which it happens. Between the barriers all may change their
-/// courses and what they announce, and nobody looks at those of others.
-bool FlightRegion::step(std::int64_t step) {
-  Profile& profile = slice_.profile;
-  profile.begin_step(step);
-  move(step);
-  profile.done(Profile::Phase::fly);
-  if (step >= hold_until_) renew(step);
-  keep_appointments(step);
-  profile.done(Profile::Phase::search);
-  step_contacts(step);
-  airspace_.candidates.team().arrive_and_wait();
-  suffer(step);
-  profile.done(Profile::Phase::forces);
-  correct_courses(step);
-  announce(step);
-  airspace_.candidates.team().arrive_and_wait();
-  heed();
-  appointments_.make(step, step + 1, hold_until_);
-  profile.done(Profile::Phase::appointments);
-  return !trouble_;
+void FlightRegion::start_over(std::int64_t step) {
+  units_.move_to(step);
+  airspace_.courses.start_over(SlotRange{slice_.begin, slice_.end});
+  deflected_.clear();
+  guests_.clear();
+  let_go_.clear();
+  border_.find_neighbours(airspace_.candidates.slices_are_thick());
+  border_.list_foreign();
+  appointments_.start_over();
+  close_watch_.start_over(static_cast<std::uint32_t>(slice_.begin));
 }
 
-bool FlightRegion::take_off(std::int64_t step) {
-  units_.move_to(step);
-  if (!under_way_) {
-    begin(step, step + 1);
-    under_way_ = true;
-    return !trouble_;
+/// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
+void FlightRegion::take_up_contacts(std::int64_t step) {
+  border_.list_border();
+  for (const Kick& kick : slice_.received) deflected_.add_kick(deflect(kick.slot, step), kick.by);
+  give_up(slice_.received);  // from now on kicks are where the deflected grains are
+  for (LiveContacts* contacts : {&slice_.pair_contacts, &slice_.wall_contacts})
+    for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
+}
+
+void FlightRegion::set_out(std::int64_t step, std::int64_t steps_ahead) {
+  suffer(step);
+  Announcement& mine = border_.mine();
+  mine.hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
+  mine.pushed2 = 0.0;
+  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
+    if (is_guest(place)) continue;
+    mine.pushed2 = std::max(mine.pushed2, squared_speed_after(place, steps_ahead));
+    set_course(place, step);
+    if (deflected_.contacts(place) == 0) let_go_.push_back(place);
   }
-  if (index_ == 0) airspace_.courses.set_origin(step);
-  border_.mine().new_courses.clear();
-  airspace_.candidates.team().arrive_and_wait();
-  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place)
-    if (deflected_.in_use(place) && border_.owns(deflected_.slot(place))) set_course(place, step);
   announce(step);
-  airspace_.candidates.team().arrive_and_wait();
-  heed();
-  appointments_.make(step, step + 1, hold_until_);
-  return !trouble_;
+}
+
+/// (m per step)^2, relative to the drift, if the last kick comes in each of the steps.
+double FlightRegion::squared_speed_after(DeflectedGrains::Place place, std::int64_t steps) const {
+  const Motion m = deflected_.motion(place);
+  return airspace_.candidates.squared_speed(
+      airspace_.state.box, wrapped_sum(m.ux, wrapped_product(steps, m.kick_x)),
+      wrapped_sum(m.uy, wrapped_product(steps, m.kick_y)));
+}
+
+void FlightRegion::make_all_appointments(std::int64_t step, std::int64_t earliest,
+                                         std::int64_t hold_until) {
+  border_.mine().deeds.clear();
+  appointments_.make_all(step, earliest, hold_until);
+}
+
+void FlightRegion::set_out_again(std::int64_t step) {
+  units_.move_to(step);
+  border_.mine().new_courses.clear();
+  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place)
+    if (deflected_.in_use(place) && !is_guest(place)) set_course(place, step);
+  announce(step);
+}
+
+void FlightRegion::move(std::int64_t step) {
+  units_.move_to(step);
+  deflected_.move(units_.fallen);
+  profile_.done(Profile::Phase::fly);
+}
+
+void FlightRegion::collide(std::int64_t step) {
+  keep_appointments(step);
+  profile_.done(Profile::Phase::search);
+  step_contacts(step);
+}
+
+void FlightRegion::settle(std::int64_t step) {
+  suffer(step);
+  profile_.done(Profile::Phase::forces);
+  correct_courses(step);
+  announce(step);
+}
+
+void FlightRegion::foresee(std::int64_t step, std::int64_t hold_until) {
+  border_.mine().deeds.clear();
+  border_.for_each_after([&](const Announcement& other) {
+    for (const std::uint32_t slot : other.new_courses)
+      if (border_.is_foreign(slot)) appointments_.reconsider(slot);
+  });
+  appointments_.make(step, step + 1, hold_until);
+  profile_.done(Profile::Phase::appointments);
+}
+
+void FlightRegion::fetch() const {
+  const std::size_t begin = slice_.begin, count = slice_.end - slice_.begin;
+  const auto own = [&](const auto& column) { return std::span(column).subspan(begin, count); };
+  const Grains& g = airspace_.state.grains;
+  const CoarsePositions& then = airspace_.candidates.when_sorted();
+  for (const auto* column : {&g.x, &g.y, &g.ux, &g.uy}) riesel::fetch(own(*column));
+  for (const auto* column : {&then.x, &then.y}) riesel::fetch(own(*column));
+  riesel::fetch(own(g.radius));
+  riesel::fetch(airspace_.courses.places(SlotRange{slice_.begin, slice_.end}));
+  for (const auto* column : {&slice_.pairs.first, &slice_.pairs.second})
+    riesel::fetch(std::span(*column));
+  riesel::fetch(std::span(slice_.pairs.reach2));
+  appointments_.fetch();
 }
 
 void FlightRegion::land(std::int64_t step) {
-  airspace_.candidates.team().arrive_and_wait();
-  put_down(step);
-}
-
-/// The store becomes the state of `step`: the courses of deflected grains are given up for their
-/// motion.
-void FlightRegion::put_down(std::int64_t step) {
   for (std::size_t i = slice_.begin; i < slice_.end; ++i) {
     const auto slot = static_cast<std::uint32_t>(i);
     const std::int32_t place = airspace_.courses.place(slot);
@@ -99,57 +160,9 @@ void FlightRegion::put_down(std::int64_t step) {
   }
 }
 
-/// Makes the appointments of all candidates, which have just been listed. All grains are at `step`.
-void FlightRegion::begin(std::int64_t step, std::int64_t earliest) {
-  if (index_ == 0) airspace_.courses.start_over(step);
-  airspace_.courses.start_over(SlotRange{slice_.begin, slice_.end});
-  deflected_.clear();
-  guests_.clear();
-  let_go_.clear();
-  border_.list_foreign();
-  appointments_.start_over();
-  close_watch_.start_over(static_cast<std::uint32_t>(slice_.begin));
-  airspace_.candidates.team().arrive_and_wait();
-
-  border_.list_border();
-  take_up_contacts(step);
-  airspace_.candidates.team().arrive_and_wait();
-
-  suffer(step);
-  border_.mine().hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
-  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
-    if (!border_.owns(deflected_.slot(place))) continue;
-    set_course(place, step);
-    if (deflected_.contacts(place) == 0) let_go_.push_back(place);
-  }
-  announce(step);
-  airspace_.candidates.team().arrive_and_wait();
-
-  heed();
-  appointments_.make_all(step, earliest, hold_until_);
-}
-
-/// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
-void FlightRegion::take_up_contacts(std::int64_t step) {
-  for (const Kick& kick : slice_.received) deflected_.add_kick(deflect(kick.slot, step), kick.by);
-  for (LiveContacts* contacts : {&slice_.pair_contacts, &slice_.wall_contacts})
-    for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
-}
-
-/// The candidates do not hold any more.
-void FlightRegion::renew(std::int64_t step) {
-  slice_.profile.begin_build();
-  land(step);
-  airspace_.candidates.sort_anew(airspace_.state, std::span(&slice_, 1), step);
-  begin(step, step);
-  slice_.profile.done_build();
-}
-
-/// Everything that does not fly moves on to `step`, but for guests, whose motion is not known here.
-void FlightRegion::move(std::int64_t step) {
-  if (index_ == 0) airspace_.state.step = step;
-  units_.move_to(step);
-  deflected_.move(units_.fallen);
+void FlightRegion::need_candidates_until(std::int64_t step) {
+  needed_until_ = step;
+  border_.mine().strays.clear();
 }
 
 inline FlightRegion::Position FlightRegion::position(std::uint32_t slot, std::int64_t step) const {
@@ -251,7 +264,7 @@ void FlightRegion::step_contacts(std::int64_t step) {
 /// What the contacts of other slices do to grains of this one.
 void FlightRegion::suffer(std::int64_t step) {
   border_.mine().new_courses.clear();
-  border_.for_each_other([&](const Announcement& other) {
+  border_.for_each_before([&](const Announcement& other) {
     for (const Deed& deed : other.deeds) {
       if (!border_.owns(deed.slot)) continue;
       const DeflectedGrains::Place place = deflect(deed.slot, step);
@@ -278,6 +291,7 @@ void FlightRegion::announce(std::int64_t step) {
   Announcement& mine = border_.mine();
   mine.step = step;
   mine.trouble = slice_.failed();
+  mine.fastest2 = skin_guard_.fastest2();
   for (BorderGrain& grain : mine.border) {
     grain.deflected = airspace_.courses.deflected(grain.slot);
     if (grain.deflected)
@@ -286,17 +300,52 @@ void FlightRegion::announce(std::int64_t step) {
   }
 }
 
-void FlightRegion::heed() {
-  Announcement& mine = border_.mine();
-  mine.deeds.clear();
-  hold_until_ = mine.hold_until;
-  trouble_ = mine.trouble;
-  border_.for_each_other([&](const Announcement& other) {
-    hold_until_ = std::min(hold_until_, other.hold_until);
-    trouble_ = trouble_ || other.trouble;
-    for (const std::uint32_t slot : other.new_courses)
-      if (border_.is_foreign(slot)) appointments_.reconsider(slot);
+/// Somebody has become so fast that the candidates do not hold for as long as slices are askew,
+/// which nobody expects of contacts that steps resolve: touches with candidates are found as ever,
+/// and others end the run.
+void FlightRegion::watch_strays(std::int64_t step) {
+  for (const Stray& stray : border_.mine().strays) {
+    look_around(stray, {slice_.begin, slice_.end}, step);
+    for (const std::size_t after : border_.after()) {
+      const Slice& next = airspace_.candidates.slices()[after];
+      look_around(stray, {next.begin, next.end}, step);
+    }
+    look_at_walls(stray, step);
+  }
+  border_.for_each_after([&](const Announcement& other) {
+    for (const Stray& stray : other.strays) look_around(stray, {slice_.begin, slice_.end}, step);
   });
+}
+
+/// Courses are known of all, and nobody is farther from them than the tolerance.
+void FlightRegion::look_around(const Stray& stray, SlotRange among, std::int64_t step) {
+  if (step < stray.step) return;
+  const Courses& courses = airspace_.courses;
+  const Grains& g = airspace_.state.grains;
+  const Fixed x = courses.x(stray.slot, step), y = courses.y(stray.slot, step);
+  for (auto slot = static_cast<std::uint32_t>(among.begin); slot < among.end; ++slot) {
+    const double reach = g.radius[stray.slot] + g.radius[slot] + 2.0 * airspace_.tolerance;
+    if (slot != stray.slot
+        && overlapping(wrapped_difference(courses.x(slot, step), x),
+                       wrapped_difference(courses.y(slot, step), y), reach, units_)
+        && !slice_.pairs.has(stray.slot, slot))
+      slice_.lost = first_of(slice_.lost, LostGrain{step, g.id[stray.slot], true});
+  }
+}
+
+void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
+  if (step < stray.step) return;
+  const State& state = airspace_.state;
+  const double x = state.box.metres_x(airspace_.courses.x(stray.slot, step));
+  const double reach = state.grains.radius[stray.slot] + airspace_.tolerance;
+  for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall) {
+    const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
+    const bool near = std::any_of(
+        slice_.near_walls.begin(), slice_.near_walls.end(),
+        [&](const NearWall& n) { return n.slot == stray.slot && n.wall == wall; });
+    if (!near && std::abs(x - lattice.line) < reach + lattice.reach())
+      slice_.lost = first_of(slice_.lost, LostGrain{step, state.grains.id[stray.slot], true});
+  }
 }
 
 /// The grains of a contact are stepped from now on.
@@ -367,8 +416,10 @@ void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step) {
                       .spin_kick = 0};
   airspace_.courses.set(slot, course, step);
   deflected_.set_course(place);
-  std::int64_t& hold_until = border_.mine().hold_until;
-  hold_until = std::min(hold_until, skin_guard_.hold_until(slot, course, step));
+  Announcement& mine = border_.mine();
+  const std::int64_t hold_until = skin_guard_.hold_until(slot, course, step);
+  mine.hold_until = std::min(mine.hold_until, hold_until);
+  if (hold_until < needed_until_) mine.strays.push_back({slot, hold_until});
   border_.announce_course(slot);
   appointments_.reconsider(slot);
 }

@@ -12,6 +12,7 @@
 #include "engine/contact_law.hpp"
 #include "engine/courses.hpp"
 #include "engine/deflected_grains.hpp"
+#include "engine/profile.hpp"
 #include "engine/skin_guard.hpp"
 #include "engine/state.hpp"
 
@@ -30,28 +31,57 @@ struct Airspace {
   Candidates& candidates;
   Courses courses;
   std::vector<Announcement> announcements;  // one for each slice
-  const double tolerance;                   ///< m, how far a deflected grain may be from its course
+  const double tolerance;  ///< m, how far a deflected grain may be from its course
+  const double room;       ///< m, that grains have in the skin on their courses
+  const double shaking;    ///< m per step, of the fastest wall across or along itself
 };
 
 class alignas(cache_line) FlightRegion {
 public:
-  FlightRegion(Airspace& airspace, std::size_t index);
+  /// Keeps references. The time that a step takes is noted in `profile`.
+  FlightRegion(Airspace& airspace, std::size_t index, Profile& profile);
   FlightRegion(const FlightRegion&) = delete;
   FlightRegion& operator=(const FlightRegion&) = delete;
   ~FlightRegion() = default;
 
-  /// To be called by all threads of a team, each for its region; see Flights.
-  bool take_off(std::int64_t step);
-  bool step(std::int64_t step);
+  // Each of these is to be called for all regions, by the thread that has the slice, before the
+  // next is called for any; but while slices are askew only as step_askew() in flights.cpp says.
+
+  /// The candidates have just been listed, at `step`, that of all grains.
+  void start_over(std::int64_t step);
+  void take_up_contacts(std::int64_t step);
+  /// Expects that the present forces last for so many steps.
+  void set_out(std::int64_t step, std::int64_t steps_ahead);
+  void make_all_appointments(std::int64_t step, std::int64_t earliest, std::int64_t hold_until);
+
+  /// All grains have landed at `step`, the origin of courses, and go on from there.
+  void set_out_again(std::int64_t step);
+
+  /// One step, to this one, of all that does not fly. First everything but guests moves on;
+  void move(std::int64_t step);
+  /// then what is due is looked at, and contacts give their kicks;
+  void collide(std::int64_t step);
+  /// kicks of other slices come in, and courses change (also to complete set_out());
+  void settle(std::int64_t step);
+  /// appointments are made with the new courses, none for after `hold_until`.
+  void foresee(std::int64_t step, std::int64_t hold_until);
+
+  /// Brings what steps need of the slice from memory into the caches.
+  void fetch() const;
+
+  /// The store becomes the state of `step`: the courses of deflected grains are given up for their
+  /// motion.
   void land(std::int64_t step);
 
-private:
-  void begin(std::int64_t step, std::int64_t earliest);
-  void take_up_contacts(std::int64_t step);
-  void renew(std::int64_t step);
-  void put_down(std::int64_t step);
+  /// From now on a grain is a stray for which the candidates do not hold until this step. If nobody
+  /// asks for that, somebody else watches how long they hold.
+  static constexpr std::int64_t nobody_asks = INT64_MIN;
+  void need_candidates_until(std::int64_t step);
+  /// To be called after collide() while candidates are needed: ends the run if a stray has gone to
+  /// where nobody looks for it.
+  void watch_strays(std::int64_t step);
 
-  void move(std::int64_t step);
+private:
   void keep_appointments(std::int64_t step);
   void look_again(std::uint32_t pair, std::int64_t step, double reach, int strays);
   void look_at_pair(std::uint32_t pair, std::int64_t step);
@@ -60,7 +90,8 @@ private:
   void suffer(std::int64_t step);
   void correct_courses(std::int64_t step);
   void announce(std::int64_t step);
-  void heed();
+  void look_around(const Stray& stray, SlotRange among, std::int64_t step);
+  void look_at_walls(const Stray& stray, std::int64_t step);
 
   void take_up(LiveContacts& contacts, std::size_t contact, std::int64_t step);
   DeflectedGrains::Place deflect(std::uint32_t slot, std::int64_t step);
@@ -69,6 +100,7 @@ private:
   void change_contacts(DeflectedGrains::Place place, std::int32_t by);
   void release(DeflectedGrains::Place place);
   void set_course(DeflectedGrains::Place place, std::int64_t step);
+  double squared_speed_after(DeflectedGrains::Place place, std::int64_t steps) const;
 
   bool is_guest(DeflectedGrains::Place place) const {
     return !border_.owns(deflected_.slot(place));
@@ -81,7 +113,6 @@ private:
 
   Airspace& airspace_;
   Slice& slice_;
-  const std::size_t index_;
   StepUnits units_;
   const Fixed tolerance_x_, tolerance_y_;  // quanta, along each axis
 
@@ -90,11 +121,10 @@ private:
   std::vector<DeflectedGrains::Place> guests_;
   std::vector<DeflectedGrains::Place> let_go_;  // of this step: a contact has ended
   SkinGuard skin_guard_;
-  std::int64_t hold_until_ = 0;  // step until which the candidates of all slices hold for sure
-  bool trouble_ = false;         // of any slice
+  std::int64_t needed_until_ = nobody_asks;  // step, the candidates
   Appointments appointments_;
   CloseWatch close_watch_;
-  bool under_way_ = false;  // they are made
+  Profile& profile_;
 };
 
 }  // namespace riesel

@@ -14,21 +14,27 @@
 // beyond the tolerance, or whose last contact ends, gets a new course and new appointments. So no
 // contact is missed, and the steps done here are the same, bit by bit, as those of plain stepping.
 //
-// Each slice of the candidates has a region, stepped by one thread. All regions do the same step;
-// what they tell each other is in border.hpp.
+// Each slice of the candidates has a region, stepped by one thread. Each thread has one, and all do
+// the same step, where the grains fit into the caches; else it has many, which go askew (Askew).
+// What regions tell each other is in border.hpp.
 //
 // See docs/performance-log.md for the figures and docs/architecture.md for how this compares with
 // fixed windows.
 #pragma once
 
+#include "engine/aligned.hpp"
+#include "engine/askew.hpp"
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/flight_region.hpp"
 #include "engine/state.hpp"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
 
 namespace riesel {
 
@@ -39,27 +45,55 @@ public:
   static constexpr double skin_per_diameter = 0.65;
 
   /// Nobody else uses the candidates afterwards. Keeps references.
-  Flights(State& state, const ContactModel& model, Candidates& candidates)
-      : airspace_(state, model, candidates) {
-    for (std::size_t slice = 0; slice < candidates.slices().size(); ++slice)
-      regions_.emplace_back(airspace_, slice);
-  }
+  Flights(State& state, const ContactModel& model, Candidates& candidates, const Askew& askew);
 
-  // All that follows is to be called by all threads of a team, one for each slice, with the same
-  // step; `member` is the slice of the thread. What returns a bool tells all the same: false if
-  // the run cannot go on.
-
-  /// To be called before the first step(), and between land() and the next. All grains are at this
-  /// step. From here to land() the store is no state.
-  bool take_off(std::size_t member, std::int64_t step) { return regions_[member].take_off(step); }
-  /// One step, to this one, of all that does not fly.
-  bool step(std::size_t member, std::int64_t step) { return regions_[member].step(step); }
-  /// Brings all grains to this step, which must be that of the last step().
-  void land(std::size_t member, std::int64_t step) { regions_[member].land(step); }
+  /// From step `now`, that of the state, to `last`, or until the run cannot go on: then perhaps
+  /// some steps beyond the trouble. To be called by all threads of a team with the same steps;
+  /// `number` is that of the thread.
+  void advance(std::size_t number, std::int64_t now, std::int64_t last);
 
 private:
+  /// What a thread works with: regions begin ... end - 1.
+  struct alignas(cache_line) Member {
+    std::size_t begin, end;
+    Profile& profile;
+    std::int64_t hold_until = 0;  // step until which the candidates of all slices hold for sure
+    // (m per step)^2 relative to the drift, of any grain: now, and as expected after a few steps
+    double fastest2 = 0.0, pushed2 = 0.0;
+    bool trouble = false;         // of any slice
+    bool under_way = false;       // appointments are made
+  };
+
+  /// The last step that a slice that goes askew has done each part of; on a cache line of its own.
+  struct alignas(cache_line) Progress {
+    std::atomic<std::int64_t> collided, settled;
+    std::int64_t foreseen;
+    bool fetched;
+  };
+
+  void take_off(Member& member, std::int64_t step);
+  void begin(Member& member, std::int64_t step, std::int64_t earliest);
+  void land(Member& member, std::int64_t step);
+  void renew(Member& member, std::int64_t step);
+  void heed(Member& member);
+  void step_together(Member& member, std::int64_t step);
+  std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last) const;
+  void step_askew(Member& member, std::int64_t now, std::int64_t last);
+  bool go_on(const Member& member, std::size_t slice, std::int64_t last);
+
+  template <class Do>
+  void for_each_region(const Member& member, Do something);
+  std::span<Slice> share(const Member& member) {
+    return std::span(airspace_.candidates.slices())
+        .subspan(member.begin, member.end - member.begin);
+  }
+  void wait() { airspace_.candidates.team().arrive_and_wait(); }
+
   Airspace airspace_;
-  std::deque<FlightRegion> regions_;  // which never move
+  const std::int64_t most_steps_askew_;
+  std::vector<std::unique_ptr<FlightRegion>> regions_;
+  std::vector<Member> members_;
+  std::vector<Progress> progress_;  // of regions
 };
 
 }  // namespace riesel

@@ -3,12 +3,11 @@
 #include "engine/contact_loop.hpp"
 #include "engine/kicks.hpp"
 #include "engine/pair_search.hpp"
-#include "engine/team_barrier.hpp"
 #include "engine/vector_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
+#include <functional>
 
 namespace riesel {
 
@@ -25,20 +24,6 @@ RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, F
 }
 
 }  // namespace
-
-std::int64_t Askew::most_steps(const State& state) const {
-  return state.grains.size() < fewest ? 1 : steps;
-}
-
-std::size_t Askew::slices_per_thread(const State& state, int threads) const {
-  // So that slices have enough rows even where grains are denser than elsewhere.
-  constexpr double rows_per_slice = 10.0;
-  const std::size_t grains = state.grains.size(), members = static_cast<std::size_t>(threads);
-  if (grains < fewest) return 1;
-  const auto most = static_cast<std::size_t>(Candidates::rows(state) / rows_per_slice) / members;
-  const std::size_t slices = std::min(grains / members / slice, most);
-  return slices * members < 3 ? 1 : slices;
-}
 
 PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& candidates,
                        const Askew& askew)
@@ -118,20 +103,10 @@ void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t las
     p.done = false;
   }
   candidates_.team().arrive_and_wait();
-  int idle = 0;
-  while (std::any_of(progress.begin(), progress.end(), [](const Progress& p) { return !p.done; })) {
-    bool any = false;
-    for (std::size_t slice = begin; slice < begin + progress.size(); ++slice)
-      for (std::size_t s = slice; go_on(member, s, last); --s) {
-        any = true;
-        if (s == begin) break;
-      }
-    idle = any ? 0 : idle + 1;
-    if (idle > TeamBarrier::looks)
-      std::this_thread::yield();
-    else if (idle > 0)
-      pause_core();
-  }
+  go_askew(
+      begin, begin + progress.size(),
+      [&](std::size_t slice) { return go_on(member, slice, last); },
+      [&] { return std::all_of(progress.begin(), progress.end(), std::mem_fn(&Progress::done)); });
   if (begin == 0) state_.step = last;
   candidates_.team().arrive_and_wait();
 }
@@ -139,8 +114,7 @@ void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t las
 /// Does what this slice can do now, up to its part of step `last`; false if that is nothing.
 bool PlainSteps::go_on(Member& member, std::size_t slice, std::int64_t last) {
   std::vector<Slice>& slices = candidates_.slices();
-  const std::size_t before = slice == 0 ? slices.size() - 1 : slice - 1;
-  const std::size_t after = slice + 1 == slices.size() ? 0 : slice + 1;
+  const auto [before, after] = PlaceInRing(slice, slices.size());
   Slice &mine = slices[slice], &next = slices[after];
   Progress& progress = progress_[slice];
   bool any = false;

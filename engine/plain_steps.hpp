@@ -5,15 +5,11 @@
 // grains. To touch it needs the positions of its neighbours, to receive their kicks.
 //
 // Each thread has one slice, and all do each part together, where the grains fit into the caches.
-// Where they do not, a step waits for memory, and several steps with one part of the system cost
-// little more than one. So many grains have many slices, one after the other along the tube, and
-// these go askew: as soon as one has moved, the one before it can touch, receive and move to the
-// next step, then the one before that, and so on, while all of them are still in the cache. So each
-// slice is at most one step ahead of the next, and any of any other by as many steps as the
-// candidates hold. The results are the same, as the sums of integers do not depend on order.
+// Where they do not, each thread has many slices, which go askew (Askew).
 #pragma once
 
 #include "engine/aligned.hpp"
+#include "engine/askew.hpp"
 #include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/encounter.hpp"
@@ -26,21 +22,6 @@
 #include <vector>
 
 namespace riesel {
-
-/// How slices go askew. The results do not depend on it.
-struct Askew {
-  /// Grains of a slice, or more where the box is wide: so few that as many slices as there are
-  /// steps between the first and the last fit into a part of the last cache.
-  std::size_t slice = 4000;
-  std::int64_t steps = 16;  ///< that one slice is ahead of another at most
-  /// With fewer grains all slices do each step together: they fit into the caches as they are.
-  std::size_t fewest = 200'000;
-
-  /// That one slice may be ahead of another in this state; 1: all do each step together.
-  std::int64_t most_steps(const State& state) const;
-  /// How many slices each of the threads is to have: one if they cannot go askew.
-  std::size_t slices_per_thread(const State& state, int threads) const;
-};
 
 class PlainSteps {
 public:

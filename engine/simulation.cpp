@@ -78,12 +78,11 @@ int team_size(int wanted) {
 }
 
 /// What to try first. In units of what plain stepping takes for a grain without contacts, flights
-/// take some 2.5 more for a contact, and next to nothing for a grain; where there are so many
-/// grains that slices go askew, flights wait for memory and plain stepping does not:
-/// docs/performance-log.md.
+/// take some 2.5 more for a contact, and next to nothing for a grain; more where there are so many
+/// grains that slices go askew: docs/performance-log.md.
 bool flights_look_faster(const State& state, int threads, const Askew& askew) {
   const auto contacts = static_cast<double>(state.contacts.size());
-  const double price = askew.slices_per_thread(state, threads) > 1 ? 25.0 : 2.5;
+  const double price = askew.slices_per_thread(state, threads) > 1 ? 6.0 : 2.5;
   return price * contacts < static_cast<double>(state.grains.size());
 }
 
@@ -161,7 +160,7 @@ void Simulation::advance_piece(std::int64_t last) {
   const auto now = std::chrono::steady_clock::now;
   const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
   const auto begin = now();
-  if (!candidates_->in_trouble() && prepared_ != choice_.way()) {
+  if (!candidates_->in_trouble() && prepared_ != wanted()) {
     prepare();
     step_up_to(std::min(last, state_.step + 1));  // in which flights make all their appointments
   }
@@ -174,17 +173,28 @@ void Simulation::advance_piece(std::int64_t last) {
   fail_if_in_trouble();
 }
 
+Simulation::Preparation Simulation::wanted() const {
+  const Way way = choice_.way();
+  const std::size_t slices = askew_.slices_per_thread(state_, way.threads);
+  constexpr double ample = 0.6;  // so that it is not now one, now the other
+  const bool before = prepared_ && prepared_->slices_per_thread > 1;
+  const double enough = (before ? ample : 1.0) * askew_.contacts
+                        * static_cast<double>(state_.grains.size());
+  const bool askew = !way.by_flights || static_cast<double>(state_.contacts.size()) >= enough;
+  return {way, askew ? slices : 1};
+}
+
 /// Whoever is to step the grains starts from the state alone, as after a checkpoint.
 void Simulation::prepare() {
-  prepared_ = choice_.way();
+  prepared_ = wanted();
   flights_.reset();
   plain_steps_.reset();
-  const auto [by_flights, threads] = *prepared_;
+  const auto [by_flights, threads] = prepared_->way;
   const double skin = by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
-  const std::size_t slices = by_flights ? 1 : askew_.slices_per_thread(state_, threads);
-  candidates_ = std::make_unique<Candidates>(state_, model_.slip, threads, skin, slices);
+  candidates_ = std::make_unique<Candidates>(state_, model_.slip, threads, skin,
+                                             prepared_->slices_per_thread);
   if (by_flights)
-    flights_ = std::make_unique<Flights>(state_, model_, *candidates_);
+    flights_ = std::make_unique<Flights>(state_, model_, *candidates_, askew_);
   else
     plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, askew_);
   profile_first_thread();
@@ -199,18 +209,13 @@ void Simulation::step_up_to(std::int64_t last) {
 
 void Simulation::advance_plainly(std::int64_t last) {
   const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
-  as_a_team(prepared_->threads,
+  as_a_team(prepared_->way.threads,
             [&](std::size_t member) { plain_steps_->advance(member, now, last); });
 }
 
 void Simulation::advance_by_flights(std::int64_t last) {
   const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
-  as_a_team(prepared_->threads, [&](std::size_t member) {
-    std::int64_t done = now;
-    bool go_on = flights_->take_off(member, now);
-    while (go_on && done < last) go_on = flights_->step(member, ++done);
-    flights_->land(member, done);
-  });
+  as_a_team(prepared_->way.threads, [&](std::size_t member) { flights_->advance(member, now, last); });
 }
 
 /// Completes the state with what the slices know of contacts.

@@ -54,6 +54,12 @@ public:
   const Profile& profile() const { return profile_; }
 
 private:
+  struct Preparation {
+    Way way;
+    std::size_t slices_per_thread;
+    bool operator==(const Preparation&) const = default;
+  };
+  Preparation wanted() const;
   std::int64_t piece() const;
   void advance_piece(std::int64_t last);
   void prepare();
@@ -69,7 +75,7 @@ private:
   const int threads_;
   const Askew askew_;
   SteppingChoice choice_;
-  std::optional<Way> prepared_;  // what the candidates and one of the two below are there for
+  std::optional<Preparation> prepared_;  // of the candidates and of one of the two below
   Profile profile_;
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<PlainSteps> plain_steps_;

@@ -14,23 +14,31 @@
 
 namespace riesel {
 
+/// m, how far a course may lead from where the grain was listed, coarsely, before the candidates
+/// fail, if a grain may be off its course by `tolerance`.
+double room_in_skin(const Box& box, double skin, double tolerance);
+
 class SkinGuard {
 public:
-  /// A grain may be farther from its course than that by `tolerance` (m). Keeps references.
-  SkinGuard(const State& state, const Candidates& candidates, const Courses& courses,
-            double tolerance);
+  /// `room` as room_in_skin(). Keeps references.
+  SkinGuard(const State& state, const Candidates& candidates, const Courses& courses, double room);
 
   /// The candidates hold for this step for sure if all of these grains, which have just been
   /// listed, keep to their courses.
-  std::int64_t hold_until(SlotRange slots) const;
+  std::int64_t hold_until(SlotRange slots);
   /// The same for one grain that goes on like this from step `now` on.
-  std::int64_t hold_until(std::uint32_t slot, const Motion& course, std::int64_t now) const;
+  std::int64_t hold_until(std::uint32_t slot, const Motion& course, std::int64_t now);
+
+  /// (m per step)^2, relative to the drift, of the fastest of all that has been asked for since the
+  /// grains were listed.
+  double fastest2() const { return fastest2_; }
 
 private:
   const State& state_;
   const Candidates& candidates_;
   const Courses& courses_;
   const double room_;  // m
+  double fastest2_ = 0.0;
 };
 
 }  // namespace riesel

@@ -11,17 +11,9 @@ namespace riesel {
 
 namespace {
 
-bool is_candidate(const CandidatePairs& pairs, std::uint32_t i, std::uint32_t j) {
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    if ((pairs.first[p] == i && pairs.second[p] == j)
-        || (pairs.first[p] == j && pairs.second[p] == i))
-      return true;
-  return false;
-}
-
 /// The first of the two is in the slice.
 void add_candidate(Slice& mine, std::uint32_t i, std::uint32_t j, float reach2) {
-  if (is_candidate(mine.pairs, i, j)) return;
+  if (mine.pairs.has(i, j)) return;
   mine.pairs.add(i, j, reach2);
   mine.inner.take_back(mine.pairs, static_cast<std::uint32_t>(mine.pairs.size() - 1));
 }

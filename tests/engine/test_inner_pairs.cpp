@@ -14,7 +14,7 @@ using namespace systems;
 namespace {
 
 constexpr double diameter = 1e-3, outer_skin = 0.35e-3;
-const Box box{.width = 20e-3, .length = 20e-3};
+const Box small_box{.width = 20e-3, .length = 20e-3};
 
 /// Points that go straight on, all pairs within the outer skin, and their inner list. As long as
 /// nobody goes farther than half of the outer skin, the candidates hold.
@@ -22,8 +22,8 @@ class Cloud {
 public:
   explicit Cloud(std::size_t count) : dice_(count) {
     for (std::size_t i = 0; i < count; ++i) {
-      x_.push_back(dice_.between(0.0, box.width));
-      y_.push_back(dice_.between(0.0, box.length));
+      x_.push_back(dice_.between(0.0, small_box.width));
+      y_.push_back(dice_.between(0.0, small_box.length));
       angle_.push_back(dice_.between(0.0, 2.0 * std::numbers::pi));
     }
     positions_.resize(count);
@@ -73,8 +73,8 @@ public:
 private:
   void place() {
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      positions_.x[i] = upper_half(box.fixed_x(x_[i]));
-      positions_.y[i] = upper_half(box.fixed_y(y_[i]));
+      positions_.x[i] = upper_half(small_box.fixed_x(x_[i]));
+      positions_.y[i] = upper_half(small_box.fixed_y(y_[i]));
     }
   }
 
@@ -85,7 +85,7 @@ private:
   }
 
   Dice dice_;
-  CoarseUnits units_{box};
+  CoarseUnits units_{small_box};
   std::vector<double> x_, y_, angle_;
   CoarsePositions positions_;
   CandidatePairs candidates_;
@@ -154,7 +154,7 @@ TEST_CASE("a list of no candidates at all serves until there are some") {
   CoarsePositions positions;
   positions.resize(2);
   CandidatePairs both;
-  const CoarseUnits units(box);
+  const CoarseUnits units(small_box);
   both.add(0, 1, units.generous_square(diameter));
   inner.start_over(outer_skin);
   inner.keep_up(both, positions, units);

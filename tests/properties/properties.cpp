@@ -24,7 +24,7 @@ struct Leg {
   Stepping stepping;
   int threads;
   bool shuffle, observe, profile, through_file;
-  Askew askew;  // in plain stepping
+  Askew askew;
   std::int64_t steps;
 
   std::string name() const {
@@ -54,7 +54,8 @@ Leg random_leg(Dice& dice, std::int64_t left) {
   if (dice.below(2) == 0)
     leg.askew = {.slice = static_cast<std::size_t>(1 + dice.below(60)),
                  .steps = 2 + dice.below(10),
-                 .fewest = 0};
+                 .fewest = 0,
+                 .contacts = 0.0};
   leg.steps = dice.below(3) == 0 ? left : 1 + dice.below(left);
   return leg;
 }

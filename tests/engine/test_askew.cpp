@@ -1,6 +1,7 @@
-// Slices that go askew, each some steps ahead of the next: the same bits, and no contact missed by
-// grains that go farther meanwhile than anybody expects.
-#include "engine/plain_steps.hpp"
+// Slices that go askew, each some steps ahead of the next, in plain stepping and in flights: the same
+// bits, and no contact missed by grains that go farther meanwhile than anybody expects.
+#include "engine/askew.hpp"
+#include "engine/flights.hpp"
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/same_states.hpp"
@@ -14,11 +15,11 @@ using same_states::same;
 
 namespace {
 
-constexpr Askew small_slices{.slice = 40, .steps = 8, .fewest = 0};
+constexpr Askew small_slices{.slice = 40, .steps = 8, .fewest = 0, .contacts = 0.0};
 
 State askew(const State& state, const ContactModel& model, std::int64_t steps, int threads,
-            const Askew& how = small_slices) {
-  Simulation simulation(state, model, threads, Stepping::plain, how);
+            const Askew& how = small_slices, Stepping stepping = Stepping::plain) {
+  Simulation simulation(state, model, threads, stepping, how);
   simulation.advance(steps);
   return simulation.state();
 }
@@ -85,6 +86,41 @@ ContactModel hard_model() {
           Attraction::keep};
 }
 
+/// A force that does not depend on the overlap.
+struct Blow {
+  double force;
+
+  double elastic(double) const { return force; }
+  static double damping(double, double, double) { return 0.0; }
+  double stored_energy(double xi) const { return force * xi; }
+  ElasticLine elastic_line() const { return {force, 0.0}; }
+};
+
+/// A contact of a step or two in which grains get a speed of a tenth of a diameter per step.
+ContactModel blow_model() {
+  return {OuterLaw(Blow{0.1 * diameter * mass / (time_step * time_step)}), CappedSlip{}, 0.0,
+          Attraction::keep};
+}
+
+/// Two grains that come together slowly, to be blown apart, across the tube or along it.
+void add_blow(State& state, double x, double y, bool across) {
+  const double way = 0.5 * diameter * 1.02, speed = 0.006 * diameter / time_step;
+  for (const double side : {-1.0, 1.0})
+    if (across)
+      add_grain(state, grain(x + side * way, y, -side * speed, 0.0));
+    else
+      add_grain(state, grain(x, y + side * way, 0.0, -side * speed));
+}
+
+constexpr Askew long_lead{.slice = 20, .steps = 16, .fewest = 0, .contacts = 0.0};
+
+State blows(bool across) {
+  State state = at_rest();
+  for (std::int64_t group = 0; group < groups; ++group)
+    add_blow(state, 5e-3, static_cast<double>(group) * 5e-3, across);
+  return state;
+}
+
 }  // namespace
 
 TEST_CASE("slices of a long tube go ahead of each other") {
@@ -130,13 +166,14 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
   Dice dice(83);
   throw_grains(start, 200,
                {.left = 0.0, .right = 12e-3, .low = 100e-3, .high = 125e-3, .speed = 3.0}, dice);
-  constexpr Askew tiny_slices{.slice = 5, .steps = 8, .fewest = 0};
+  constexpr Askew tiny_slices{.slice = 5, .steps = 8, .fewest = 0, .contacts = 0.0};
   REQUIRE(tiny_slices.slices_per_thread(start, 1) > 25);
   REQUIRE(steps_ahead(start, tiny_slices.slices_per_thread(start, 1)) == 1);
   const State expected = advanced(start, paper_model(), 500, 1, Stepping::plain);
   REQUIRE(expected.tally.grains.begun > 50);
   const int threads = GENERATE(1, 2);
-  CHECK(same(askew(start, paper_model(), 500, threads, tiny_slices), expected));
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(askew(start, paper_model(), 500, threads, tiny_slices, stepping), expected));
 }
 
 TEST_CASE("slices do each step together where grains are too fast for more") {
@@ -151,22 +188,25 @@ TEST_CASE("slices that go askew give the same bits on any number of threads") {
   REQUIRE(expected.tally.grains.begun > 200);
   REQUIRE(expected.tally.walls.begun > 40);
   const int threads = GENERATE(1, 2, 3, 4);
-  CHECK(same(askew(start, paper_model(), 600, threads), expected));
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(askew(start, paper_model(), 600, threads, small_slices, stepping), expected));
 }
 
 TEST_CASE("slices of grains that rotate go askew with the same bits") {
   const State start = long_tube(0.1, disc);
   const State expected = advanced(start, rolling_model(), 400, 1, Stepping::plain);
-  CHECK(same(askew(start, rolling_model(), 400, 1), expected));
-  CHECK(same(askew(start, rolling_model(), 400, 2), expected));
+  const int threads = GENERATE(1, 2);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(askew(start, rolling_model(), 400, threads, small_slices, stepping), expected));
 }
 
 TEST_CASE("calls that end at any step, and any lead, give the same bits") {
   const State start = long_tube(0.0);
   const State expected = advanced(start, paper_model(), 300, 1, Stepping::plain);
   const std::int64_t lead = GENERATE(2, 3, 16);
-  Simulation simulation(start, paper_model(), 2, Stepping::plain,
-                        {.slice = 40, .steps = lead, .fewest = 0});
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  Simulation simulation(start, paper_model(), 2, stepping,
+                        {.slice = 40, .steps = lead, .fewest = 0, .contacts = 0.0});
   for (const std::int64_t steps : {1, 2, 7, 8, 9, 23, 50, 200}) simulation.advance(steps);
   CHECK(same(simulation.state(), expected));
 }
@@ -177,7 +217,8 @@ TEST_CASE("strays touch grains and walls that are no candidates") {
                                     springs_along(overlap, -1.0));
   const State expected = advanced(start, hard_model(), 24, 1, Stepping::plain);
   const int threads = GENERATE(1, 2);
-  CHECK(same(askew(start, hard_model(), 24, threads), expected));
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(askew(start, hard_model(), 24, threads, small_slices, stepping), expected));
 }
 
 TEST_CASE("the strays of the test before touch somebody while slices are askew") {
@@ -209,4 +250,53 @@ TEST_CASE("a force that is not finite is told of in the step in which it was fou
   const Askew how = GENERATE(Askew{}, small_slices);
   CHECK_THAT(failure_of([&] { askew(start, weak, 100, 1, how); }),
              Contains("grain 0 and grain 1 is not finite") && Contains("(step 3)"));
+}
+
+TEST_CASE("strays of flights touch grains that are candidates") {
+  const bool across = GENERATE(true, false);
+  State start = blows(across);
+  const double close_by = (1.5 + 0.5 * Flights::skin_per_diameter + 0.01) * diameter;
+  for (std::int64_t group = 0; group < groups; ++group) {
+    const double y = static_cast<double>(group) * 5e-3;
+    add_grain(start, across ? grain(5e-3 + close_by, y, 0.0, 0.0)
+                            : grain(5e-3, y + close_by, 0.0, 0.0));
+  }
+  const State expected = advanced(start, blow_model(), 10, 1, Stepping::plain);
+  CHECK(expected.tally.grains.begun == 2 * groups);
+  const int threads = GENERATE(1, 2);
+  CHECK(same(askew(start, blow_model(), 10, threads, long_lead, Stepping::windows), expected));
+}
+
+TEST_CASE("strays of flights that touch somebody else end the run") {
+  const int threads = GENERATE(1, 2);
+  const auto failure = [&](const State& start) {
+    return failure_of(
+        [&] { askew(start, blow_model(), 16, threads, long_lead, Stepping::windows); });
+  };
+  const bool across = GENERATE(true, false);
+  REQUIRE(failure(blows(across)) == "no failure");
+  const double beyond = diameter * (1.5 + Flights::skin_per_diameter + 0.08);
+  for (std::int64_t group = 0; group < groups; ++group)
+    for (const double side : {-1.0, 1.0}) {
+      State start = blows(across);
+      const double y = static_cast<double>(group) * 5e-3;
+      add_grain(start, across ? grain(5e-3 + side * beyond, y, 0.0, 0.0)
+                              : grain(5e-3, y + side * beyond, 0.0, 0.0));
+      CAPTURE(group, side);
+      CHECK_THAT(failure(start), Contains("was thrown farther"));
+    }
+}
+
+TEST_CASE("strays of flights that reach a wall they had not been close to end the run") {
+  for (const double side : {-1.0, 1.0}) {
+    State start = at_rest();
+    const double to_wall = wall_radius + (1.5 + 0.5 * Flights::skin_per_diameter + 0.05) * diameter;
+    for (std::int64_t group = 0; group < groups; ++group)
+      add_blow(start, side < 0.0 ? to_wall : 10e-3 - to_wall, static_cast<double>(group) * 5e-3,
+               true);
+    CHECK_THAT(failure_of([&] {
+                 askew(start, blow_model(), 16, 1, long_lead, Stepping::windows);
+               }),
+               Contains("was thrown farther"));
+  }
 }

@@ -1,0 +1,193 @@
+#include "engine/flights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel {
+
+Flights::Flights(State& state, const ContactModel& model, Candidates& candidates,
+                 const Askew& askew)
+    : airspace_(state, model, candidates),
+      most_steps_askew_(askew.most_steps(state)),
+      progress_(candidates.slices().size()) {
+  const std::size_t each = candidates.slices().size() / candidates.team().members();
+  for (std::size_t slice = 0; slice < candidates.slices().size(); ++slice) {
+    const std::size_t first = slice / each * each;
+    Profile& profile = candidates.slices()[first].profile;
+    if (slice == first)
+      members_.push_back({.begin = first, .end = first + each, .profile = profile});
+    regions_.push_back(std::make_unique<FlightRegion>(airspace_, slice, profile));
+  }
+}
+
+void Flights::advance(std::size_t number, std::int64_t now, std::int64_t last) {
+  Member& member = members_[number];
+  take_off(member, now);
+  while (!member.trouble && now < last) {
+    const std::int64_t steps = steps_askew(member, now, last);
+    member.profile.begin_step(now + 1);
+    if (steps > 1)
+      step_askew(member, now, now + steps);
+    else
+      step_together(member, now + 1);
+    now += steps;
+  }
+  land(member, now);
+}
+
+template <class Do>
+void Flights::for_each_region(const Member& member, Do something) {
+  for (std::size_t i = member.begin; i < member.end; ++i) something(*regions_[i]);
+}
+
+void Flights::take_off(Member& member, std::int64_t step) {
+  if (!member.under_way) {
+    begin(member, step, step + 1);
+    member.under_way = true;
+    return;
+  }
+  if (member.begin == 0) airspace_.courses.set_origin(step);
+  wait();
+  for_each_region(member, [&](FlightRegion& region) { region.set_out_again(step); });
+  wait();
+  heed(member);
+  for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
+}
+
+/// Makes the appointments of all candidates, which have just been listed. All grains are at `step`.
+void Flights::begin(Member& member, std::int64_t step, std::int64_t earliest) {
+  if (member.begin == 0) {
+    airspace_.courses.start_over(step);
+    airspace_.candidates.forget_cells();
+  }
+  for_each_region(member, [&](FlightRegion& region) { region.start_over(step); });
+  wait();
+  for_each_region(member, [&](FlightRegion& region) { region.take_up_contacts(step); });
+  wait();
+  for_each_region(member, [&](FlightRegion& region) { region.set_out(step, most_steps_askew_); });
+  wait();
+  heed(member);
+  for_each_region(member, [&](FlightRegion& region) {
+    region.make_all_appointments(step, earliest, member.hold_until);
+  });
+}
+
+void Flights::land(Member& member, std::int64_t step) {
+  wait();
+  for_each_region(member, [&](FlightRegion& region) { region.land(step); });
+  if (member.begin == 0) airspace_.state.step = step;
+}
+
+/// The candidates do not hold any more.
+void Flights::renew(Member& member, std::int64_t step) {
+  member.profile.begin_build();
+  land(member, step);
+  airspace_.candidates.sort_anew(airspace_.state, share(member), step);
+  begin(member, step, step);
+  member.profile.done_build();
+}
+
+/// What all slices have told until the last barrier.
+void Flights::heed(Member& member) {
+  const auto& all = airspace_.announcements;
+  member.hold_until = all.front().hold_until;
+  member.fastest2 = member.pushed2 = 0.0;
+  for (const Announcement& one : all) {
+    member.hold_until = std::min(member.hold_until, one.hold_until);
+    member.fastest2 = std::max(member.fastest2, one.fastest2);
+    member.pushed2 = std::max(member.pushed2, one.pushed2);
+    member.trouble = member.trouble || one.trouble;
+  }
+}
+
+/// What a step is, in the order in which it happens. Between the barriers all may change their
+/// courses and what they announce, and nobody looks at those of others.
+void Flights::step_together(Member& member, std::int64_t step) {
+  for_each_region(member, [&](FlightRegion& region) { region.move(step); });
+  if (step >= member.hold_until) renew(member, step);
+  for_each_region(member, [&](FlightRegion& region) { region.collide(step); });
+  wait();
+  for_each_region(member, [&](FlightRegion& region) { region.settle(step); });
+  wait();
+  heed(member);
+  for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
+}
+
+/// How many steps slices may be askew from `now` on; all members get the same answer. If it is
+/// better to sort first, the candidates hold no longer.
+///
+/// Nobody can sort meanwhile, and how fast grains will be is not known. It is expected that none
+/// becomes more than twice as fast as the fastest, or than present forces or a wall that shakes
+/// make it, and a part of the room is left in case one does.
+std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t last) const {
+  const std::int64_t steps = std::min(most_steps_askew_, last - now);
+  if (steps <= 1 || !airspace_.candidates.slices_are_thick()) return 1;
+  const std::int64_t age = now - airspace_.courses.sorted_at();
+  const double fastest = std::sqrt(member.fastest2);
+  const double gone = static_cast<double>(age) * fastest;
+  const double expected = std::max(
+      {2.0 * fastest, std::sqrt(member.pushed2), fastest + 2.0 * airspace_.shaking});
+  const double ahead = static_cast<double>(steps) * expected;
+  constexpr double useful_part = 0.9;
+  if (gone + ahead <= useful_part * airspace_.room && now + steps <= member.hold_until) return steps;
+  if (age >= 2 * most_steps_askew_) member.hold_until = now;
+  return 1;
+}
+
+/// From step `now`, which all slices have completed, to step `last`.
+void Flights::step_askew(Member& member, std::int64_t now, std::int64_t last) {
+  for (std::size_t i = member.begin; i < member.end; ++i) {
+    Progress& p = progress_[i];
+    p.collided = p.settled = p.foreseen = now;
+    p.fetched = false;
+    regions_[i]->need_candidates_until(last);
+  }
+  wait();
+  go_askew(
+      member.begin, member.end, [&](std::size_t slice) { return go_on(member, slice, last); },
+      [&] {
+        return std::all_of(&progress_[member.begin], &progress_[member.end],
+                           [&](const Progress& p) { return p.foreseen == last; });
+      });
+  wait();
+  heed(member);
+  for_each_region(member, [](FlightRegion& region) {
+    region.need_candidates_until(FlightRegion::nobody_asks);
+  });
+}
+
+/// Does what this slice can do now, up to its part of step `last`; false if that is nothing.
+///
+/// Two things of a step are needed by others: how a slice has collided, by the slice after it, and
+/// how it has settled, by the one before it. None goes on before both know.
+bool Flights::go_on(const Member& member, std::size_t slice, std::int64_t last) {
+  const auto [before, after] = PlaceInRing(slice, progress_.size());
+  FlightRegion& region = *regions_[slice];
+  Progress& p = progress_[slice];
+  bool any = false;
+  while (p.foreseen < last) {
+    const std::int64_t step = p.foreseen + 1;
+    if (p.collided < step) {
+      if (!p.fetched) region.fetch();
+      p.fetched = true;
+      region.move(step);
+      region.collide(step);
+      region.watch_strays(step);
+      p.collided = step;
+      any = true;
+    }
+    if (p.settled < step) {
+      if (progress_[before].collided < step) return any;
+      region.settle(step);
+      p.settled = step;
+      any = true;
+    }
+    if (progress_[after].settled < step) return any;
+    region.foresee(step, member.hold_until);
+    p.foreseen = step;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace riesel
