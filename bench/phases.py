@@ -25,13 +25,14 @@ PHASES = [
      r"count_work_of_walls|see_from_the_other"),
     ("sorting, listing, sifting, linking",
      r"Candidates::\w+|Cells::\w+|sift\w*|find_close\w*|pair_in|earlier|SieveLoop|Appointments::(link|start_over|make_all)|"
-     r"Border::list_\w+|Courses::start_over|FlightRegion::(put_down|renew|begin)|candidate_in|for_each_contact_of"),
-    ("foresight and entering of appointments", r"foresee|gather|ForesightLoop|Appointments::\w+|Calendar::\w+|flight_of|steps_\w+"),
+     r"Border::list_\w+|Courses::start_over|FlightRegion::(land|start_over|set_out|make_all_appointments)|Flights::(land|renew|begin)|candidate_in|for_each_contact_of"),
+    ("foresight and entering of appointments", r"foresee|gather|FlightRegion::(foresee|fetch)|fetch|ForesightLoop|Appointments::\w+|Calendar::\w+|flight_of|steps_\w+"),
     ("looking at what is due",
-     r"FlightRegion::(look_\w+|keep_appointments|position|foreign_position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
+     r"FlightRegion::(look_\w+|keep_appointments|collide|position|foreign_position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
     ("moving deflected grains, and their courses",
      r"move_lanes|find_strays|DeflectedGrains::\w+|SkinGuard::\w+|Border::\w+|"
-     r"FlightRegion::(move|correct_courses|set_course|deflect|invite|release|suffer|announce|heed|step|take_off|land)"),
+     r"FlightRegion::(move|correct_courses|set_course|deflect|invite|release|suffer|announce|settle|set_out_again|watch_strays|squared_speed_after)|"
+     r"Flights::\w+"),
 ]
 ENGINE = "riesel::"
 LOOP = r"riesel::run_(converting|adding)_loop<"  # and which loop that is

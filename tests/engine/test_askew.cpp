@@ -7,6 +7,7 @@
 #include "tests/engine/same_states.hpp"
 #include "tests/engine/systems.hpp"
 
+#include <numbers>
 #include <stdexcept>
 
 using namespace systems;
@@ -299,4 +300,21 @@ TEST_CASE("strays of flights that reach a wall they had not been close to end th
                }),
                Contains("was thrown farther"));
   }
+}
+
+TEST_CASE("flights expect that a wall that shakes throws grains farther than they are fast") {
+  State start = at_rest();
+  const double to_grain = wall_radius + radius + 0.1 * diameter;
+  const double to_other = to_grain + (1.05 + Flights::skin_per_diameter) * diameter;
+  for (std::int64_t group = 0; group < groups; ++group)
+    for (const double x : {to_grain, to_other})
+      add_grain(start, grain(x, static_cast<double>(group) * 5e-3, 0.0, 0.0));
+  // A twentieth of a diameter per step, for much longer than slices are askew.
+  const double period = 200.0 * time_step;
+  start.walls[0].motion = {.amplitude_x = 0.05 * diameter * 200.0 / (2.0 * std::numbers::pi),
+                           .frequency = 1.0 / period};
+  const State expected = advanced(start, hard_model(), 16, 1, Stepping::plain);
+  CHECK(expected.tally.walls.begun >= groups);
+  CHECK(expected.tally.grains.begun >= groups);
+  CHECK(same(askew(start, hard_model(), 16, 1, long_lead, Stepping::windows), expected));
 }
