@@ -260,8 +260,8 @@ void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPai
     std::size_t found = mine.pairs.size();
     if (found + close.size() > mine.pairs.capacity()) {
       // For all if the rest is like what has been seen, and not twice as much.
-      const double part = static_cast<double>(slots.end - mine.begin)
-                          / static_cast<double>(mine.end - mine.begin);
+      const double part =
+          static_cast<double>(slots.end - mine.begin) / static_cast<double>(mine.end - mine.begin);
       mine.pairs.reserve(
           static_cast<std::size_t>(1.03 * static_cast<double>(found + close.size()) / part) + 64);
     }

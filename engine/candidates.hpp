@@ -101,7 +101,8 @@ public:
   /// it was when they were listed, relative to a common motion: free fall with a displacement per
   /// step of drift() in the falling frame.
   std::int64_t hold_until() const { return hold_until_; }
-  double skin() const { return skin_; }  ///< m
+  double skin() const { return skin_; }                       ///< m
+  double range() const { return 2.0 * max_radius_ + skin_; }  ///< m, the least height of a row
   const CoarsePositions& when_sorted() const { return when_sorted_; }
   struct Displacement {
     Fixed x, y;  ///< quanta
@@ -130,7 +131,6 @@ private:
   std::size_t member_with(std::span<const Slice> share) const {
     return static_cast<std::size_t>(share.data() - slices_.data()) / share.size();
   }
-  double range() const { return 2.0 * max_radius_ + skin_; }  // m, the least height of a row
   void look_again(State& state, CoarsePositions& coarse, std::span<Slice> share, std::int64_t step,
                   double ahead);
   void renew(State& state, std::span<Slice> share, std::int64_t step);

@@ -86,9 +86,9 @@ void FlightRegion::set_out(std::int64_t step, std::int64_t steps_ahead) {
 /// (m per step)^2, relative to the drift, if the last kick comes in each of the steps.
 double FlightRegion::squared_speed_after(DeflectedGrains::Place place, std::int64_t steps) const {
   const Motion m = deflected_.motion(place);
-  return airspace_.candidates.squared_speed(
-      airspace_.state.box, wrapped_sum(m.ux, wrapped_product(steps, m.kick_x)),
-      wrapped_sum(m.uy, wrapped_product(steps, m.kick_y)));
+  return airspace_.candidates.squared_speed(airspace_.state.box,
+                                            wrapped_sum(m.ux, wrapped_product(steps, m.kick_x)),
+                                            wrapped_sum(m.uy, wrapped_product(steps, m.kick_y)));
 }
 
 void FlightRegion::make_all_appointments(std::int64_t step, std::int64_t earliest,
@@ -131,7 +131,6 @@ void FlightRegion::foresee(std::int64_t step, std::int64_t hold_until) {
       if (border_.is_foreign(slot)) appointments_.reconsider(slot);
   });
   appointments_.make(step, step + 1, hold_until);
-  profile_.done(Profile::Phase::appointments);
 }
 
 void FlightRegion::fetch() const {
@@ -297,54 +296,6 @@ void FlightRegion::announce(std::int64_t step) {
     if (grain.deflected)
       grain.motion = deflected_.motion(
           static_cast<DeflectedGrains::Place>(airspace_.courses.place(grain.slot)));
-  }
-}
-
-/// Somebody has become so fast that the candidates do not hold for as long as slices are askew,
-/// which nobody expects of contacts that steps resolve: touches with candidates are found as ever,
-/// and others end the run.
-void FlightRegion::watch_strays(std::int64_t step) {
-  for (const Stray& stray : border_.mine().strays) {
-    look_around(stray, {slice_.begin, slice_.end}, step);
-    for (const std::size_t after : border_.after()) {
-      const Slice& next = airspace_.candidates.slices()[after];
-      look_around(stray, {next.begin, next.end}, step);
-    }
-    look_at_walls(stray, step);
-  }
-  border_.for_each_after([&](const Announcement& other) {
-    for (const Stray& stray : other.strays) look_around(stray, {slice_.begin, slice_.end}, step);
-  });
-}
-
-/// Courses are known of all, and nobody is farther from them than the tolerance.
-void FlightRegion::look_around(const Stray& stray, SlotRange among, std::int64_t step) {
-  if (step < stray.step) return;
-  const Courses& courses = airspace_.courses;
-  const Grains& g = airspace_.state.grains;
-  const Fixed x = courses.x(stray.slot, step), y = courses.y(stray.slot, step);
-  for (auto slot = static_cast<std::uint32_t>(among.begin); slot < among.end; ++slot) {
-    const double reach = g.radius[stray.slot] + g.radius[slot] + 2.0 * airspace_.tolerance;
-    if (slot != stray.slot
-        && overlapping(wrapped_difference(courses.x(slot, step), x),
-                       wrapped_difference(courses.y(slot, step), y), reach, units_)
-        && !slice_.pairs.has(stray.slot, slot))
-      slice_.lost = first_of(slice_.lost, LostGrain{step, g.id[stray.slot], true});
-  }
-}
-
-void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
-  if (step < stray.step) return;
-  const State& state = airspace_.state;
-  const double x = state.box.metres_x(airspace_.courses.x(stray.slot, step));
-  const double reach = state.grains.radius[stray.slot] + airspace_.tolerance;
-  for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall) {
-    const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
-    const bool near = std::any_of(
-        slice_.near_walls.begin(), slice_.near_walls.end(),
-        [&](const NearWall& n) { return n.slot == stray.slot && n.wall == wall; });
-    if (!near && std::abs(x - lattice.line) < reach + lattice.reach())
-      slice_.lost = first_of(slice_.lost, LostGrain{step, state.grains.id[stray.slot], true});
   }
 }
 

@@ -31,9 +31,9 @@ struct Airspace {
   Candidates& candidates;
   Courses courses;
   std::vector<Announcement> announcements;  // one for each slice
-  const double tolerance;  ///< m, how far a deflected grain may be from its course
-  const double room;       ///< m, that grains have in the skin on their courses
-  const double shaking;    ///< m per step, of the fastest wall across or along itself
+  const double tolerance;                   ///< m, how far a deflected grain may be from its course
+  const double room;                        ///< m, that grains have in the skin on their courses
+  const double shaking;  ///< m per step, of the fastest wall across or along itself
 };
 
 class alignas(cache_line) FlightRegion {
@@ -61,7 +61,7 @@ public:
   void move(std::int64_t step);
   /// then what is due is looked at, and contacts give their kicks;
   void collide(std::int64_t step);
-  /// kicks of other slices come in, and courses change (also to complete set_out());
+  /// kicks of other slices come in, and courses change;
   void settle(std::int64_t step);
   /// appointments are made with the new courses, none for after `hold_until`.
   void foresee(std::int64_t step, std::int64_t hold_until);
@@ -90,6 +90,7 @@ private:
   void suffer(std::int64_t step);
   void correct_courses(std::int64_t step);
   void announce(std::int64_t step);
+  void lose(const Stray& stray, std::int64_t step);
   void look_around(const Stray& stray, SlotRange among, std::int64_t step);
   void look_at_walls(const Stray& stray, std::int64_t step);
 

@@ -111,6 +111,7 @@ void Flights::step_together(Member& member, std::int64_t step) {
   wait();
   heed(member);
   for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
+  member.profile.done(Profile::Phase::appointments);
 }
 
 /// How many steps slices may be askew from `now` on; all members get the same answer. If it is
@@ -125,11 +126,12 @@ std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t
   const std::int64_t age = now - airspace_.courses.sorted_at();
   const double fastest = std::sqrt(member.fastest2);
   const double gone = static_cast<double>(age) * fastest;
-  const double expected = std::max(
-      {2.0 * fastest, std::sqrt(member.pushed2), fastest + 2.0 * airspace_.shaking});
+  const double expected =
+      std::max({2.0 * fastest, std::sqrt(member.pushed2), fastest + 2.0 * airspace_.shaking});
   const double ahead = static_cast<double>(steps) * expected;
   constexpr double useful_part = 0.9;
-  if (gone + ahead <= useful_part * airspace_.room && now + steps <= member.hold_until) return steps;
+  if (gone + ahead <= useful_part * airspace_.room && now + steps <= member.hold_until)
+    return steps;
   if (age >= 2 * most_steps_askew_) member.hold_until = now;
   return 1;
 }
@@ -184,6 +186,7 @@ bool Flights::go_on(const Member& member, std::size_t slice, std::int64_t last) 
     }
     if (progress_[after].settled < step) return any;
     region.foresee(step, member.hold_until);
+    member.profile.done(Profile::Phase::appointments);
     p.foreseen = step;
     any = true;
   }

@@ -60,8 +60,8 @@ private:
     std::int64_t hold_until = 0;  // step until which the candidates of all slices hold for sure
     // (m per step)^2 relative to the drift, of any grain: now, and as expected after a few steps
     double fastest2 = 0.0, pushed2 = 0.0;
-    bool trouble = false;         // of any slice
-    bool under_way = false;       // appointments are made
+    bool trouble = false;    // of any slice
+    bool under_way = false;  // appointments are made
   };
 
   /// The last step that a slice that goes askew has done each part of; on a cache line of its own.

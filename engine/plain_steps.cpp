@@ -104,8 +104,7 @@ void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t las
   }
   candidates_.team().arrive_and_wait();
   go_askew(
-      begin, begin + progress.size(),
-      [&](std::size_t slice) { return go_on(member, slice, last); },
+      begin, begin + progress.size(), [&](std::size_t slice) { return go_on(member, slice, last); },
       [&] { return std::all_of(progress.begin(), progress.end(), std::mem_fn(&Progress::done)); });
   if (begin == 0) state_.step = last;
   candidates_.team().arrive_and_wait();

@@ -178,8 +178,8 @@ Simulation::Preparation Simulation::wanted() const {
   const std::size_t slices = askew_.slices_per_thread(state_, way.threads);
   constexpr double ample = 0.6;  // so that it is not now one, now the other
   const bool before = prepared_ && prepared_->slices_per_thread > 1;
-  const double enough = (before ? ample : 1.0) * askew_.contacts
-                        * static_cast<double>(state_.grains.size());
+  const double enough =
+      (before ? ample : 1.0) * askew_.contacts * static_cast<double>(state_.grains.size());
   const bool askew = !way.by_flights || static_cast<double>(state_.contacts.size()) >= enough;
   return {way, askew ? slices : 1};
 }
@@ -215,7 +215,8 @@ void Simulation::advance_plainly(std::int64_t last) {
 
 void Simulation::advance_by_flights(std::int64_t last) {
   const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
-  as_a_team(prepared_->way.threads, [&](std::size_t member) { flights_->advance(member, now, last); });
+  as_a_team(prepared_->way.threads,
+            [&](std::size_t member) { flights_->advance(member, now, last); });
 }
 
 /// Completes the state with what the slices know of contacts.

@@ -14,10 +14,7 @@ double room_in_skin(const Box& box, double skin, double tolerance) {
 
 SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Courses& courses,
                      double room)
-    : state_(state),
-      candidates_(candidates),
-      courses_(courses),
-      room_(room) {}
+    : state_(state), candidates_(candidates), courses_(courses), room_(room) {}
 
 std::int64_t SkinGuard::hold_until(SlotRange slots) {
   fastest2_ = 0.0;
@@ -28,16 +25,22 @@ std::int64_t SkinGuard::hold_until(SlotRange slots) {
                   courses_.sorted_at() + Forecast::whole_steps(room_ / std::sqrt(fastest2_)) - 1);
 }
 
-std::int64_t SkinGuard::hold_until(std::uint32_t slot, const Motion& course,
-                                   std::int64_t now) {
-  const Box& box = state_.box;
+/// From where it was listed, coarsely, relative to the common motion.
+SkinGuard::Metres SkinGuard::displacement(std::uint32_t slot, const Motion& course,
+                                          std::int64_t now) const {
   const auto common = candidates_.common_motion(now);
   const CoarsePositions& then = candidates_.when_sorted();
+  const auto from_there = [](Fixed position, std::int32_t listed, Fixed common_way) {
+    return wrapped_difference(wrapped_difference(position, from_upper(listed)), common_way);
+  };
+  return {state_.box.metres_x(from_there(course.x, then.x[slot], common.x)),
+          state_.box.metres_y(from_there(course.y, then.y[slot], common.y))};
+}
+
+std::int64_t SkinGuard::hold_until(std::uint32_t slot, const Motion& course, std::int64_t now) {
+  const auto [x, y] = displacement(slot, course, now);
+  const Box& box = state_.box;
   const auto& drift = candidates_.drift();
-  const double x = box.metres_x(
-      wrapped_difference(wrapped_difference(course.x, from_upper(then.x[slot])), common.x));
-  const double y = box.metres_y(
-      wrapped_difference(wrapped_difference(course.y, from_upper(then.y[slot])), common.y));
   const double ux = box.metres_x(wrapped_difference(course.ux, drift.x));
   const double uy = box.metres_y(wrapped_difference(course.uy, drift.y));
 

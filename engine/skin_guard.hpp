@@ -9,6 +9,7 @@
 #include "engine/courses.hpp"
 #include "engine/state.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,11 +30,22 @@ public:
   /// The same for one grain that goes on like this from step `now` on.
   std::int64_t hold_until(std::uint32_t slot, const Motion& course, std::int64_t now);
 
+  /// m, how far such a grain has gone by `now` since it was listed.
+  double gone(std::uint32_t slot, const Motion& course, std::int64_t now) const {
+    const auto [x, y] = displacement(slot, course, now);
+    return std::hypot(x, y);
+  }
+
   /// (m per step)^2, relative to the drift, of the fastest of all that has been asked for since the
   /// grains were listed.
   double fastest2() const { return fastest2_; }
 
 private:
+  struct Metres {
+    double x, y;
+  };
+  Metres displacement(std::uint32_t slot, const Motion& course, std::int64_t now) const;
+
   const State& state_;
   const Candidates& candidates_;
   const Courses& courses_;

@@ -1,5 +1,5 @@
-// Slices that go askew, each some steps ahead of the next, in plain stepping and in flights: the same
-// bits, and no contact missed by grains that go farther meanwhile than anybody expects.
+// Slices that go askew, each some steps ahead of the next, in plain stepping and in flights: the
+// same bits, and no contact missed by grains that go farther meanwhile than anybody expects.
 #include "engine/askew.hpp"
 #include "engine/flights.hpp"
 #include "engine/simulation.hpp"
@@ -9,6 +9,7 @@
 
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 using namespace systems;
 using Catch::Matchers::Contains;
@@ -259,8 +260,8 @@ TEST_CASE("strays of flights touch grains that are candidates") {
   const double close_by = (1.5 + 0.5 * Flights::skin_per_diameter + 0.01) * diameter;
   for (std::int64_t group = 0; group < groups; ++group) {
     const double y = static_cast<double>(group) * 5e-3;
-    add_grain(start, across ? grain(5e-3 + close_by, y, 0.0, 0.0)
-                            : grain(5e-3, y + close_by, 0.0, 0.0));
+    add_grain(start,
+              across ? grain(5e-3 + close_by, y, 0.0, 0.0) : grain(5e-3, y + close_by, 0.0, 0.0));
   }
   const State expected = advanced(start, blow_model(), 10, 1, Stepping::plain);
   CHECK(expected.tally.grains.begun == 2 * groups);
@@ -295,9 +296,7 @@ TEST_CASE("strays of flights that reach a wall they had not been close to end th
     for (std::int64_t group = 0; group < groups; ++group)
       add_blow(start, side < 0.0 ? to_wall : 10e-3 - to_wall, static_cast<double>(group) * 5e-3,
                true);
-    CHECK_THAT(failure_of([&] {
-                 askew(start, blow_model(), 16, 1, long_lead, Stepping::windows);
-               }),
+    CHECK_THAT(failure_of([&] { askew(start, blow_model(), 16, 1, long_lead, Stepping::windows); }),
                Contains("was thrown farther"));
   }
 }
@@ -317,4 +316,16 @@ TEST_CASE("flights expect that a wall that shakes throws grains farther than the
   CHECK(expected.tally.walls.begun >= groups);
   CHECK(expected.tally.grains.begun >= groups);
   CHECK(same(askew(start, hard_model(), 16, 1, long_lead, Stepping::windows), expected));
+}
+
+TEST_CASE("strays of flights that go beyond their neighbours end the run, whoever is there") {
+  ContactModel strong = blow_model();
+  strong.normal = OuterLaw(Blow{0.3 * diameter * mass / (time_step * time_step)});
+  const std::int64_t steps = GENERATE(5, 14);
+  const std::string failure =
+      failure_of([&] { askew(blows(true), strong, steps, 1, long_lead, Stepping::windows); });
+  if (steps == 5)
+    CHECK(failure == "no failure");
+  else
+    CHECK_THAT(failure, Contains("was thrown farther"));
 }

@@ -1,0 +1,66 @@
+// Grains of flights that have gone farther than the candidates hold for, while slices are askew.
+//
+// That takes a grain that becomes so fast within a few steps as nobody expects of contacts that
+// steps resolve: touches with candidates are found as ever, and others end the run. So nothing here
+// is made for speed.
+#include "engine/flight_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riesel {
+
+void FlightRegion::watch_strays(std::int64_t step) {
+  for (const Stray& stray : border_.mine().strays) {
+    // Farther than a row of cells it may be where no neighbour of its slice looks.
+    if (skin_guard_.gone(stray.slot, airspace_.courses.motion(stray.slot, step), step)
+        > airspace_.candidates.range())
+      lose(stray, step);
+    look_around(stray, {slice_.begin, slice_.end}, step);
+    for (const std::size_t after : border_.after()) {
+      const Slice& next = airspace_.candidates.slices()[after];
+      look_around(stray, {next.begin, next.end}, step);
+    }
+    look_at_walls(stray, step);
+  }
+  border_.for_each_after([&](const Announcement& other) {
+    for (const Stray& stray : other.strays) look_around(stray, {slice_.begin, slice_.end}, step);
+  });
+}
+
+void FlightRegion::lose(const Stray& stray, std::int64_t step) {
+  const std::int32_t id = airspace_.state.grains.id[stray.slot];
+  slice_.lost = first_of(slice_.lost, LostGrain{step, id, true});
+}
+
+/// Courses are known of all, and nobody is farther from them than the tolerance.
+void FlightRegion::look_around(const Stray& stray, SlotRange among, std::int64_t step) {
+  if (step < stray.step) return;
+  const Courses& courses = airspace_.courses;
+  const Grains& g = airspace_.state.grains;
+  const Fixed x = courses.x(stray.slot, step), y = courses.y(stray.slot, step);
+  for (auto slot = static_cast<std::uint32_t>(among.begin); slot < among.end; ++slot) {
+    const double reach = g.radius[stray.slot] + g.radius[slot] + 2.0 * airspace_.tolerance;
+    if (slot != stray.slot
+        && overlapping(wrapped_difference(courses.x(slot, step), x),
+                       wrapped_difference(courses.y(slot, step), y), reach, units_)
+        && !slice_.pairs.has(stray.slot, slot))
+      lose(stray, step);
+  }
+}
+
+void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
+  if (step < stray.step) return;
+  const State& state = airspace_.state;
+  const double x = state.box.metres_x(airspace_.courses.x(stray.slot, step));
+  const double reach = state.grains.radius[stray.slot] + airspace_.tolerance;
+  for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall) {
+    const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
+    const bool near =
+        std::any_of(slice_.near_walls.begin(), slice_.near_walls.end(),
+                    [&](const NearWall& n) { return n.slot == stray.slot && n.wall == wall; });
+    if (!near && std::abs(x - lattice.line) < reach + lattice.reach()) lose(stray, step);
+  }
+}
+
+}  // namespace riesel
