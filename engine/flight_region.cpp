@@ -69,26 +69,15 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
     for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
 }
 
-void FlightRegion::set_out(std::int64_t step, std::int64_t steps_ahead) {
+void FlightRegion::set_out(std::int64_t step) {
   suffer(step);
-  Announcement& mine = border_.mine();
-  mine.hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
-  mine.pushed2 = 0.0;
+  border_.mine().hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
     if (is_guest(place)) continue;
-    mine.pushed2 = std::max(mine.pushed2, squared_speed_after(place, steps_ahead));
     set_course(place, step);
     if (deflected_.contacts(place) == 0) let_go_.push_back(place);
   }
   announce(step);
-}
-
-/// (m per step)^2, relative to the drift, if the last kick comes in each of the steps.
-double FlightRegion::squared_speed_after(DeflectedGrains::Place place, std::int64_t steps) const {
-  const Motion m = deflected_.motion(place);
-  return airspace_.candidates.squared_speed(airspace_.state.box,
-                                            wrapped_sum(m.ux, wrapped_product(steps, m.kick_x)),
-                                            wrapped_sum(m.uy, wrapped_product(steps, m.kick_y)));
 }
 
 void FlightRegion::make_all_appointments(std::int64_t step, std::int64_t earliest,
@@ -156,6 +145,18 @@ void FlightRegion::land(std::int64_t step) {
                           place == Courses::flying
                               ? airspace_.courses.motion(slot, step)
                               : deflected_.motion(static_cast<DeflectedGrains::Place>(place)));
+  }
+}
+
+void FlightRegion::expect_push(std::int64_t steps) {
+  double& pushed2 = border_.mine().pushed2;
+  pushed2 = 0.0;
+  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
+    if (!deflected_.in_use(place) || is_guest(place)) continue;
+    const Motion m = deflected_.motion(place);
+    const Fixed ux = wrapped_sum(m.ux, wrapped_product(steps, m.kick_x));
+    const Fixed uy = wrapped_sum(m.uy, wrapped_product(steps, m.kick_y));
+    pushed2 = std::max(pushed2, airspace_.candidates.squared_speed(airspace_.state.box, ux, uy));
   }
 }
 

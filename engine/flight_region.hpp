@@ -50,8 +50,7 @@ public:
   /// The candidates have just been listed, at `step`, that of all grains.
   void start_over(std::int64_t step);
   void take_up_contacts(std::int64_t step);
-  /// Expects that the present forces last for so many steps.
-  void set_out(std::int64_t step, std::int64_t steps_ahead);
+  void set_out(std::int64_t step);
   void make_all_appointments(std::int64_t step, std::int64_t earliest, std::int64_t hold_until);
 
   /// All grains have landed at `step`, the origin of courses, and go on from there.
@@ -73,6 +72,8 @@ public:
   /// motion.
   void land(std::int64_t step);
 
+  /// Announces how fast grains will be if the present forces last for so many steps.
+  void expect_push(std::int64_t steps);
   /// From now on a grain is a stray for which the candidates do not hold until this step. If nobody
   /// asks for that, somebody else watches how long they hold.
   static constexpr std::int64_t nobody_asks = INT64_MIN;
@@ -101,7 +102,6 @@ private:
   void change_contacts(DeflectedGrains::Place place, std::int32_t by);
   void release(DeflectedGrains::Place place);
   void set_course(DeflectedGrains::Place place, std::int64_t step);
-  double squared_speed_after(DeflectedGrains::Place place, std::int64_t steps) const;
 
   bool is_guest(DeflectedGrains::Place place) const {
     return !border_.owns(deflected_.slot(place));

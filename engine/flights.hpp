@@ -58,10 +58,9 @@ private:
     std::size_t begin, end;
     Profile& profile;
     std::int64_t hold_until = 0;  // step until which the candidates of all slices hold for sure
-    // (m per step)^2 relative to the drift, of any grain: now, and as expected after a few steps
-    double fastest2 = 0.0, pushed2 = 0.0;
-    bool trouble = false;    // of any slice
-    bool under_way = false;  // appointments are made
+    double fastest2 = 0.0;        // (m per step)^2 relative to the drift, of any grain
+    bool trouble = false;         // of any slice
+    bool under_way = false;       // appointments are made
   };
 
   /// The last step that a slice that goes askew has done each part of; on a cache line of its own.
@@ -77,7 +76,8 @@ private:
   void renew(Member& member, std::int64_t step);
   void heed(Member& member);
   void step_together(Member& member, std::int64_t step);
-  std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last) const;
+  std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last);
+  double expected_speed(const Member& member, std::int64_t steps);
   void step_askew(Member& member, std::int64_t now, std::int64_t last);
   bool go_on(const Member& member, std::size_t slice, std::int64_t last);
 

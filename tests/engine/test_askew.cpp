@@ -46,7 +46,8 @@ State long_tube(double polydispersity, double inertia = 0.0) {
 }
 
 constexpr double diameter = 2.0 * radius;
-constexpr double beyond_skin = Candidates::short_skin * diameter;
+constexpr double skin = Candidates::short_skin * diameter;
+constexpr double skin_of_flights = Flights::skin_per_diameter * diameter;
 constexpr std::int64_t groups = 61;  // of three grains, so that some are shared by two slices
 
 State at_rest() {
@@ -57,7 +58,7 @@ State at_rest() {
 
 /// Pairs that overlap and fly apart: towards a third grain and a wall that are no candidates.
 /// `overlap` in diameters.
-State springs_across(double overlap) {
+State springs_across(double overlap, double beyond_skin = skin) {
   State state = at_rest();
   Dice dice(82);
   for (std::int64_t group = 0; group < groups; ++group) {
@@ -71,7 +72,7 @@ State springs_across(double overlap) {
 }
 
 /// The same along the tube, where the third grain may be in another slice, on either side.
-State springs_along(double overlap, double side) {
+State springs_along(double overlap, double side, double beyond_skin = skin) {
   State state = at_rest();
   for (std::int64_t group = 0; group < groups; ++group) {
     const double first = static_cast<double>(group) * 5e-3;
@@ -299,6 +300,26 @@ TEST_CASE("strays of flights that reach a wall they had not been close to end th
     CHECK_THAT(failure_of([&] { askew(start, blow_model(), 16, 1, long_lead, Stepping::windows); }),
                Contains("was thrown farther"));
   }
+}
+
+TEST_CASE("flights expect that squeezed grains fly apart") {
+  const State start =
+      GENERATE(springs_across(0.2, skin_of_flights), springs_along(0.2, 1.0, skin_of_flights));
+  const State expected = advanced(start, hard_model(), 16, 1, Stepping::plain);
+  CHECK(expected.tally.grains.begun > groups + 5);
+  CHECK(same(askew(start, hard_model(), 16, 1, long_lead, Stepping::windows), expected));
+}
+
+TEST_CASE("flights do each step together where grains are too fast for more") {
+  State start = at_rest();
+  for (std::int64_t group = 0; group < groups; ++group) {
+    const double y = static_cast<double>(group) * 5e-3;
+    add_grain(start, grain(3e-3, y, 0.08 * diameter / time_step, 0.0));
+    add_grain(start, grain(3e-3 + diameter + 1.1 * skin_of_flights, y, 0.0, 0.0));
+  }
+  const State expected = advanced(start, hard_model(), 16, 1, Stepping::plain);
+  CHECK(expected.tally.grains.begun == groups);
+  CHECK(same(askew(start, hard_model(), 16, 1, long_lead, Stepping::windows), expected));
 }
 
 TEST_CASE("flights expect that a wall that shakes throws grains farther than they are fast") {
