@@ -48,7 +48,6 @@ struct alignas(cache_line) Announcement {
   std::vector<std::uint32_t> new_courses;  ///< own grains of the border that have one
   std::int64_t hold_until = 0;             ///< step until which the candidates hold for sure
   double fastest2 = 0.0;                   ///< (m per step)^2, as SkinGuard::fastest2()
-  double pushed2 = 0.0;                    ///< the same, as FlightRegion::expect_push() has it
   std::vector<Stray> strays;               ///< while slices are askew
   bool trouble = false;                    ///< the run cannot go on
 };

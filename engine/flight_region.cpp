@@ -148,18 +148,6 @@ void FlightRegion::land(std::int64_t step) {
   }
 }
 
-void FlightRegion::expect_push(std::int64_t steps) {
-  double& pushed2 = border_.mine().pushed2;
-  pushed2 = 0.0;
-  for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
-    if (!deflected_.in_use(place) || is_guest(place)) continue;
-    const Motion m = deflected_.motion(place);
-    const Fixed ux = wrapped_sum(m.ux, wrapped_product(steps, m.kick_x));
-    const Fixed uy = wrapped_sum(m.uy, wrapped_product(steps, m.kick_y));
-    pushed2 = std::max(pushed2, airspace_.candidates.squared_speed(airspace_.state.box, ux, uy));
-  }
-}
-
 void FlightRegion::need_candidates_until(std::int64_t step) {
   needed_until_ = step;
   border_.mine().strays.clear();

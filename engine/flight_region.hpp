@@ -72,8 +72,6 @@ public:
   /// motion.
   void land(std::int64_t step);
 
-  /// Announces how fast grains will be if the present forces last for so many steps.
-  void expect_push(std::int64_t steps);
   /// From now on a grain is a stray for which the candidates do not hold until this step. If nobody
   /// asks for that, somebody else watches how long they hold.
   static constexpr std::int64_t nobody_asks = INT64_MIN;

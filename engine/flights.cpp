@@ -116,30 +116,21 @@ void Flights::step_together(Member& member, std::int64_t step) {
 /// How many steps slices may be askew from `now` on; all members get the same answer. If it is
 /// better to sort first, the candidates hold no longer.
 ///
-/// Nobody can sort meanwhile, and how fast grains will be is only expected: a part of the room is
-/// left in case one becomes faster. The first step after a sorting is done together, as a run may
-/// begin with grains that overlap and have no contacts yet.
-std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t last) {
+/// Nobody can sort meanwhile, and how fast grains will be is not known. It is expected that none
+/// becomes more than twice as fast as the fastest, or than a wall that shakes makes it, and a part
+/// of the room is left in case one does. The first step after a sorting is done together: grains
+/// from which a run begins may overlap and have no contacts yet.
+std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t last) const {
   const std::int64_t steps = std::min(most_steps_askew_, last - now);
   const std::int64_t age = now - airspace_.courses.sorted_at();
   if (steps <= 1 || age == 0 || !airspace_.candidates.slices_are_thick()) return 1;
-  const double room = 0.9 * airspace_.room;
-  const double gone = static_cast<double>(age) * std::sqrt(member.fastest2);
-  const double ahead = static_cast<double>(steps) * expected_speed(member, steps);
+  const double fastest = std::sqrt(member.fastest2), room = 0.9 * airspace_.room;
+  const double gone = static_cast<double>(age) * fastest;
+  const double expected = std::max(2.0 * fastest, fastest + 2.0 * airspace_.shaking);
+  const double ahead = static_cast<double>(steps) * expected;
   if (gone + ahead <= room && now + steps <= member.hold_until) return steps;
   if (gone > 0.5 * room && age >= 2 * most_steps_askew_) member.hold_until = now;
   return 1;
-}
-
-/// m per step: none becomes more than twice as fast as the fastest, or than lasting forces or a
-/// wall that shakes make it.
-double Flights::expected_speed(const Member& member, std::int64_t steps) {
-  for_each_region(member, [&](FlightRegion& region) { region.expect_push(steps); });
-  wait();
-  double pushed2 = 0.0;
-  for (const Announcement& one : airspace_.announcements) pushed2 = std::max(pushed2, one.pushed2);
-  const double fastest = std::sqrt(member.fastest2);
-  return std::max({2.0 * fastest, std::sqrt(pushed2), fastest + 2.0 * airspace_.shaking});
 }
 
 /// From step `now`, which all slices have completed, to step `last`.

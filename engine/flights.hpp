@@ -76,8 +76,7 @@ private:
   void renew(Member& member, std::int64_t step);
   void heed(Member& member);
   void step_together(Member& member, std::int64_t step);
-  std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last);
-  double expected_speed(const Member& member, std::int64_t steps);
+  std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last) const;
   void step_askew(Member& member, std::int64_t now, std::int64_t last);
   bool go_on(const Member& member, std::size_t slice, std::int64_t last);
 
