@@ -88,7 +88,7 @@ void Flights::renew(Member& member, std::int64_t step) {
 }
 
 /// What all slices have told until the last barrier.
-void Flights::heed(Member& member) {
+void Flights::heed(Member& member) const {
   const auto& all = airspace_.announcements;
   member.hold_until = all.front().hold_until;
   member.fastest2 = 0.0;

@@ -74,7 +74,7 @@ private:
   void begin(Member& member, std::int64_t step, std::int64_t earliest);
   void land(Member& member, std::int64_t step);
   void renew(Member& member, std::int64_t step);
-  void heed(Member& member);
+  void heed(Member& member) const;
   void step_together(Member& member, std::int64_t step);
   std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last) const;
   void step_askew(Member& member, std::int64_t now, std::int64_t last);
