@@ -25,7 +25,7 @@ void Flights::advance(std::size_t number, std::int64_t now, std::int64_t last) {
   take_off(member, now);
   while (!member.trouble && now < last) {
     const std::int64_t steps = steps_askew(member, now, last);
-    member.profile.begin_step(now + 1);
+    member.profile.begin_steps(now + 1, steps);
     if (steps > 1)
       step_askew(member, now, now + steps);
     else

@@ -30,13 +30,18 @@ public:
 
   bool on() const { return on_; }
 
-  void begin_step(std::int64_t step) {
-    sampled_ = on_ && step % steps_per_sample == 0;
-    if (sampled_) last_ = Clock::now();
+  void begin_step(std::int64_t step) { begin_steps(step, 1); }
+  /// So many steps that are done as one: the more there are, the more often they are looked at.
+  void begin_steps(std::int64_t first, std::int64_t count) {
+    const std::int64_t last = first + count - 1;
+    sampled_ = on_ && last - last % steps_per_sample >= first;
+    if (!sampled_) return;
+    weight_ = static_cast<double>(steps_per_sample) / static_cast<double>(count);
+    last_ = Clock::now();
   }
   /// What was done since the last call belongs to this phase.
   void done(Phase phase) {
-    if (sampled_) add(phase, steps_per_sample);
+    if (sampled_) add(phase, weight_);
   }
 
   void begin_build() {
@@ -63,6 +68,7 @@ private:
   }
 
   bool on_, sampled_ = false;
+  double weight_ = 1.0;  // of what is done now
   Clock::time_point last_;
   std::array<double, phases> seconds_{};
 };
