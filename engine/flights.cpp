@@ -145,7 +145,7 @@ void Flights::step_askew(Member& member, std::int64_t now, std::int64_t last) {
   go_askew(
       member.begin, member.end, [&](std::size_t slice) { return go_on(member, slice, last); },
       [&] {
-        return std::all_of(&progress_[member.begin], &progress_[member.end],
+        return std::all_of(progress_.data() + member.begin, progress_.data() + member.end,
                            [&](const Progress& p) { return p.foreseen == last; });
       });
   wait();
