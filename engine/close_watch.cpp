@@ -118,7 +118,7 @@ const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
                         .reach2 = c.reach2.data(),
                         .far2 = c.far2.data()};
   const Bodies bodies = deflected.bodies();
-  const Sight sight{.place = courses_.places(),
+  const Sight sight{.place = courses_.places().data(),
                     .deflected_x = bodies.x,
                     .deflected_y = bodies.y,
                     .fallen = units.fallen,

@@ -93,10 +93,7 @@ public:
   /// Where the deflected grain stands, or `flying`.
   std::int32_t place(std::uint32_t slot) const { return place_[slot]; }
   bool deflected(std::uint32_t slot) const { return place_[slot] != flying; }
-  const std::int32_t* places() const { return place_.data(); }  ///< by slot
-  std::span<const std::int32_t> places(SlotRange slots) const {
-    return std::span(place_).subspan(slots.begin, slots.size());
-  }
+  std::span<const std::int32_t> places() const { return place_; }  ///< by slot
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
 
 private:

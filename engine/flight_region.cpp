@@ -130,7 +130,7 @@ void FlightRegion::fetch() const {
   for (const auto* column : {&g.x, &g.y, &g.ux, &g.uy}) riesel::fetch(own(*column));
   for (const auto* column : {&then.x, &then.y}) riesel::fetch(own(*column));
   riesel::fetch(own(g.radius));
-  riesel::fetch(airspace_.courses.places(SlotRange{slice_.begin, slice_.end}));
+  riesel::fetch(own(airspace_.courses.places()));
   for (const auto* column : {&slice_.pairs.first, &slice_.pairs.second})
     riesel::fetch(std::span(*column));
   riesel::fetch(std::span(slice_.pairs.reach2));

@@ -33,7 +33,7 @@ struct Airspace {
   std::vector<Announcement> announcements;  // one for each slice
   const double tolerance;                   ///< m, how far a deflected grain may be from its course
   const double room;                        ///< m, that grains have in the skin on their courses
-  const double shaking;  ///< m per step, of the fastest wall across or along itself
+  const double shaking;                     ///< m per step, of the wall that shakes fastest
 };
 
 class alignas(cache_line) FlightRegion {

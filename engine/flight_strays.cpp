@@ -5,7 +5,6 @@
 // is made for speed.
 #include "engine/flight_region.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace riesel {
@@ -56,10 +55,8 @@ void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
   const double reach = state.grains.radius[stray.slot] + airspace_.tolerance;
   for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall) {
     const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
-    const bool near =
-        std::any_of(slice_.near_walls.begin(), slice_.near_walls.end(),
-                    [&](const NearWall& n) { return n.slot == stray.slot && n.wall == wall; });
-    if (!near && std::abs(x - lattice.line) < reach + lattice.reach()) lose(stray, step);
+    if (!slice_.has_near(stray.slot, wall) && std::abs(x - lattice.line) < reach + lattice.reach())
+      lose(stray, step);
   }
 }
 

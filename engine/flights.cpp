@@ -10,13 +10,13 @@ Flights::Flights(State& state, const ContactModel& model, Candidates& candidates
     : airspace_(state, model, candidates),
       most_steps_askew_(askew.most_steps(state)),
       progress_(candidates.slices().size()) {
-  const std::size_t each = candidates.slices().size() / candidates.team().members();
-  for (std::size_t slice = 0; slice < candidates.slices().size(); ++slice) {
-    const std::size_t first = slice / each * each;
-    Profile& profile = candidates.slices()[first].profile;
-    if (slice == first)
-      members_.push_back({.begin = first, .end = first + each, .profile = profile});
-    regions_.push_back(std::make_unique<FlightRegion>(airspace_, slice, profile));
+  for (std::size_t number = 0; number < candidates.team().members(); ++number) {
+    const std::span<Slice> share = candidates.share(number);
+    Profile& profile = share.front().profile;
+    const std::size_t begin = regions_.size(), end = begin + share.size();
+    for (std::size_t slice = begin; slice < end; ++slice)
+      regions_.push_back(std::make_unique<FlightRegion>(airspace_, slice, profile));
+    members_.push_back({.begin = begin, .end = end, .share = share, .profile = profile});
   }
 }
 
@@ -82,7 +82,7 @@ void Flights::land(Member& member, std::int64_t step) {
 void Flights::renew(Member& member, std::int64_t step) {
   member.profile.begin_build();
   land(member, step);
-  airspace_.candidates.sort_anew(airspace_.state, share(member), step);
+  airspace_.candidates.sort_anew(airspace_.state, member.share, step);
   begin(member, step, step);
   member.profile.done_build();
 }

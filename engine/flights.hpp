@@ -56,6 +56,7 @@ private:
   /// What a thread works with: regions begin ... end - 1.
   struct alignas(cache_line) Member {
     std::size_t begin, end;
+    std::span<Slice> share;  // theirs
     Profile& profile;
     std::int64_t hold_until = 0;  // step until which the candidates of all slices hold for sure
     double fastest2 = 0.0;        // (m per step)^2 relative to the drift, of any grain
@@ -82,10 +83,6 @@ private:
 
   template <class Do>
   void for_each_region(const Member& member, Do something);
-  std::span<Slice> share(const Member& member) {
-    return std::span(airspace_.candidates.slices())
-        .subspan(member.begin, member.end - member.begin);
-  }
   void wait() { airspace_.candidates.team().arrive_and_wait(); }
 
   Airspace airspace_;

@@ -10,6 +10,7 @@
 #include "engine/profile.hpp"
 #include "engine/tally.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -68,6 +69,12 @@ struct alignas(cache_line) Slice {
   std::optional<LostGrain> lost;   ///< the first
 
   bool owns(std::uint32_t slot) const { return slot - begin < end - begin; }
+  /// Whether the grain is listed as near the wall; a look at all.
+  bool has_near(std::uint32_t slot, std::int32_t wall) const {
+    return std::any_of(near_walls.begin(), near_walls.end(), [&](const NearWall& near) {
+      return near.slot == slot && near.wall == wall;
+    });
+  }
 };
 
 }  // namespace riesel

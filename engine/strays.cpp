@@ -20,9 +20,7 @@ void add_candidate(Slice& mine, std::uint32_t i, std::uint32_t j, float reach2) 
 
 void add_walls(Slice& mine, std::uint32_t slot, std::size_t walls) {
   for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(walls); ++wall)
-    if (std::none_of(mine.near_walls.begin(), mine.near_walls.end(),
-                     [&](const NearWall& near) { return near.slot == slot && near.wall == wall; }))
-      mine.near_walls.push_back({slot, wall});
+    if (!mine.has_near(slot, wall)) mine.near_walls.push_back({slot, wall});
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ FAULTS = [
      "&& giver.given_last >= mine.begin;", "&& giver.given_first >= mine.begin;"),
     ("strays of the next slice that nobody catches", "engine/strays.cpp",
      "look(slot, mine);", "if (home == &mine) look(slot, mine);"),
-    ("strays that find no wall", "engine/strays.cpp",
+    ("strays that find no wall", "engine/slice.hpp",
      "near.slot == slot && near.wall == wall", "near.slot == slot || near.wall == wall"),
     ("a slice that does not wait for where the next has moved", "engine/plain_steps.cpp",
      "if (progress_[after].moved < step) return any;", ""),
