@@ -4,6 +4,7 @@
 #include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
+#include "io/settings_given.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
@@ -25,12 +26,9 @@ bool may_change(const std::string& key) {
 }
 
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
-  for (const std::string& setting : overrides) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) continue;  // not a setting at all: for others to say
-    const std::string key = setting.substr(0, equals);
-    if (!may_change(key))
-      throw io::SettingsError({.source = "--set " + setting}, key,
+  for (const io::YamlEntry& setting : io::parse_overrides(overrides)) {
+    if (!may_change(setting.key))
+      throw io::SettingsError(setting.key_place, setting.key,
                               "cannot change when a run is resumed",
                               "only run.duration, run.until, run.threads, run.stepping, limits and "
                               "output.checkpoint_interval can; for anything else "

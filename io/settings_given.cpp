@@ -11,13 +11,21 @@
 namespace riesel::io {
 namespace {
 
+std::string without_blanks_around(const std::string& text) {
+  constexpr auto blanks = " \t";
+  const auto begin = text.find_first_not_of(blanks);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
+
 YamlEntry parse_override(const std::string& text) {
   const Place place = {"--set " + text};
   const auto equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
+  const auto key = without_blanks_around(text.substr(0, equals));
+  if (equals == std::string::npos || key.empty()) {
     throw SettingsError(place, "", "expected key=value", "write for instance --set seed=2");
   }
-  return {text.substr(0, equals), place, parse_yaml_value(text.substr(equals + 1), place)};
+  return {key, place, parse_yaml_value(text.substr(equals + 1), place)};
 }
 
 /// A dotted key as a file has it: "run: {duration: ...}".

@@ -82,6 +82,7 @@ MISTAKES_IN_OVERRIDES = {
     "nonsense": ["--set nonsense:", "key=value"],
     "": ["key=value"],
     "=3": ["--set =3:", "key=value"],
+    " =3": ["--set  =3:", "key=value"],
     "seed=": ["seed:", "has no value"],
     "seed=x": ["--set seed=x: seed:", "an integer", "'x'"],
     "seed=-1": ["seed:", "0", "'-1'"],
@@ -201,9 +202,9 @@ class Courtesies(CommandTest):
                 self.write("one.json", text)
                 self.assert_done(self.riesel("check", "one.json"))
 
-    def test_the_last_override_of_a_key_wins(self):
+    def test_the_last_override_of_a_key_wins_with_or_without_blanks(self):
         tube = self.write("tube.yaml", SMALL_TUBE)
         short = ["--set", "run.duration=10 us"]
-        one = self.run_to_end(tube, "one", *short, "--set", "seed=5", "--set", "seed=7")
+        one = self.run_to_end(tube, "one", *short, "--set", "seed=5", "--set", " seed = 7")
         other = self.run_to_end(tube, "other", *short, "--set", "seed=7")
         self.assert_same_result(one, other)
