@@ -1,12 +1,10 @@
 #include "engine/candidates.hpp"
 
-#include "engine/contact_loop.hpp"
 #include "engine/parabola.hpp"
 #include "engine/team.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 namespace riesel {
@@ -25,54 +23,12 @@ constexpr double part_ahead = 0.25, part_in_case = 0.1;
 /// grains that have strayed by the height of a row.
 constexpr std::size_t least_rows_of_slice = 4;
 
-template <class Visit>
-void for_each_contact_of(const Slice& slice, Visit visit) {
-  for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
-    for (std::size_t i = 0; i < live->size(); ++i) visit(live->contact(i));
-}
-
-void forget_contacts(Slice& slice) {
-  slice.pair_contacts.clear();
-  slice.wall_contacts.clear();
-  slice.kept = 0;
-}
-
 /// Whole steps in which a fall from rest with `fall` (m per step^2) goes no farther than `room`
 /// (m).
 std::int64_t steps_of_fall(double fall, double room) {
   constexpr double most = 0x1p40;
   const double steps = steps_to_go(room, 0.5 * fall, fall);
   return static_cast<std::int64_t>(std::min(steps * (1.0 - 1e-9), most));
-}
-
-/// Index among the pairs of `slice`, which have just been listed, in this order of the two.
-std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
-                                     std::uint32_t second) {
-  const CandidatePairs& pairs = slice.pairs;
-  const auto low = std::lower_bound(pairs.first.begin(), pairs.first.end(), first);
-  for (auto p = static_cast<std::size_t>(low - pairs.first.begin());
-       p < pairs.size() && pairs.first[p] == first; ++p)
-    if (pairs.second[p] == second) return static_cast<std::uint32_t>(p);
-  return std::nullopt;
-}
-
-/// Likewise.
-std::optional<std::uint32_t> near_wall_in(const Slice& slice, std::uint32_t slot,
-                                          std::int32_t wall) {
-  const auto& near = slice.near_walls;
-  const auto first =
-      std::lower_bound(near.begin(), near.end(), slot,
-                       [](const NearWall& n, std::uint32_t x) { return n.slot < x; });
-  for (auto n = first; n != near.end() && n->slot == slot; ++n)
-    if (n->wall == wall) return static_cast<std::uint32_t>(n - near.begin());
-  return std::nullopt;
-}
-
-/// The slice that owns `slot`, or none.
-Slice* owner_in(std::span<Slice> share, std::uint32_t slot) {
-  const auto owner = std::partition_point(share.begin(), share.end(),
-                                          [&](const Slice& slice) { return slice.end <= slot; });
-  return owner != share.end() && owner->owns(slot) ? &*owner : nullptr;
 }
 
 double largest(const std::vector<Slice>& slices, double Slice::*member) {
@@ -112,7 +68,6 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
   as_a_team(threads, [&](std::size_t member) {
     const std::span<Slice> mine = share(member);
     renew(state, mine, state.step);
-    for (Slice& slice : mine) forget_contacts(slice);
     keep(state, mine, state.contacts);
   });
   if (kept() < state.contacts.size())
@@ -181,11 +136,9 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
 }
 
 void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t step) {
-  for (Slice& mine : share)
-    for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
+  for (Slice& mine : share) set_contacts_aside(mine);
   team_.arrive_and_wait();  // all grains are at this step
   renew(state, share, step);
-  for (Slice& mine : share) forget_contacts(mine);
   for (const Slice& slice : slices_) keep(state, share, slice.lasting);
   team_.arrive_and_wait();
   if (member_with(share) == 0) end_lost_contacts(state);
@@ -338,78 +291,6 @@ void Candidates::measure_speeds(const State& state, Slice& mine) const {
                                       wrapped_sum(g.uy[i], g.kick_y[i]));
     mine.fastest2 = std::max({mine.fastest2, without, with});
   }
-}
-
-std::vector<Contact> Candidates::contacts() const {
-  std::vector<Contact> all;
-  for (const Slice& slice : slices_)
-    for_each_contact_of(slice, [&](const Contact& contact) { all.push_back(contact); });
-  std::sort(all.begin(), all.end(),
-            [](const Contact& a, const Contact& b) { return a.name < b.name; });
-  return all;
-}
-
-/// The candidate that `contact` is, if it is one of `slice`.
-std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice,
-                                                      const Contact& contact) const {
-  const std::uint32_t a = slot_of_[static_cast<std::size_t>(contact.name.grain)];
-  if (contact.name.wall != no_wall) return near_wall_in(slice, a, contact.name.wall);
-  const std::uint32_t b = slot_of_[static_cast<std::size_t>(contact.name.partner)];
-  // Most often the first has the lower slot.
-  const auto [low, high] = std::minmax(a, b);
-  const auto found = slice.owns(low) ? pair_in(slice, low, high) : std::nullopt;
-  return !found && slice.owns(high) ? pair_in(slice, high, low) : found;
-}
-
-/// Goes on with those of the contacts that belong to the slices of `share`.
-void Candidates::keep(const State& state, std::span<Slice> share,
-                      const std::vector<Contact>& contacts) const {
-  for (const Contact& contact : contacts) {
-    Slice* const one = owner_in(share, slot_of_[static_cast<std::size_t>(contact.name.grain)]);
-    Slice* const other =
-        contact.name.wall == no_wall
-            ? owner_in(share, slot_of_[static_cast<std::size_t>(contact.name.partner)])
-            : one;
-    if (one != nullptr) keep(state, *one, contact);
-    if (other != nullptr && other != one) keep(state, *other, contact);
-  }
-}
-
-void Candidates::keep(const State& state, Slice& mine, const Contact& contact) const {
-  const auto candidate = candidate_in(mine, contact);
-  if (!candidate) return;
-  const bool of_wall = contact.name.wall != no_wall;
-  const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
-                                  : meeting_of_pair(mine, state.grains, *candidate);
-  note_lasting(mine, meeting);
-  (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
-  ++mine.kept;
-}
-
-std::size_t Candidates::kept() const {
-  return std::accumulate(slices_.begin(), slices_.end(), std::size_t{0},
-                         [](std::size_t sum, const Slice& slice) { return sum + slice.kept; });
-}
-
-/// A contact whose bodies are no candidates any more has ended: the grain is so fast that it left
-/// in a single step.
-void Candidates::end_lost_contacts(const State& state) {
-  std::size_t lasting = 0;
-  for (const Slice& slice : slices_) lasting += slice.lasting.size();
-  if (kept() == lasting) return;
-  const StepUnits units(state);
-  const auto is_lost = [&](const Contact& contact) {
-    return std::none_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
-      return candidate_in(slice, contact).has_value();
-    });
-  };
-  for (Slice& owner : slices_)
-    for (Contact& contact : owner.lasting) {
-      if (!is_lost(contact)) continue;
-      const Meeting meeting = meeting_of(contact.name, state, slot_of_);
-      add_last_loss(contact, meeting, bodies(state.grains), slip_, units);
-      owner.tally.end(contact, meeting.reach());
-    }
 }
 
 }  // namespace riesel

@@ -158,6 +158,8 @@ private:
   double distance(float squared_displacement) const;
   void measure_speeds(const State& state, Slice& mine) const;
 
+  // kept_contacts.cpp
+  static void set_contacts_aside(Slice& mine);
   std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
   void keep(const State& state, std::span<Slice> share, const std::vector<Contact>& contacts) const;
   void keep(const State& state, Slice& mine, const Contact& contact) const;

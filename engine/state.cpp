@@ -8,14 +8,14 @@ namespace riesel {
 
 namespace {
 
-void add(Hash& hash, const Grains& g, std::size_t i) {
+void add(Hash& hash, const Grains& g, std::size_t slot) {
   for (const auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})
-    hash.add((*component)[i]);
-  hash.add(g.radius[i]);
-  hash.add(g.mass[i]);
+    hash.add((*component)[slot]);
+  hash.add(g.radius[slot]);
+  hash.add(g.mass[slot]);
   if (!g.rotate()) return;
-  hash.add(g.spin[i]);
-  hash.add(g.spin_kick[i]);
+  hash.add(g.spin[slot]);
+  hash.add(g.spin_kick[slot]);
 }
 
 /// What only some models have is in the hash only where it is.
@@ -143,16 +143,6 @@ double total_mass(const Grains& grains) {
   return sum.value();
 }
 
-Grains ordered_by_id(const Grains& grains) {
-  Grains ordered = grains;
-  const std::vector<std::size_t> slots = slots_by_id(grains);
-  for_each_array_of(ordered, [&](auto& array) {
-    const auto by_slot = array;
-    for (std::size_t id = 0; id < slots.size(); ++id) array[id] = by_slot[slots[id]];
-  });
-  return ordered;
-}
-
 std::string when(std::int64_t step, double time_step) {
   std::ostringstream text;
   text << "at t = " << static_cast<double>(step) * time_step << " s (step " << step << ")";
@@ -176,8 +166,7 @@ std::uint64_t state_hash(const State& state) {
     if (wall.motion.is_ever_away()) add(hash, wall.motion);
   }
   if (state.grains.rotate()) hash.add(state.grains.inertia);
-  const Grains ordered = ordered_by_id(state.grains);
-  for (std::size_t i = 0; i < ordered.size(); ++i) add(hash, ordered, i);
+  for (const std::size_t slot : slots_by_id(state.grains)) add(hash, state.grains, slot);
   for (const Contact& contact : state.contacts) add(hash, contact);
   for (const WallVisit& visit : state.open_visits) add(hash, visit);
   add(hash, state.tally.grains);

@@ -155,9 +155,6 @@ double mean_diameter(const Grains& grains);
 /// kg; likewise.
 double total_mass(const Grains& grains);
 
-/// A copy in which the slots are ordered by id.
-Grains ordered_by_id(const Grains& grains);
-
 /// The moment, for messages: "at t = 0.0125 s (step 1234)".
 std::string when(std::int64_t step, double time_step);
 inline std::string when(const State& state) { return when(state.step, state.time_step); }

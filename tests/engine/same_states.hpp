@@ -3,6 +3,7 @@
 
 #include "engine/observables.hpp"
 #include "engine/state.hpp"
+#include "tests/ordered_grains.hpp"
 
 #include <algorithm>
 #include <tuple>

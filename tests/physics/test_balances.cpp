@@ -3,6 +3,7 @@
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"
+#include "tests/ordered_grains.hpp"
 
 #include <algorithm>
 #include <array>

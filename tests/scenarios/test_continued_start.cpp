@@ -6,6 +6,7 @@
 #include "io/durable_file.hpp"
 #include "scenarios/continued_start.hpp"
 #include "tests/io/file_fixture.hpp"
+#include "tests/ordered_grains.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
 #include <cmath>
