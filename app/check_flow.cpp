@@ -28,8 +28,7 @@ void print_critical_velocity(double chord_length, double t_col, double fastest) 
        v_crit, chord_length);
   if (fastest > v_crit)
     warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the "
-         "contact "
-         "can push them away (brake failure)",
+         "contact can push them away (brake failure)",
          fastest);
 }
 

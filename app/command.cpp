@@ -224,8 +224,10 @@ private:
     CLI::App* completion = program_.add_subcommand(
         "completion",
         "Print a script that completes the command line: eval \"$(riesel completion bash)\"");
-    CLI::Option* shell = completion->add_option("SHELL", shell_, "bash or zsh")
-                             ->check(CLI::IsMember({"bash", "zsh"}));
+    const std::vector<std::string> known(app::shells.begin(), app::shells.end());
+    CLI::Option* shell =
+        completion->add_option("SHELL", shell_, fmt::format("{}", fmt::join(known, " or ")))
+            ->check(CLI::IsMember(known));
     set_command(*completion, *shell, [this] {
       return print(shell_ == "bash" ? app::bash_completion(program_)
                                     : app::zsh_completion(program_));

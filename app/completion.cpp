@@ -5,13 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <string_view>
-
 namespace riesel::app {
 
 namespace {
-
-constexpr std::string_view shells = "bash zsh";
 
 // --- bash ---
 
@@ -27,7 +23,7 @@ std::string bash_reply(WordKind kind) {
   case WordKind::key:
     return "_riesel_reply -S = -W \"$keys\"; compopt -o nospace 2>/dev/null";
   case WordKind::shell:
-    return fmt::format("_riesel_reply -W \"{}\"", shells);
+    return fmt::format("_riesel_reply -W \"{}\"", fmt::join(shells, " "));
   default:
     return "COMPREPLY=()";
   }
@@ -74,7 +70,7 @@ std::string zsh_action(WordKind kind) {
   case WordKind::key:
     return "_values -S = key $keys";
   case WordKind::shell:
-    return fmt::format("({})", shells);
+    return fmt::format("({})", fmt::join(shells, " "));
   default:
     return " ";
   }

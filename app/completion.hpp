@@ -3,9 +3,13 @@
 
 #include <CLI/App.hpp>
 
+#include <array>
 #include <string>
 
 namespace riesel::app {
+
+/// Those for which there is a script.
+inline constexpr std::array shells = {"bash", "zsh"};
 
 /// Scripts that complete subcommands, options, files, scenarios and keys of settings.
 std::string bash_completion(const CLI::App& program);

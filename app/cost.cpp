@@ -1,5 +1,6 @@
 #include "app/cost.hpp"
 
+#include "app/clock.hpp"
 #include "app/schedule.hpp"
 #include "app/stepping.hpp"
 #include "engine/simulation.hpp"
@@ -8,20 +9,31 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 namespace riesel::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Particle-steps per second: any number does for a run that will not last.
 constexpr double speed_of_what_fails_at_once = 1e7;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+/// So many of them that there are `sample` or fewer.
+template <class Item>
+std::vector<Item> every_nth(const std::vector<Item>& all, std::size_t sample) {
+  std::vector<Item> some;
+  for (std::size_t i = 0; i < all.size(); i += all.size() / sample + 1) some.push_back(all[i]);
+  return some;
+}
+
+/// What `all` problems cost if they are like `some`, whose results solve() returns.
+template <class Item, class Solve>
+CurveCost cost_of_all(const std::vector<Item>& some, std::size_t all, Solve solve) {
+  const auto start = Clock::now();
+  double steps = 0.0;
+  for (const auto& result : solve(some)) steps += static_cast<double>(result.steps);
+  const double scale = static_cast<double>(all) / static_cast<double>(some.size());
+  return {.steps = scale * steps, .seconds = scale * seconds_since(start)};
 }
 
 }  // namespace
@@ -55,33 +67,15 @@ int threads_for_curve(const io::Settings& settings) {
 }
 
 CurveCost measured_cost(const scenarios::ImpactCurve& curve, int threads, std::size_t sample) {
-  const std::size_t stride = curve.impacts.size() / sample + 1;
-  std::vector<Impact> impacts;
-  for (std::size_t i = 0; i < curve.impacts.size(); i += stride)
-    impacts.push_back(curve.impacts[i]);
-
-  const auto start = Clock::now();
-  double steps = 0.0;
-  for (const ImpactResult& result : follow_all(curve.setup, impacts, threads))
-    steps += static_cast<double>(result.steps);
-  const double scale =
-      static_cast<double>(curve.impacts.size()) / static_cast<double>(impacts.size());
-  return {.steps = scale * steps, .seconds = scale * seconds_since(start)};
+  return cost_of_all(every_nth(curve.impacts, sample), curve.impacts.size(),
+                     [&](const auto& some) { return follow_all(curve.setup, some, threads); });
 }
 
 CurveCost measured_cost(const scenarios::ColumnCurve& curve, int threads, std::size_t sample) {
-  const std::size_t stride = curve.gap_ratios.size() / sample + 1;
-  std::vector<double> gaps;
-  for (std::size_t i = 0; i < curve.gap_ratios.size(); i += stride)
-    gaps.push_back(curve.gap(curve.gap_ratios[i]));
-
-  const auto start = Clock::now();
-  double steps = 0.0;
-  for (const ColumnResult& result : drop_all(curve.setup, gaps, threads))
-    steps += static_cast<double>(result.steps);
-  const double scale =
-      static_cast<double>(curve.gap_ratios.size()) / static_cast<double>(gaps.size());
-  return {.steps = scale * steps, .seconds = scale * seconds_since(start)};
+  std::vector<double> gaps = every_nth(curve.gap_ratios, sample);
+  for (double& gap : gaps) gap = curve.gap(gap);
+  return cost_of_all(gaps, curve.gap_ratios.size(),
+                     [&](const auto& some) { return drop_all(curve.setup, some, threads); });
 }
 
 std::string readable_time(double seconds) {

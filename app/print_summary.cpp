@@ -74,7 +74,8 @@ void print_common(const io::RunSummary& run, const std::filesystem::path& direct
              run.particle_steps_per_second / 1e6, run.threads, run.threads == 1 ? "" : "s",
              run.wall_seconds);
   fmt::print("  {:<22}{:016x}\n", "state hash", run.state_hash);
-  fmt::print("  {:<22}{}/summary.json, run.h5, effective.yaml\n", "files", directory.string());
+  fmt::print("  {:<22}{}/{}, run.h5, effective.yaml\n", "files", directory.string(),
+             io::summary_name);
 }
 
 }  // namespace
@@ -91,8 +92,7 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   print_balance(s.balance);
   print_braking(s.braking_force);
   print_visits(s.wall_visits);
-  const double came_in = s.energy.initial + s.energy.gravity_work + s.energy.wall_work;
-  if (came_in != 0.0)
+  if (const double came_in = s.energy.came_in(); came_in > 0.0)
     fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
                s.energy.residual / came_in);
   print_validity(s.validity.verdict);

@@ -2,6 +2,7 @@
 // elsewhere. All of it goes to standard error, so that standard output holds results only.
 #pragma once
 
+#include "app/clock.hpp"
 #include "app/verbosity.hpp"
 
 #include <chrono>
@@ -19,7 +20,6 @@ public:
   void finish();
 
 private:
-  using Clock = std::chrono::steady_clock;
   std::string time_left(double done) const;
 
   bool quiet_, terminal_;

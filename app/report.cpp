@@ -27,7 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto page_name = "report.html";
 constexpr auto figures_name = "figures";
 
 void require_finished_run(const fs::path& directory) {
@@ -94,7 +93,7 @@ SweepResult result_of(const io::ManifestPoint& point, const fs::path& sweep) {
   SweepResult result{.summary = std::nullopt,
                      .flaw = "",
                      .directory = point_directory("", point.name).generic_string(),
-                     .has_report = fs::exists(directory / page_name)};
+                     .has_report = fs::exists(directory / report_name)};
   if (point.status != to_string(RunStatus::done)) return result;
   try {
     result.summary = io::read_summary(directory / io::summary_name);
@@ -140,7 +139,7 @@ void write(const Report& report, const fs::path& directory) {
   for (const ReportFigure& figure : report.figures)
     io::write_durably(figures / (figure.name + ".svg"), figure.svg.file());
   remove_other_figures(report, figures);
-  io::write_durably(directory / page_name, report.page);
+  io::write_durably(directory / report_name, report.page);
 }
 
 void report_on_run(const fs::path& directory) {
@@ -156,7 +155,7 @@ int report(const fs::path& directory) {
     write(as_input([&] { return report_of_sweep(directory); }), directory);
   else
     report_on_run(directory);
-  fmt::print("{}\n", (directory / page_name).string());
+  fmt::print("{}\n", (directory / report_name).string());
   return exit_done;
 }
 

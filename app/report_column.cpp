@@ -1,6 +1,7 @@
 #include "app/report_column.hpp"
 
 #include "app/plain_words.hpp"
+#include "app/report_parts.hpp"
 #include "io/plot.hpp"
 
 #include <fmt/format.h>
@@ -10,8 +11,6 @@
 namespace riesel::app {
 
 namespace {
-
-constexpr double width = 760.0, height = 420.0;  // px
 
 Validity worst_of(const io::ColumnSummary& summary) {
   return std::ranges::max(summary.column, {}, &io::ColumnPoint::verdict).verdict;
@@ -34,14 +33,14 @@ io::Svg draw(const io::ColumnSummary& s, double io::ColumnPoint::*value, double 
   }
   std::vector<double> all = y;
   all.push_back(of_rigid);
-  io::Plot plot(width, height, label + " against the gap between the beads",
+  io::Plot plot(figure_width, tall_figure, label + " against the gap between the beads",
                 io::axis_for("gap / (v t_col)", x), io::axis_for(label, all));
   const io::Look look = io::look_of(0);
   plot.level(plot.x().range, of_rigid,
              {.stroke = look.colour, .stroke_width = 1.5, .dashes = "5 4"});
   for (std::size_t i = 0; i < x.size(); ++i) {
     plot.measured(x[i], y[i], unknown, look, s.column[i].verdict == Validity::valid);
-    if (s.column[i].verdict == Validity::unphysical) plot.cross(x[i], y[i], {.colour = "#c62828"});
+    if (s.column[i].verdict == Validity::unphysical) plot.cross(x[i], y[i], {.colour = ink::red});
   }
   return plot.svg();
 }

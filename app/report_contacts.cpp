@@ -9,15 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace riesel::app {
 
 namespace {
 
-constexpr double width = 760.0;  // px
-constexpr std::string_view blue = "#26548c", pale_blue = "#a9c1dd", grey = "#777777",
-                           red = "#c62828";
+constexpr std::string_view pale_blue = "#a9c1dd";
 
 /// Where bin `i` ends: the bins of an octave are equally wide.
 double upper_edge(const std::vector<double>& edges, std::size_t i) {
@@ -52,26 +49,19 @@ io::Axis axis_of_rates(const io::HistogramWithErrors& h) {
 
 /// By name, of a verdict that may be that of another version.
 double threshold(const io::FlowSummary& summary, std::string_view finding, double Finding::*which) {
-  const auto& findings = summary.validity.verdict.findings;
-  const auto found = std::ranges::find(findings, finding, &Finding::name);
-  return found == findings.end() ? unknown : (*found).*which;
-}
-
-double mean_radius(const io::FinalState& state) {
-  const double sum = std::accumulate(state.grains.begin(), state.grains.end(), 0.0,
-                                     [](double s, const Grain& g) { return s + g.radius; });
-  return sum / static_cast<double>(state.grains.size());
+  const Finding* found = summary.validity.verdict.find(finding);
+  return found == nullptr ? unknown : found->*which;
 }
 
 /// Thresholds are given for the radius of the smaller body, overlaps over the sum of the radii.
 std::vector<HistogramMark> marks_of_overlaps(const io::FlowSummary& summary,
                                              const io::FinalState& state, bool of_walls) {
   double smallest = std::ranges::min(state.grains, {}, &Grain::radius).radius;
-  double reach = 2.0 * mean_radius(state);
+  double reach = state.mean_diameter();
   if (of_walls && !state.walls.empty()) {
     const WallLattice& wall = state.walls.front();
     smallest = wall.smaller_radius(smallest);
-    reach = mean_radius(state) + wall.radius;
+    reach = 0.5 * state.mean_diameter() + wall.radius;
   }
   const double part = smallest / reach;
   return {{part * threshold(summary, "max_overlap_ratio", &Finding::suspect), "suspect"},
@@ -107,8 +97,9 @@ std::array<std::vector<double>, 2> force_of(const io::Series& time, const io::Se
 
 io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_label,
                        const std::vector<HistogramMark>& marks) {
-  io::Plot plot(width, 270.0, h.column.doc, axis_of_values(h, x_label, marks), axis_of_rates(h));
-  plot.svg().begin_group("bars", {.fill = pale_blue, .stroke = blue});
+  io::Plot plot(figure_width, 270.0, h.column.doc, axis_of_values(h, x_label, marks),
+                axis_of_rates(h));
+  plot.svg().begin_group("bars", {.fill = pale_blue, .stroke = ink::blue});
   for (std::size_t i = 0; i < h.rates.size(); ++i)
     if (h.rates[i] > 0.0)
       plot.area({h.lower_edges[i], upper_edge(h.lower_edges, i)}, {plot.y().range.low, h.rates[i]},
@@ -117,7 +108,7 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
   plot.svg().begin_group("errors");
   for (std::size_t i = 0; i < h.rates.size(); ++i)
     plot.error_bar(std::sqrt(h.lower_edges[i] * upper_edge(h.lower_edges, i)), h.rates[i],
-                   h.errors[i], blue);
+                   h.errors[i], ink::blue);
   plot.svg().end_group();
   plot.svg().begin_group("marks");
   int row = static_cast<int>(marks.size());
@@ -125,7 +116,8 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
     --row;
     if (std::isfinite(mark.at))
       plot.moment(mark.at, mark.label,
-                  {.stroke = mark.label == "unphysical" ? red : grey, .dashes = "4 3"}, row);
+                  {.stroke = mark.label == "unphysical" ? ink::red : ink::grey, .dashes = "4 3"},
+                  row);
   }
   plot.svg().end_group();
   return plot.svg();
@@ -142,7 +134,7 @@ io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary)
     extent.insert(extent.end(), forces->begin(), forces->end());
   if (std::isfinite(half)) extent.push_back(half);
 
-  io::Plot plot(width, 250.0, "Braking force of each wall",
+  io::Plot plot(figure_width, 250.0, "Braking force of each wall",
                 {.label = "time (s)", .range = io::range_of(time.values)},
                 {.label = "braking force (N)", .range = io::range_of(extent)});
   mark_transient(summary.transient_end, plot);
@@ -150,7 +142,7 @@ io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary)
                                                                 {"right wall", io::look_of(1)}};
   plot.curve(left[0], left[1], {.stroke = legend[0].second.colour, .stroke_width = 1.5});
   plot.curve(right[0], right[1], {.stroke = legend[1].second.colour, .stroke_width = 1.5});
-  if (std::isfinite(half)) plot.level(plot.x().range, half, {.stroke = grey, .dashes = "5 4"});
+  if (std::isfinite(half)) plot.level(plot.x().range, half, {.stroke = ink::grey, .dashes = "5 4"});
   plot.legend("", legend, false);
   return plot.svg();
 }

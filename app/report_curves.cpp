@@ -1,5 +1,7 @@
 #include "app/report_curves.hpp"
 
+#include "app/report_parts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,9 +11,7 @@ namespace riesel::app {
 
 namespace {
 
-constexpr double width = 760.0, height = 420.0;  // px
-constexpr double room_for_arrows = 0.06;         // of the axis
-constexpr std::string_view red = "#c62828";
+constexpr double room_for_arrows = 0.06;  // of the axis
 
 using Legend = std::vector<std::pair<std::string, io::Look>>;
 
@@ -45,7 +45,7 @@ void draw_point(const VelocityPoint& point, const io::Look& look, const std::str
   plot.measured(point.x, point.velocity.value, point.velocity.error, look, point.state == "steady");
   if (point.state == "accelerating") plot.arrow_up(point.x, point.velocity.value, look);
   if (point.verdict == Validity::unphysical)
-    plot.cross(point.x, point.velocity.value, {.colour = red});
+    plot.cross(point.x, point.velocity.value, {.colour = ink::red});
   plot.svg().end_link();
 }
 
@@ -102,7 +102,8 @@ void draw_line(const ImpactLine& line, const ImpactQuantity& quantity, const io:
 
 io::Svg draw_velocities(const std::string& title, const std::string& x_label,
                         std::span<const VelocityCurve> curves, const std::string& up) {
-  io::Plot plot(width, height, description_of("Mean axial velocity against " + x_label, title),
+  io::Plot plot(figure_width, tall_figure,
+                description_of("Mean axial velocity against " + x_label, title),
                 io::axis_for(x_label, settings_of(curves)),
                 io::with_room_above(io::axis_for("mean axial velocity (m/s)", extent_of(curves)),
                                     room_for_arrows));
@@ -139,7 +140,7 @@ io::Svg draw_impacts(const std::string& title, const ImpactQuantity& quantity,
       x.push_back(point.v_y);
       y.push_back(point.*quantity.value);
     }
-  io::Plot plot(width, height, description_of(quantity.doc, title),
+  io::Plot plot(figure_width, tall_figure, description_of(quantity.doc, title),
                 io::axis_for("axial velocity v_y before the impact (m/s)", x),
                 io::axis_for(quantity.label, y));
   for (std::size_t i = 0; i < lines.size(); ++i)

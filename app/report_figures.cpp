@@ -12,9 +12,7 @@ namespace riesel::app {
 
 namespace {
 
-constexpr double width = 760.0;  // px
-constexpr std::string_view blue = "#26548c", orange = "#d9730d", pale_orange = "#f9dcc0",
-                           grey = "#777777", pale_grey = "#eeeeee";
+constexpr std::string_view orange = "#d9730d", pale_orange = "#f9dcc0", pale_grey = "#eeeeee";
 
 std::string label_of(const io::Column& column) { return with_unit(column.name, column.unit); }
 
@@ -32,11 +30,11 @@ io::Interval range_with(std::vector<double> values, const std::optional<io::Meas
 void mark_transient(double end, io::Plot& plot) {
   if (end <= 0.0) return;
   plot.area({plot.x().range.low, end}, plot.y().range, {.fill = pale_grey});
-  plot.moment(end, "end of the transient", {.stroke = grey, .dashes = "4 3"});
+  plot.moment(end, "end of the transient", {.stroke = ink::grey, .dashes = "4 3"});
 }
 
 io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks) {
-  io::Plot plot(width, 250.0, series.column.doc,
+  io::Plot plot(figure_width, 250.0, series.column.doc,
                 {.label = label_of(time.column), .range = io::range_of(time.values)},
                 {.label = label_of(series.column), .range = range_with(series.values, marks.mean)});
   const io::Interval after{marks.transient_end, plot.x().range.high};
@@ -44,7 +42,7 @@ io::Svg draw_series(const io::Series& time, const io::Series& series, const Seri
   if (marks.mean && std::isfinite(marks.mean->error))
     plot.area(after, {marks.mean->value - marks.mean->error, marks.mean->value + marks.mean->error},
               {.fill = pale_orange});
-  plot.curve(time.values, series.values, {.stroke = blue, .stroke_width = 1.2});
+  plot.curve(time.values, series.values, {.stroke = ink::blue, .stroke_width = 1.2});
   if (marks.mean) plot.level(after, marks.mean->value, {.stroke = orange, .stroke_width = 1.5});
   return plot.svg();
 }
@@ -60,7 +58,7 @@ io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::strin
       for (const double sign : {-1.0, 0.0, 1.0})
         extent.push_back(profile.values[i] + sign * profile.errors[i]);
   }
-  io::Plot plot(width, 300.0, label + " across the tube",
+  io::Plot plot(figure_width, 300.0, label + " across the tube",
                 {.label = "x (m)", .range = io::range_of(profiles.x)},
                 {.label = label, .range = io::range_of(extent)});
   for (const auto& [name, look] : legend) {
@@ -74,16 +72,15 @@ io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::strin
 }
 
 std::vector<EnergyPart> parts_of(const io::FlowSummary::Energy& e) {
-  std::vector<EnergyPart> parts = {{"kinetic, at the start", e.initial, true},
-                                   {"work of gravity", e.gravity_work, true},
-                                   {"kinetic, at the end", e.kinetic, false},
-                                   {"elastic, at the end", e.elastic, false},
-                                   {"lost by normal damping", e.normal_loss, false},
-                                   {"lost by friction", e.friction_loss, false},
-                                   {"residual", e.residual, false}};
-  if (e.wall_work != 0.0) parts.insert(parts.begin() + 2, {"work of the walls", e.wall_work, true});
-  if (e.rotational != 0.0)
-    parts.insert(parts.end() - 4, {"of rotation, at the end", e.rotational, false});
+  std::vector<EnergyPart> parts = {{"at the start", e.initial, true},
+                                   {"work of gravity", e.gravity_work, true}};
+  if (e.wall_work != 0.0) parts.push_back({"work of the walls", e.wall_work, true});
+  parts.push_back({"kinetic, at the end", e.kinetic, false});
+  if (e.rotational != 0.0) parts.push_back({"of rotation, at the end", e.rotational, false});
+  parts.insert(parts.end(), {{"elastic, at the end", e.elastic, false},
+                             {"lost by normal damping", e.normal_loss, false},
+                             {"lost by friction", e.friction_loss, false},
+                             {"residual", e.residual, false}});
   return parts;
 }
 
@@ -94,32 +91,32 @@ io::Svg draw_energy(const std::vector<EnergyPart>& parts) {
     low = std::min(low, part.value);
     high = std::max(high, part.value);
   }
-  const double scale = (width - left - right_margin) / (high > low ? high - low : 1.0);
+  const double scale = (figure_width - left - right_margin) / (high > low ? high - low : 1.0);
   const double zero = left - low * scale;
   const double height = row * static_cast<double>(parts.size()) + 8.0;
 
-  io::Svg svg(width, height, "The budget of energy");
+  io::Svg svg(figure_width, height, "The budget of energy");
   double y = 4.0;
   for (const EnergyPart& part : parts) {
     const double length = std::abs(part.value) * scale;
     const double begin = part.value < 0.0 ? zero - length : zero;
     svg.text({left - 10.0, y + 13.0}, part.name, {.anchor = "end"});
-    svg.rectangle({begin, y}, length, bar, {.fill = part.came_in ? blue : orange});
+    svg.rectangle({begin, y}, length, bar, {.fill = part.came_in ? ink::blue : orange});
     svg.text({begin + length + 6.0, y + 13.0}, fmt::format("{:.3g} J", part.value));
     y += row;
   }
-  svg.line({zero, 0.0}, {zero, height}, {.stroke = grey});
+  svg.line({zero, 0.0}, {zero, height}, {.stroke = ink::grey});
   return svg;
 }
 
 io::Svg draw_visits(std::span<const std::int64_t> of_contacts) {
   const auto most = static_cast<double>(*std::ranges::max_element(of_contacts));
   const auto last = static_cast<double>(of_contacts.size());
-  io::Plot plot(width, 250.0, "Contacts per visit to a wall",
+  io::Plot plot(figure_width, 250.0, "Contacts per visit to a wall",
                 {.label = fmt::format("contacts of the visit ({}: as many or more)", last),
                  .range = {0.4, last + 0.6}},
                 {.label = "visits", .range = {0.0, 1.08 * std::max(most, 1.0)}});
-  plot.svg().begin_group("bars", {.fill = blue});
+  plot.svg().begin_group("bars", {.fill = ink::blue});
   for (std::size_t i = 0; i < of_contacts.size(); ++i) {
     const double contacts = static_cast<double>(i) + 1.0;
     plot.area({contacts - 0.4, contacts + 0.4}, {0.0, static_cast<double>(of_contacts[i])}, {});

@@ -159,8 +159,7 @@ private:
   void show_energy() {
     page().heading("Energy");
     const auto parts = parts_of(summary().energy);
-    const double came_in =
-        summary().energy.initial + summary().energy.gravity_work + summary().energy.wall_work;
+    const double came_in = summary().energy.came_in();
     io::HtmlRows rows = {{"part", "J", "of what came in"}};
     for (const EnergyPart& part : parts)
       rows.push_back({part.name, number(part.value),
@@ -170,8 +169,8 @@ private:
     if (std::ranges::all_of(parts, [](const EnergyPart& p) { return std::isfinite(p.value); }))
       draft_.add_figure(
           "energy", draw_energy(parts),
-          "Blue: energy that came in since the start. Orange: where it is. The residual is what "
-          "is missing in the balance: the error of the calculation.");
+          "Blue: energy that was there at the start or came in since. Orange: where it is. The "
+          "residual is what is missing in the balance: the error of the calculation.");
   }
 
   void show_walls() {

@@ -9,9 +9,19 @@
 #include "io/svg.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace riesel::app {
+
+/// The page, in the directory of what it is about.
+inline constexpr auto report_name = "report.html";
+
+// How figures look.
+inline constexpr double figure_width = 760.0, tall_figure = 420.0;  ///< px
+namespace ink {
+inline constexpr std::string_view blue = "#26548c", grey = "#777777", red = "#c62828";
+}
 
 struct ReportFigure {
   std::string name;  ///< of a file, without its ending

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -158,7 +157,7 @@ private:
     page().heading("Points");
     std::vector<io::HtmlCell> head = {"point"};
     for (const io::VariedSetting& setting : manifest().varied)
-      head.emplace_back(with_unit(last_part(setting.key), setting.unit));
+      head.emplace_back(with_unit(io::name_in_section(setting.key), setting.unit));
     for (const char* name : {"branch", "leg"}) head.emplace_back(name);
     const std::vector<const char*> of_results =
         scenario_has_curves()
@@ -184,7 +183,7 @@ private:
     if (const auto* summary = curve(i)) add_curve(*summary, row);
     if (const auto* summary = column(i)) add_column(*summary, row);
     row.resize(cells - 2, "");
-    row.push_back(result.has_report ? io::HtmlCell("report", result.directory + "/report.html")
+    row.push_back(result.has_report ? io::HtmlCell("report", result.directory + "/" + report_name)
                                     : io::HtmlCell(""));
     const std::string& reason = result.flaw.empty() ? point.reason : result.flaw;
     row.emplace_back(point.status + (reason.empty() ? "" : ": " + reason));
@@ -196,10 +195,7 @@ private:
     row.emplace_back(with_error(s.mean_axial_velocity, ""));
     row.emplace_back(s.state);
     row.emplace_back(std::string(name(s.validity.verdict.verdict)));
-    double failure = std::numeric_limits<double>::quiet_NaN();
-    for (const Finding& finding : s.validity.verdict.findings)
-      if (finding.name == "brake_failure_fraction") failure = finding.value;
-    row.emplace_back(number(failure, "{:.2g}"));
+    row.emplace_back(number(s.validity.verdict.value_of("brake_failure_fraction"), "{:.2g}"));
     // Where gravity does not pull along the walls there is nothing to compare with.
     const double g = s.balance.gravity;
     row.emplace_back(

@@ -82,7 +82,7 @@ Marks marks_of(const io::Manifest& manifest, const io::ManifestPoint& point,
   Marks marks;
   for (std::size_t i = 0; i < manifest.varied.size(); ++i)
     if (told[i])
-      marks.push_back({.name = last_part(manifest.varied[i].key),
+      marks.push_back({.name = io::name_in_section(manifest.varied[i].key),
                        .value = text_of(point.values[i], manifest.varied[i].unit)});
   if (!point.branch.empty()) marks.push_back({.name = "", .value = point.branch});
   return marks;
@@ -97,7 +97,7 @@ VelocityPoint velocity_point(const SweepRecord& record, std::size_t index, std::
           .velocity = flow.mean_axial_velocity,
           .state = flow.state,
           .verdict = verdict,
-          .directory = result.directory + (result.has_report ? "/report.html" : "/"),
+          .directory = result.directory + "/" + (result.has_report ? report_name : ""),
           .tip =
               fmt::format("{}: {}, {}, {}", description_of(record.manifest, point),
                           with_error(flow.mean_axial_velocity, "m/s"), flow.state, name(verdict))};
@@ -194,8 +194,6 @@ std::vector<ImpactPanel> impact_panels(const SweepRecord& record) {
   }
   return panels;
 }
-
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 std::string text_of(const io::Cell& cell, const std::string& unit) {
   if (const auto* number = std::get_if<double>(&cell))

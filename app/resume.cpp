@@ -28,8 +28,7 @@ bool may_change(const std::string& key) {
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
   for (const io::YamlEntry& setting : io::parse_overrides(overrides)) {
     if (!may_change(setting.key))
-      throw io::SettingsError(setting.key_place, setting.key,
-                              "cannot change when a run is resumed",
+      throw io::SettingsError(setting.key_place, setting.key, "cannot change when a run is resumed",
                               "only run.duration, run.until, run.threads, run.stepping, limits and "
                               "output.checkpoint_interval can; for anything else "
                               "start a new run");

@@ -1,6 +1,6 @@
 #include "app/run_column.hpp"
 
-#include "app/run_points.hpp"
+#include "app/run_problems.hpp"
 
 namespace riesel::app {
 
@@ -57,7 +57,7 @@ int run_column(const io::Settings& settings, const scenarios::ColumnCurve& curve
       summary.column.push_back(point(curve, curve.gap_ratios[i], results[i]));
     return summary;
   };
-  return run_points(
+  return run_problems(
       settings, curve.setup.beads, directory, arguments, verbosity,
       [&](int threads) { return drop_all(curve.setup, gaps_of(curve), threads); }, summarise,
       write_points);

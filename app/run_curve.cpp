@@ -1,6 +1,6 @@
 #include "app/run_curve.hpp"
 
-#include "app/run_points.hpp"
+#include "app/run_problems.hpp"
 
 #include <algorithm>
 #include <span>
@@ -73,7 +73,7 @@ int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
           curve.setup, point, std::span(results).subspan(point.first_impact, point.impacts)));
     return summary;
   };
-  return run_points(
+  return run_problems(
       settings, 1, directory, arguments, verbosity,
       [&](int threads) { return follow_all(curve.setup, curve.impacts, threads); }, summarise,
       write_curve);

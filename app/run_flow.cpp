@@ -1,5 +1,6 @@
 #include "app/run_flow.hpp"
 
+#include "app/clock.hpp"
 #include "app/exit_status.hpp"
 #include "app/flow_failures.hpp"
 #include "app/flow_summary.hpp"
@@ -30,7 +31,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -41,12 +41,6 @@
 namespace riesel::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// One of those that the settings ask for.
 struct LimitExceeded : RunFailure {

@@ -23,12 +23,6 @@ constexpr double largest_grain = 40.0, smallest_grain = 5.0;           // px, di
 constexpr double most_grains = 20000.0;                                // a page of a few MB
 constexpr std::size_t most_columns = 24;
 
-double mean_diameter(const io::FinalState& state) {
-  double sum = 0.0;
-  for (const Grain& grain : state.grains) sum += 2.0 * grain.radius;
-  return sum / static_cast<double>(state.grains.size());
-}
-
 /// m, by which bodies can stand out of the box.
 double margin_of(const io::FinalState& state) {
   double margin = 0.0;
@@ -44,7 +38,7 @@ public:
       : tube_length_(state.box.length),
         margin_(margin_of(state)),
         outer_width_(state.box.width + 2.0 * margin_) {
-    const double diameter = mean_diameter(state);
+    const double diameter = state.mean_diameter();
     show_all(diameter);
     if (scale_ * diameter < smallest_grain) show_a_part(smallest_grain / diameter);
     const double density = static_cast<double>(state.grains.size()) / tube_length_;

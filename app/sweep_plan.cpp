@@ -113,7 +113,7 @@ io::ManifestPoint row_of(const io::SweepPoint& point, const std::vector<io::Swee
                            .values = {},
                            .expected_seconds = cost.seconds,
                            .most_threads = cost.most_threads,
-                           .status = "waiting",
+                           .status = to_string(RunStatus::waiting),
                            .reason = {}};
   for (const auto& setting : varied) row.values.push_back(io::cell_of(point.settings, setting.key));
   return row;

@@ -1,6 +1,7 @@
 #include "app/sweep_runner.hpp"
 
 #include "app/child_process.hpp"
+#include "app/clock.hpp"
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
@@ -30,7 +31,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto between_looks = 10ms;
@@ -258,9 +258,8 @@ private:
     double done = 0.0, all = 0.0;
     for (const auto& job : jobs_) {
       all += job->seconds;
-      const std::chrono::duration<double> spent = Clock::now() - job->started;
       if (job->status == RunStatus::done || job->status == RunStatus::failed) done += job->seconds;
-      if (job->process) done += std::min(almost * job->seconds, spent.count());
+      if (job->process) done += std::min(almost * job->seconds, seconds_since(job->started));
     }
     return all > 0.0 ? done / all : 1.0;
   }

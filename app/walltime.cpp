@@ -1,18 +1,16 @@
 #include "app/walltime.hpp"
 
+#include "app/clock.hpp"
 #include "app/commands.hpp"
 #include "io/units.hpp"
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <optional>
 
 namespace riesel::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 const Clock::time_point start_of_program = Clock::now();
 
@@ -28,9 +26,7 @@ std::optional<double> seconds_in(const std::string& text) {
 
 }  // namespace
 
-double seconds_since_start_of_program() {
-  return std::chrono::duration<double>(Clock::now() - start_of_program).count();
-}
+double seconds_since_start_of_program() { return seconds_since(start_of_program); }
 
 double read_walltime(const std::string& text) {
   const auto seconds = seconds_in(text);

@@ -2,6 +2,7 @@
 
 #include "bench/child.hpp"
 #include "engine/hash.hpp"
+#include "io/summary.hpp"
 
 #include <fmt/core.h>
 
@@ -32,7 +33,7 @@ Outcome outcome_of(const fs::path& sweep) {
   Outcome outcome;
   Hash hash;
   for (const fs::path& point : points) {
-    std::ifstream file(point / "summary.json");
+    std::ifstream file(point / io::summary_name);
     const auto summary = nlohmann::json::parse(file);
     const auto grains = summary["grains"].get<std::size_t>();
     outcome.grains += grains;

@@ -2,6 +2,7 @@
 
 #include "bench/child.hpp"
 #include "io/checkpoint.hpp"
+#include "io/durable_file.hpp"
 #include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -75,8 +76,7 @@ void measure_checkpoint(const Size& size, const StartStates& states, const Effor
                   .state_hash = state_hash(i == 0 ? original.state : read.state)});
   if (state_hash(original.state) != state_hash(read.state))
     results.disagreements.emplace_back("checkpoint: what is read is not what was written");
-  for (const auto& file : {path, std::filesystem::path(path.string() + ".previous")})
-    std::filesystem::remove(file);
+  for (const auto& file : {path, io::previous_generation(path)}) std::filesystem::remove(file);
 }
 
 void measure_start_up(const Size& size, const Effort& effort, Results& results) {

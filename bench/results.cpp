@@ -93,11 +93,11 @@ void print_machine(const Results& results) {
 void print_heading() {
   fmt::print(
       "\nSpeeds in millions of particle-steps, impacts or bytes per second, of the median "
-      "repetition "
-      "and of\nthe best one; contacts per grain; ns: time of a step over its contacts; "
-      "bytes of memory "
-      "per grain;\nthe part of the memory bandwidth that plain stepping would need if each step "
-      "went through all grains\n\n"
+      "repetition and of\n"
+      "the best one; contacts per grain; ns: time of a step over its contacts; bytes of memory "
+      "per grain;\n"
+      "the part of the memory bandwidth that plain stepping would need if each step went through "
+      "all grains\n\n"
       "{:18} {:>5} {:>9} {:10} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6}  {}\n",
       "case", "size", "grains", "variant", "median", "best", "contacts", "ns", "bytes", "part",
       "state hash");

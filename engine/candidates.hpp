@@ -151,9 +151,7 @@ private:
                              const CoarseMotion& common) const {
     const std::int32_t x = coarse_difference(coarse.x[slot], when_sorted_.x[slot]);
     const std::int32_t y = coarse_difference(coarse.y[slot], when_sorted_.y[slot]);
-    const float dx = static_cast<float>(coarse_difference(x, common.x)) * units_.x;
-    const float dy = static_cast<float>(coarse_difference(y, common.y)) * units_.y;
-    return dx * dx + dy * dy;
+    return units_.square(coarse_difference(x, common.x), coarse_difference(y, common.y));
   }
   double distance(float squared_displacement) const;
   void measure_speeds(const State& state, Slice& mine) const;

@@ -1,4 +1,4 @@
-// The flights of one slice: one thread's part of a step.
+// The flights of one slice, and the parts of a step.
 //
 // A region steps the contacts of its slice and the grains of it that are deflected. A foreign grain
 // in such a contact stands among them as a guest: its motion is taken from its own slice in each

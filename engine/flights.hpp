@@ -2,10 +2,9 @@
 //
 // In rapid flow nearly all grains are in free flight, which the integer kinematics crosses exactly
 // in any number of steps at once. So only the grains that take part in a contact are stepped. The
-// others stand in the store with the step of their last touch, and each candidate (a pair, or a
-// grain near a wall) has an appointment: the step before which it cannot touch as long as the
-// grains keep to their courses. In that step it is looked at, and either a contact begins or a new
-// appointment is made.
+// others stand in the store with their course, and each candidate (a pair, or a grain near a wall)
+// has an appointment: the step before which it cannot touch as long as the grains keep to their
+// courses. In that step it is looked at, and either a contact begins or a new appointment is made.
 //
 // A grain in contact leaves its course. Most appointments are made with a tolerance: they hold as
 // long as both grains stay that close to their courses, in contact or not. Those of pairs that are

@@ -34,9 +34,7 @@ PairBlock pairs_from(std::size_t begin, const CandidatePairs& pairs,
 
 [[gnu::always_inline]] inline float squared_distance(const PairBlock& b, std::size_t p) {
   const std::uint32_t i = b.first[p], j = b.second[p];
-  const float dx = static_cast<float>(coarse_difference(b.x[j], b.x[i])) * b.units.x;
-  const float dy = static_cast<float>(coarse_difference(b.y[j], b.y[i])) * b.units.y;
-  return dx * dx + dy * dy;
+  return b.units.square(coarse_difference(b.x[j], b.x[i]), coarse_difference(b.y[j], b.y[i]));
 }
 
 /// Whether any of the pairs may overlap.
@@ -99,11 +97,10 @@ RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
   alignas(cache_line) std::array<std::uint8_t, lanes> result{};
   for (std::size_t j = range.begin; j < range.end; j += lanes) {
 #pragma omp simd
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const float dx = static_cast<float>(coarse_difference(x[j + lane], x_i)) * units.x;
-      const float dy = static_cast<float>(coarse_difference(y[j + lane], y_i)) * units.y;
-      result[lane] = dx * dx + dy * dy < farthest2;
-    }
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      result[lane] =
+          units.square(coarse_difference(x[j + lane], x_i), coarse_difference(y[j + lane], y_i))
+          < farthest2;
     const std::size_t count = std::min(lanes, range.end - j);
     // As above.
     for (std::size_t lane = 0; lane < count; ++lane) {

@@ -201,22 +201,13 @@ void Simulation::prepare() {
 }
 
 void Simulation::step_up_to(std::int64_t last) {
-  if (flights_)
-    advance_by_flights(last);
-  else
-    advance_plainly(last);
-}
-
-void Simulation::advance_plainly(std::int64_t last) {
   const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
-  as_a_team(prepared_->way.threads,
-            [&](std::size_t member) { plain_steps_->advance(member, now, last); });
-}
-
-void Simulation::advance_by_flights(std::int64_t last) {
-  const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
-  as_a_team(prepared_->way.threads,
-            [&](std::size_t member) { flights_->advance(member, now, last); });
+  as_a_team(prepared_->way.threads, [&](std::size_t member) {
+    if (flights_)
+      flights_->advance(member, now, last);
+    else
+      plain_steps_->advance(member, now, last);
+  });
 }
 
 /// Completes the state with what the slices know of contacts.

@@ -65,8 +65,6 @@ private:
   void prepare();
   void profile_first_thread();
   void step_up_to(std::int64_t last);
-  void advance_plainly(std::int64_t last);
-  void advance_by_flights(std::int64_t last);
   void collect();
   void fail_if_in_trouble() const;
 

@@ -58,6 +58,7 @@ void add(Hash& hash, const ContactTally& t) {
   for (const auto& sum : {t.duration, t.slip_path, t.normal_loss, t.friction_loss, t.impulse_y,
                           t.impulse_y_times_time})
     add(hash, sum);
+  if (t.energy_won != ExactSum{}) add(hash, t.energy_won);
   for (const auto count : t.durations.counts()) hash.add(count);
   for (const auto count : t.overlaps.counts()) hash.add(count);
 }
@@ -170,7 +171,7 @@ std::uint64_t state_hash(const State& state) {
   for (const Contact& contact : state.contacts) add(hash, contact);
   for (const WallVisit& visit : state.open_visits) add(hash, visit);
   add(hash, state.tally.grains);
-  add(hash, state.tally.walls);  // with the impulses of all walls together
+  add(hash, state.tally.walls);
   if (state.tally.impulses.work != ExactSum{}) add(hash, state.tally.impulses.work);
   add(hash, state.tally.brakes);
   add(hash, state.tally.visits);

@@ -63,7 +63,7 @@ void for_each_array_of(AnyGrains& g, Visit visit) {
 
 /// The system at step 0, for the balances of energy and momentum.
 struct Origin {
-  double energy = 0.0;      ///< J, kinetic, and elastic where contacts last from before
+  double energy = 0.0;  ///< J, kinetic, of rotation, and elastic where contacts last from before
   double momentum_y = 0.0;  ///< kg m/s
   double moment_x = 0.0;    ///< kg m, sum of mass times x
 };
@@ -159,7 +159,9 @@ double total_mass(const Grains& grains);
 std::string when(std::int64_t step, double time_step);
 inline std::string when(const State& state) { return when(state.step, state.time_step); }
 
-/// 64-bit FNV-1a hash of all that the future depends on, the same for any order of the slots.
+/// 64-bit FNV-1a hash of all that the future depends on, and of what was counted and summed so far,
+/// the same for any order of the slots. Left out are how walls share their impulse, and which
+/// contact was the deepest.
 std::uint64_t state_hash(const State& state);
 
 }  // namespace riesel

@@ -1,5 +1,7 @@
 #include "engine/validity.hpp"
 
+#include "engine/estimate.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -86,24 +88,44 @@ Validity judge(const Criterion& c, double value) {
   return beyond(c.suspect) ? Validity::suspect : Validity::valid;
 }
 
+Finding finding_of(const Criterion& c, double value, Validity verdict) {
+  return {.name = c.name,
+          .value = value,
+          .suspect = c.suspect,
+          .unphysical = c.unphysical,
+          .low_is_bad = c.low_is_bad,
+          .verdict = verdict,
+          .meaning = std::isnan(value) ? "not known" : c.meaning,
+          .remedy = std::isnan(value) ? "run longer" : c.remedy};
+}
+
 }  // namespace
+
+const Finding* ValidityVerdict::find(std::string_view name) const {
+  const auto found = std::ranges::find(findings, name, &Finding::name);
+  return found == findings.end() ? nullptr : &*found;
+}
+
+double ValidityVerdict::value_of(std::string_view name) const {
+  const Finding* found = find(name);
+  return found == nullptr ? unknown : found->value;
+}
 
 ValidityVerdict judge(const Evidence& evidence) {
   ValidityVerdict result{.verdict = Validity::valid, .findings = {}};
   for (const Criterion& c : criteria) {
     const double value = evidence.*c.value;
     const Validity verdict = matters(c, evidence) ? judge(c, value) : Validity::valid;
-    result.findings.push_back({.name = c.name,
-                               .value = value,
-                               .suspect = c.suspect,
-                               .unphysical = c.unphysical,
-                               .low_is_bad = c.low_is_bad,
-                               .verdict = verdict,
-                               .meaning = std::isnan(value) ? "not known" : c.meaning,
-                               .remedy = std::isnan(value) ? "run longer" : c.remedy});
+    result.findings.push_back(finding_of(c, value, verdict));
     result.verdict = std::max(result.verdict, verdict);
   }
   return result;
+}
+
+std::optional<Finding> finding_named(std::string_view name, double value) {
+  const auto found = std::ranges::find(criteria, name, &Criterion::name);
+  if (found == criteria.end()) return std::nullopt;
+  return finding_of(*found, value, judge(*found, value));
 }
 
 Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,

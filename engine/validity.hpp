@@ -51,9 +51,17 @@ struct Finding {
 struct ValidityVerdict {
   Validity verdict;
   std::vector<Finding> findings;  ///< all, in the order of Evidence
+
+  /// By name; nullptr if there is none, as there may be in a verdict of another version.
+  const Finding* find(std::string_view name) const;
+  /// Not a number if there is no such finding.
+  double value_of(std::string_view name) const;
 };
 
 ValidityVerdict judge(const Evidence& evidence);
+
+/// The finding of this name, judged by its value alone; nothing if there is none.
+std::optional<Finding> finding_named(std::string_view name, double value);
 
 /// What single impacts can be judged by: the worst of these findings.
 Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,

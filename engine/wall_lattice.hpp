@@ -43,7 +43,8 @@ struct WallMotion {
   double fastest_oscillation() const {
     return std::abs(2.0 * std::numbers::pi * frequency) * std::hypot(amplitude_x, amplitude_y);
   }
-  /// The same at `time` (s), for whoever looks.
+  /// m, how far the wall is at `time` (s) from where it was at first, for whoever looks: steps go
+  /// by shift().
   WallWay way(const Box& box, double time) const {
     const double swing = std::sin(phase_at(time));
     return {amplitude_x * swing, box.metres_y(start) + velocity * time + amplitude_y * swing};

@@ -135,7 +135,7 @@ State read_state(const StoredGroup& root) {
   state.open_visits = read_records<WallVisit>(root.group("open_visits"));
   state.tally = read_tally(root.group("tally"));
   for (const Contact& contact : read_records<Contact>(root.group("deepest_contacts")))
-    (contact.name.wall == no_wall ? state.tally.grains : state.tally.walls).deepest = contact;
+    state.tally.of(contact.name).deepest = contact;
   return state;
 }
 

@@ -3,6 +3,7 @@
 #include "io/file_error.hpp"
 #include "io/settings_text.hpp"
 #include "io/units.hpp"
+#include "io/utf8.hpp"
 #include "io/whole_file.hpp"
 
 #include <fmt/format.h>
@@ -166,9 +167,7 @@ private:
 
 CsvTable parse_csv(const std::string& text, const std::string& source,
                    const std::vector<CsvColumn>& columns) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  const bool marked = text.starts_with(byte_order_mark);
-  return Parser(source, columns).parse(marked ? text.substr(byte_order_mark.size()) : text);
+  return Parser(source, columns).parse(std::string(without_byte_order_mark(text)));
 }
 
 double CsvTable::value(std::size_t row, const std::string& column) const {

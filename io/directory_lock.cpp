@@ -2,6 +2,7 @@
 
 #include "io/file_error.hpp"
 #include "io/patient_lock.hpp"
+#include "io/uninterrupted.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -40,6 +41,12 @@ std::string description_of_holder(int descriptor) {
 /// Whoever only looks whether the lock is held (see is_held) has it for a moment.
 constexpr auto patience = std::chrono::milliseconds(40);
 
+/// Negative, with errno, if it cannot be opened. `flags` besides those of every lock.
+int open_lock(const std::filesystem::path& directory, int flags) {
+  const auto lock = directory / lock_name;
+  return uninterrupted([&] { return open(lock.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666); });
+}
+
 /// Of a path by `stat`, of an open file, whatever has its name by now, by `fstat`. Of no file:
 /// nothing, and errno tells why.
 template <class File>
@@ -52,9 +59,7 @@ std::optional<FileIdentity> identity_by(int (*ask)(File, struct stat*), File fil
 }  // namespace
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature signature)
-    : directory_(directory),
-      descriptor_(
-          open((directory / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+    : directory_(directory), descriptor_(open_lock(directory, O_RDWR | O_CREAT)) {
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
   if (lock_patiently(descriptor_, patience)) {
     if (signature == Signature::now) sign();
@@ -92,7 +97,7 @@ void DirectoryLock::require_in_place() const {
 }
 
 bool DirectoryLock::is_held(const std::filesystem::path& directory) {
-  const int descriptor = open((directory / lock_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int descriptor = open_lock(directory, O_RDONLY);
   if (descriptor < 0) return false;
   const bool held = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   close(descriptor);

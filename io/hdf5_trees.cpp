@@ -3,7 +3,6 @@
 #include "io/hdf5_handle.hpp"
 
 #include <algorithm>
-
 #include <string_view>
 
 namespace riesel::io {

@@ -1,16 +1,13 @@
-// JSON values as values of a table, and text of JSON as the files of a sweep have it. Internal.
+// JSON values as values of a table. Internal.
 #pragma once
 
+#include "io/json_file.hpp"
 #include "io/sweep_manifest.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <string>
 
 namespace riesel::io {
-
-using Json = nlohmann::ordered_json;
 
 /// Nothing for null, and for lists and maps; true and false are texts, and so are integers that a
 /// double cannot hold (a seed may be one).
@@ -21,11 +18,6 @@ inline Cell cell_of(const Json& json) {
   if (json.is_string()) return json.get<std::string>();
   if (json.is_boolean()) return std::string(json.get<bool>() ? "true" : "false");
   return {};
-}
-
-/// On several lines. Text that is no UTF-8 (a message of the system, say) does not stop it.
-inline std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace riesel::io

@@ -8,8 +8,6 @@
 namespace riesel::io {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // A manifest of the most points that a sweep may have is the largest: 5 MB. What is read takes up
 // to 16 times as much memory.
 constexpr std::uint64_t most_bytes = 32'000'000;

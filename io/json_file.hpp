@@ -1,4 +1,4 @@
-// JSON files read as a whole. Internal.
+// JSON files, read and written as a whole. Internal.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,19 +12,26 @@
 
 namespace riesel::io {
 
+using Json = nlohmann::ordered_json;
+
 /// What the file holds; a discarded value if that is no JSON, or nested deeper than anything that
 /// this program writes (what walks through it could exhaust the stack). Throws FileError, with this
 /// remedy, if the file cannot be read or is larger than any that this program writes.
-nlohmann::ordered_json read_json(const std::filesystem::path& path, const std::string& remedy);
+Json read_json(const std::filesystem::path& path, const std::string& remedy);
 
 /// An integer that is written as one and fits into T. Throws std::exception.
 template <std::signed_integral T>
-T integer_of(const nlohmann::ordered_json& json) {
+T integer_of(const Json& json) {
   const bool fits = json.is_number_unsigned()
                         ? std::in_range<T>(json.get<std::uint64_t>())
                         : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
   if (!fits) throw std::runtime_error(json.dump() + " is no integer of this size");
   return json.get<T>();
+}
+
+/// On several lines. Text that is no UTF-8 (a message of the system, say) does not stop it.
+inline std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace riesel::io

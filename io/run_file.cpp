@@ -80,8 +80,9 @@ void write_grains(Hdf5Group& group, const State& state) {
   const auto slots = slots_by_id(state.grains);
   std::vector<double> position, velocity, radius, mass, spin;
   std::vector<std::int32_t> id;
+  const GrainView grains(state);
   for (const auto slot : slots) {
-    const Grain grain = grain_at(state, slot);
+    const Grain grain = grains[slot];
     position.insert(position.end(), {grain.x, grain.y});
     velocity.insert(velocity.end(), {grain.vx, grain.vy});
     radius.push_back(grain.radius);

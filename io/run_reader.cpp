@@ -2,6 +2,7 @@
 
 #include "io/file_error.hpp"
 #include "io/sealed_hdf5.hpp"
+#include "io/state_check.hpp"
 #include "io/state_columns.hpp"
 #include "io/state_layout.hpp"
 
@@ -81,16 +82,6 @@ bool is_sound(const WallLattice& wall) {
          && std::isfinite(m.frequency) && std::isfinite(m.phase);
 }
 
-bool fits(const ContactName& name, const FinalState& state) {
-  const auto is_index = [](std::int32_t i, auto size) {
-    return i >= 0 && i < static_cast<std::int64_t>(size);
-  };
-  if (!is_index(name.grain, state.grains.size())) return false;
-  if (name.wall == no_wall) return is_index(name.partner, state.grains.size());
-  if (!is_index(name.wall, state.walls.size())) return false;
-  return is_index(name.partner, state.walls[static_cast<std::size_t>(name.wall)].partners());
-}
-
 void check(const FinalState& state) {
   require(is_positive(state.box.width) && is_positive(state.box.length), "the box has no size");
   require(!state.grains.empty(), "there are no grains");
@@ -98,9 +89,11 @@ void check(const FinalState& state) {
           "a grain has impossible values");
   require(std::ranges::all_of(state.walls, [](const WallLattice& w) { return is_sound(w); }),
           "a wall has impossible values");
-  require(
-      std::ranges::all_of(state.contacts, [&](const Contact& c) { return fits(c.name, state); }),
-      "a contact names bodies that are not there");
+  require(std::ranges::all_of(state.contacts,
+                              [&](const Contact& c) {
+                                return names_bodies(c.name, state.grains.size(), state.walls);
+                              }),
+          "a contact names bodies that are not there");
 }
 
 FinalState read_final_state(const StoredGroup& group) {
@@ -214,6 +207,12 @@ auto read_file(const std::filesystem::path& path, Read read) {
 }
 
 }  // namespace
+
+double FinalState::mean_diameter() const {
+  double sum = 0.0;
+  for (const Grain& grain : grains) sum += 2.0 * grain.radius;
+  return sum / static_cast<double>(grains.size());
+}
 
 const Series& RunContents::series_of(const std::string& name) const {
   return find(series, name, "series");

@@ -23,6 +23,8 @@ struct FinalState {
   std::vector<Grain> grains;  ///< a grain's id is its place
   std::vector<WallLattice> walls;
   std::vector<Contact> contacts;  ///< their names fit the grains and the walls
+
+  double mean_diameter() const;  ///< m
 };
 
 struct Series {

@@ -143,8 +143,7 @@ SettingsTable run_settings() {
        .fallback = "auto",
        .range = between(1, 1024),
        .doc = "Threads to use; `auto` takes as many as pay for the number of grains. The "
-              "results do "
-              "not depend on it.",
+              "results do not depend on it.",
        .matters = false},
       {.key = "run.stepping",
        .kind = Kind::choice,

@@ -78,7 +78,7 @@ std::string written(const Entry& entry) {
 std::string effective_yaml(const SettingsContents& contents, const Wanted& wanted) {
   std::string yaml = "# Every setting of the run, defaults included, in SI units.\n";
   for (const auto& top_line : lines_of(contents, "", wanted)) yaml += top_line;
-  for (const auto& section : top_level_names(contents.table)) {
+  for (const auto& section : names_of(contents.table, "")) {
     const auto text = text_of(contents, section, wanted, "  ");
     if (!text.empty()) yaml += fmt::format("\n{}:\n{}", section, text);
   }

@@ -1,5 +1,7 @@
 #include "io/settings_error.hpp"
 
+#include "io/utf8.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +13,6 @@ namespace riesel::io {
 namespace {
 
 constexpr std::size_t longest_excerpt = 60;
-
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 /// Keys and values may contain line breaks; a message is one line.
 std::string on_one_line(std::string text) {

@@ -71,9 +71,8 @@ std::optional<std::string> other_scenario_remedy(const std::string& key,
 
 std::optional<std::string> mistyped_remedy(const std::string& key, const SettingsTable& table) {
   const auto section = section_of(key);
-  const auto neighbours = section.empty() ? top_level_names(table) : names_of(table, section);
-  if (const auto nearest = nearest_name(name_in_section(key), neighbours)) {
-    return fmt::format("did you mean '{}'?", section.empty() ? *nearest : section + "." + *nearest);
+  if (const auto nearest = nearest_name(name_in_section(key), names_of(table, section))) {
+    return fmt::format("did you mean '{}'?", key_of(section, *nearest));
   }
   std::vector<std::string> names;
   for (const auto& row : table) names.push_back(name_in_section(row.key));
@@ -134,7 +133,7 @@ std::string unknown_key_remedy(const std::string& key, const std::string& scenar
   if (const auto remedy = mistyped_remedy(key, table)) return *remedy;
   const auto section = section_of(key);
   if (section.empty() || !has_section(table, section))
-    return "expected " + enumerate(top_level_names(table));
+    return "expected " + enumerate(names_of(table, ""));
   return fmt::format("the keys of {} are {}", section, enumerate(names_of(table, section)));
 }
 

@@ -48,11 +48,6 @@ std::string odd_numeral_remedy(const QuantityText& quantity) {
   return "";
 }
 
-const YamlNode* find_entry(const YamlNode& map, const std::string& key) {
-  const auto entry = std::ranges::find(map.entries, key, &YamlEntry::key);
-  return entry == map.entries.end() ? nullptr : &entry->value;
-}
-
 /// The rows of {from, to, points, spacing}, so that its parts are read and checked like any
 /// setting.
 SettingsTable span_rows(const Setting& row) {
@@ -78,13 +73,12 @@ void refuse_unknown_entries(const Setting& row, const YamlNode& map) {
 }
 
 SettingValue read_span_entry(const Setting& entry_row, const YamlNode& map) {
-  const auto name = entry_row.key.substr(entry_row.key.rfind('.') + 1);
-  const auto* node = find_entry(map, name);
-  if (node == nullptr) {
+  const auto* entry = find_entry(map, name_in_section(entry_row.key));
+  if (entry == nullptr) {
     throw SettingsError(map.place, entry_row.key, "is missing",
                         fmt::format("give {}", expectation(entry_row)));
   }
-  return read_value(entry_row, *node);
+  return read_value(entry_row, entry->value);
 }
 
 /// Interpolated in the logarithm or not; both ends come out exactly.

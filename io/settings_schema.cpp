@@ -100,8 +100,7 @@ Json condition(const When& when, const SettingsTable& table) {
 /// The names of a section, or of the file, for completion.
 Json section(const SettingsTable& table, const std::string& path) {
   Json properties = Json::object();
-  const auto names = path.empty() ? top_level_names(table) : names_of(table, path);
-  for (const std::string& part : names) {
+  for (const std::string& part : names_of(table, path)) {
     const std::string key = key_of(path, part);
     if (has_section(table, key)) {
       properties[part] = section(table, key);

@@ -39,8 +39,7 @@ public:
 
   std::string section(const std::string& path) const {
     std::string text;
-    const auto names = path.empty() ? top_level_names(*table_) : names_of(*table_, path);
-    for (const std::string& part : names) {
+    for (const std::string& part : names_of(*table_, path)) {
       const std::string key = key_of(path, part);
       if (has_section(*table_, key)) {
         text += (path.empty() ? "\n" : "") + setting(key, "", is_given(key)) + section(key);

@@ -112,12 +112,8 @@ bool has_section(const SettingsTable& table, const std::string& section) {
   return !section.empty() && !names_of(table, section).empty();
 }
 
-std::vector<std::string> top_level_names(const SettingsTable& table) {
-  return names_below(table, "");
-}
-
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section) {
-  return names_below(table, section + ".");
+  return names_below(table, key_of(section, ""));
 }
 
 std::string to_string(const Range& range, const std::string& unit) {

@@ -91,10 +91,8 @@ std::string key_of(const std::string& section, const std::string& name);
 bool has_key(const SettingsTable& table, const std::string& key);
 bool has_section(const SettingsTable& table, const std::string& section);
 
-/// What stands at the top level of a file, in table order: the sections, and the keys outside of
-/// any.
-std::vector<std::string> top_level_names(const SettingsTable& table);
-/// The names within a section, those of its own sections too, in table order, each once.
+/// The names within a section, those of its own sections too, in table order, each once; of "" what
+/// stands at the top level of a file.
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section);
 
 /// "above 0 m", "from 1 to 1024", ..., of angles in degrees; empty if anything goes.

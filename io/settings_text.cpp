@@ -1,5 +1,7 @@
 #include "io/settings_text.hpp"
 
+#include "io/utf8.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,13 +13,9 @@
 namespace riesel::io {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
 }
-
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 [[noreturn]] void refuse_size(const std::string& source) {
   throw SettingsError({source}, "", fmt::format("is larger than {} bytes", largest_settings_text),
@@ -95,7 +93,7 @@ std::string read_settings_text(const std::filesystem::path& file) {
 
 std::string clean_settings_text(std::string_view text, const std::string& source) {
   if (text.size() > largest_settings_text) refuse_size(source);
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   std::string clean;
   clean.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -232,6 +233,15 @@ YamlNode parse_settings_yaml(const std::string& text, const std::string& source,
 
 YamlNode parse_yaml_value(const std::string& text, const Place& place) {
   return parse(text, to_string(place), place).value_or(make_node(YamlNode::Shape::null, place));
+}
+
+YamlNode scalar_node(const Place& place, std::string text) {
+  return make_node(YamlNode::Shape::scalar, place, std::move(text));
+}
+
+const YamlEntry* find_entry(const YamlNode& map, const std::string& key) {
+  const auto entry = std::ranges::find(map.entries, key, &YamlEntry::key);
+  return entry == map.entries.end() ? nullptr : &*entry;
 }
 
 std::string describe(const YamlNode& node) {

@@ -41,6 +41,12 @@ parse_settings_yaml(const std::string& text, const std::string& source,
 /// Throws SettingsError.
 YamlNode parse_yaml_value(const std::string& text, const Place& place);
 
+/// A value that stands nowhere as such, at a place that can be told.
+YamlNode scalar_node(const Place& place, std::string text);
+
+/// The entry of a map; nullptr if there is none.
+const YamlEntry* find_entry(const YamlNode& map, const std::string& key);
+
 /// How a message names what it found: "'3 kg'", "a list", "a map", "nothing".
 std::string describe(const YamlNode& node);
 

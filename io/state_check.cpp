@@ -77,15 +77,6 @@ std::string flaw_of_grains(const Grains& grains) {
   return {};
 }
 
-bool names_bodies_of(const State& state, const ContactName& name) {
-  const auto n = state.grains.size();
-  if (!is_index(name.grain, n)) return false;
-  if (name.wall == no_wall) return is_index(name.partner, n) && name.grain < name.partner;
-  if (!is_index(name.wall, state.walls.size())) return false;
-  const WallLattice& wall = state.walls[static_cast<std::size_t>(name.wall)];
-  return is_index(name.partner, static_cast<std::size_t>(wall.partners()));
-}
-
 bool is_finite(const Contact& contact) {
   bool finite = true;
   for_each_member<Contact>([&](const char*, const char*, auto member) {
@@ -102,7 +93,8 @@ std::string flaw_of_contacts(const State& state) {
       return fmt::format("the contact (wall {}, grain {}, partner {})", name.wall, name.grain,
                          name.partner);
     };
-    if (!names_bodies_of(state, name)) return text() + " is between bodies that do not exist";
+    if (!names_bodies(name, state.grains.size(), state.walls))
+      return text() + " is between bodies that do not exist";
     if (last != nullptr && !(*last < name)) return text() + " is out of order";
     if (!is_finite(contact)) return text() + " has a value that is not finite";
     last = &name;
@@ -164,6 +156,14 @@ std::string flaw_of(const State& state) {
   if (flaw.empty()) flaw = flaw_of_tally(state.tally.walls);
   if (flaw.empty()) flaw = flaw_of_walls_tally(state.tally);
   return flaw;
+}
+
+bool names_bodies(const ContactName& name, std::size_t grains, std::span<const WallLattice> walls) {
+  if (!is_index(name.grain, grains)) return false;
+  if (name.wall == no_wall) return is_index(name.partner, grains) && name.grain < name.partner;
+  if (!is_index(name.wall, walls.size())) return false;
+  const WallLattice& wall = walls[static_cast<std::size_t>(name.wall)];
+  return is_index(name.partner, static_cast<std::size_t>(wall.partners()));
 }
 
 }  // namespace riesel::io

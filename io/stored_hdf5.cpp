@@ -120,7 +120,6 @@ void StoredData::read(std::span<T> values) const {
     require(values.size() == size.rows * size.columns, "the size does not match");
     bytes()->give(values.size_bytes());
     read_bytes({reinterpret_cast<char*>(values.data()), values.size_bytes()});
-    return 0;
   });
 }
 

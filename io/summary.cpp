@@ -1,18 +1,15 @@
 #include "io/summary.hpp"
 
 #include "io/build_info.hpp"
+#include "io/json_file.hpp"
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
-#include <limits>
 #include <string_view>
 
 namespace riesel::io {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json common_part(const RunSummary& run) {
   return {{"format", summary_format},
@@ -89,17 +86,11 @@ Json findings(const std::vector<Finding>& findings) {
   return list;
 }
 
-double value_of(const ValidityVerdict& verdict, std::string_view finding) {
-  for (const Finding& f : verdict.findings)
-    if (f.name == finding) return f.value;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 Json validity(const FlowSummary& s) {
   const ValidityVerdict& v = s.validity.verdict;
   return {{"verdict", name(v.verdict)},
-          {"max_overlap_ratio", value_of(v, "max_overlap_ratio")},
-          {"brake_failure_fraction", value_of(v, "brake_failure_fraction")},
+          {"max_overlap_ratio", v.value_of("max_overlap_ratio")},
+          {"brake_failure_fraction", v.value_of("brake_failure_fraction")},
           {"friction_failure_fraction", s.validity.friction_failure_fraction},
           {"contacts_per_wall_visit", s.wall_visits.contacts.value},
           {"v_crit", s.validity.v_crit},
@@ -107,8 +98,6 @@ Json validity(const FlowSummary& s) {
           {"findings", findings(v.findings)},
           {"warnings", s.validity.warnings}};
 }
-
-std::string text_of(const Json& json) { return json.dump(2) + "\n"; }
 
 }  // namespace
 

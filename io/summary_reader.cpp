@@ -5,19 +5,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 namespace riesel::io {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 double number(const Json& json, const char* name) {
   const auto& value = json.at(name);
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  return value.is_null() ? unknown : value.get<double>();
 }
 
 Measured measured(const Json& json) {
@@ -121,17 +117,13 @@ Validity validity(const Json& json) {
 Finding read_finding(const Json& json) {
   const std::string name = json.at("name");
   const double value = number(json, "value");
-  const auto known = judge({value, value, value, value, value, value, value, value}).findings;
-  const auto found = std::ranges::find(known, name, &Finding::name);
-  if (found == known.end()) throw std::runtime_error("there is no finding " + name);
-  return {.name = found->name,
-          .value = value,
-          .suspect = number(json, "suspect"),
-          .unphysical = number(json, "unphysical"),
-          .low_is_bad = json.at("bad_if") == "below",
-          .verdict = validity(json.at("verdict")),
-          .meaning = found->meaning,
-          .remedy = found->remedy};
+  auto finding = finding_named(name, value);
+  if (!finding) throw std::runtime_error("there is no finding " + name);
+  finding->suspect = number(json, "suspect");
+  finding->unphysical = number(json, "unphysical");
+  finding->low_is_bad = json.at("bad_if") == "below";
+  finding->verdict = validity(json.at("verdict"));
+  return *finding;
 }
 
 ValidityVerdict read_verdict(const Json& json) {

@@ -97,13 +97,8 @@ private:
                           "write the values as a list");
     }
     std::vector<YamlNode> values;
-    for (const double value : read_quantities(row, entry.value)) {
-      YamlNode node;
-      node.shape = Shape::scalar;
-      node.place = entry.value.place;
-      node.scalar = fmt::format("{}", value);
-      values.push_back(node);
-    }
+    for (const double value : read_quantities(row, entry.value))
+      values.push_back(scalar_node(entry.value.place, fmt::format("{}", value)));
     return values;
   }
 

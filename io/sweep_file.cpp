@@ -40,11 +40,6 @@ void refuse_unknown_keys(const YamlNode& file) {
   }
 }
 
-const YamlEntry* find_entry(const YamlNode& map, const std::string& key) {
-  const auto entry = std::ranges::find(map.entries, key, &YamlEntry::key);
-  return entry == map.entries.end() ? nullptr : &*entry;
-}
-
 void read_base(const YamlNode& file, SweepFile& sweep) {
   const auto* entry = find_entry(file, "base");
   if (entry == nullptr) {
@@ -93,14 +88,6 @@ std::vector<SweepBranch> read_branches(const YamlNode& node) {
   return branches;
 }
 
-YamlNode scalar_at(const Place& place, std::string text) {
-  YamlNode node;
-  node.shape = YamlNode::Shape::scalar;
-  node.place = place;
-  node.scalar = std::move(text);
-  return node;
-}
-
 /// A list of seeds, or how many: 3 stands for 1, 2 and 3.
 std::vector<YamlEntry> read_seeds(const YamlNode& node) {
   constexpr std::int64_t most_seeds = 10'000;
@@ -115,7 +102,7 @@ std::vector<YamlEntry> read_seeds(const YamlNode& node) {
   const Setting row = {.key = "seeds", .kind = Kind::integer, .range = between(1, most_seeds)};
   const auto count = std::get<std::int64_t>(read_value(row, node));
   for (std::int64_t seed = 1; seed <= count; ++seed) {
-    seeds.push_back({"seed", node.place, scalar_at(node.place, std::to_string(seed))});
+    seeds.push_back({"seed", node.place, scalar_node(node.place, std::to_string(seed))});
   }
   return seeds;
 }

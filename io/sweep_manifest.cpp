@@ -44,8 +44,8 @@ Json to_json(const ManifestPoint& point, const std::vector<VariedSetting>& varie
 
 /// The name of a point is that of its directory: no other place may come of it.
 void require_name_of_point(const std::string& name) {
-  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-  if (name.size() != 16 || !std::ranges::all_of(name, is_digit))
+  const auto is_hex_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (name.size() != 16 || !std::ranges::all_of(name, is_hex_digit))
     throw std::runtime_error("a point has the name " + quoted(name));
 }
 

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 namespace riesel::io {
@@ -58,7 +57,7 @@ void write_column(Hdf5Group& group, const SweepTable::Column& column) {
   std::vector<double> numbers;
   for (const auto& cell : column.cells) {
     const auto* number = std::get_if<double>(&cell);
-    numbers.push_back(number != nullptr ? *number : std::numeric_limits<double>::quiet_NaN());
+    numbers.push_back(number != nullptr ? *number : unknown);
   }
   auto data = group.create_data<double>(column.name, {.rows = numbers.size()});
   data.write(std::span<const double>(numbers));

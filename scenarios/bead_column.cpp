@@ -7,10 +7,6 @@
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/scenario.hpp"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-
 namespace riesel::scenarios {
 
 namespace {

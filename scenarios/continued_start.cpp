@@ -119,8 +119,9 @@ void take_over(const State& earlier, const ContactModel& model, State& state) {
   const auto rescaled = [&](Fixed kick) {
     return nearest_fixed(static_cast<double>(kick) * steps * steps);
   };
+  const GrainView grains(earlier);
   for (std::size_t i = 0; i < earlier.grains.size(); ++i) {
-    add_grain(state, grain_at(earlier, i));
+    add_grain(state, grains[i]);
     Grains& g = state.grains;
     g.x[i] = earlier.grains.x[i];
     g.y[i] = earlier.grains.y[i];

@@ -1,4 +1,4 @@
-// The start of the tube from the last state of another run, so that a steady state can be followed
+// The start of a flow from the last state of another run, so that a steady state can be followed
 // along a setting: each run from its neighbour's end, up and down again, shows hysteresis.
 //
 // What carries over are the grains with their places and velocities. Places are integers in quanta
@@ -18,7 +18,7 @@
 
 namespace riesel::scenarios {
 
-/// The last state of the run at `start.from`. Rejects what cannot be read, a run of another tube or
+/// The last state of the run at `start.from`. Rejects what cannot be read, a run in another box or
 /// of other grains than the settings say, and a state that has not as many walls as `empty`.
 State earlier_state(const io::Settings& settings, const State& empty);
 
@@ -32,8 +32,8 @@ void reject_other_swing_across(const io::Settings& settings, const State& earlie
 /// oscillation.
 void take_over(const State& earlier, const ContactModel& model, State& state);
 
-/// Whether runs of the tube may follow each other along this setting: not where it is about the
-/// grains, the tube or the start, which the earlier run gives.
+/// Whether runs may follow each other along this setting: not where it is about the grains, the
+/// box or the start, which the earlier run gives.
 bool can_continue_along(const std::string& key);
 
 }  // namespace riesel::scenarios

@@ -1,4 +1,4 @@
-// What the scenarios of many grains between corrugated walls have in common: how grains begin, and
+// What the scenarios of many grains have in common: how grains begin, and
 // the way from grains at their places to a flow.
 #pragma once
 

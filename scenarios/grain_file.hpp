@@ -1,4 +1,4 @@
-// The start of the tube from a file of grains: places, velocities and sizes, a grain per row.
+// The start of a flow from a file of grains: places, velocities and sizes, a grain per row.
 #pragma once
 
 #include "engine/state.hpp"

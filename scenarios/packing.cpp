@@ -93,9 +93,10 @@ public:
 
   std::vector<Place> places() const {
     const State& state = simulation_.state();
+    const GrainView grains(state);
     std::vector<Place> places(radii_.size());
     for (std::size_t slot = 0; slot < places.size(); ++slot) {
-      const Grain grain = grain_at(state, slot);
+      const Grain grain = grains[slot];
       places[static_cast<std::size_t>(state.grains.id[slot])] = {grain.x, grain.y};
     }
     return places;

@@ -1,4 +1,4 @@
-// The start of the tube: grains at random places without overlap.
+// The start of a flow: grains at random places without overlap.
 //
 // Up to an area fraction of about 0.7 the grains stand on a staggered lattice with vacancies at
 // random, wide enough for the largest of them. Beyond its reach the lattice is too narrow: large

@@ -8,7 +8,7 @@
 namespace riesel::scenarios {
 
 struct RunLimits {
-  std::optional<double> overlap;            ///< see max_overlap_ratio()
+  std::optional<double> overlap;            ///< LargestOverlap::ratio
   std::optional<double> energy_error;       ///< see energy_error_ratio()
   std::optional<double> speed;              ///< m/s, of any grain
   std::optional<double> steps_per_contact;  ///< at least, of the shortest twentieth of the contacts

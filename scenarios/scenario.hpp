@@ -1,5 +1,5 @@
 // A scenario turns settings into a problem for the engine. One scenario is one .cpp file, with the
-// .yaml beside it that reproduces a figure of the paper; all of them stand in one table.
+// .yaml beside it that reproduces what a paper has; all of them stand in one table.
 //
 // To add one: write its .cpp with a function that returns its Scenario, declare that function in
 // table.cpp and add it to the table there. A program of somebody else adds its own with add(), and
@@ -19,8 +19,8 @@
 
 namespace riesel::scenarios {
 
-/// Many grains between two walls, to be stepped for a while and averaged over. The table of such a
-/// scenario has common_flow_settings() and the mean `grains.diameter` and `grains.mass`.
+/// Many grains along one wall or two, to be stepped for a while and averaged over. The table of
+/// such a scenario has common_flow_settings() and the mean `grains.diameter` and `grains.mass`.
 struct Flow {
   State state;
   ContactModel model;
@@ -50,7 +50,7 @@ using Problem = std::variant<Flow, ImpactCurve, ColumnCurve>;
 
 struct Scenario {
   std::string name;
-  std::string summary;                      ///< one sentence, with the figure it reproduces
+  std::string summary;                      ///< one sentence, with what it reproduces
   io::SettingsTable own_settings;           ///< besides the common ones
   Problem (*prepare)(const io::Settings&);  ///< throws SettingsError for what cannot be
 };

@@ -27,8 +27,7 @@ io::SettingsTable own_settings() {
        .unit = "m",
        .range = io::positive(),
        .doc = "Distance of the free grain's centre from the wall line at the start. By default the "
-              "sum of "
-              "the radii, where nothing can touch yet."},
+              "sum of the radii, where nothing can touch yet."},
       {.key = "impact.starts",
        .kind = io::Kind::integer,
        .fallback = "10",

@@ -35,7 +35,7 @@ void reject_narrow_gap(const io::Settings& settings, double largest, const State
 /// the engine tells apart; `reach` (m) is the largest sum of the two radii.
 void reject_crowded_wall(const io::Settings& settings, double reach, double spacing);
 
-/// Rejects walls that move by more than an eighth of the period in a step: as grains.
+/// Rejects walls faster than largest_speed(), as grains.
 void reject_fast_walls(const io::Settings& settings, const State& state);
 
 }  // namespace riesel::scenarios

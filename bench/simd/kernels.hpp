@@ -2,8 +2,9 @@
 //
 // engine/pair_search.cpp and engine/contact_kernel.cpp leave it to the compiler to make vectors of
 // plain loops. Here the vectors are explicit: each kernel is a template over `Lanes`, the few
-// operations that a library must provide, and does, operation by operation, what the engine does.
-// So the bits must be those of the engine, and main.cpp checks them.
+// operations that a library must provide. It does, operation by operation, what the engine does
+// with a relative motion; that of a contact is gathered from its two bodies, which the engine has
+// at hand. So the bits must be those of the engine, and main.cpp checks them.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -26,7 +27,7 @@ struct PairProblem {
   CoarseUnits units;
 };
 
-/// Lasting contacts of two grains each, linear law and capped slip, as LiveContacts holds them.
+/// Lasting contacts of two grains each, linear law and capped slip.
 /// Arrays of `count` elements; count is a multiple of 8, and what is beyond the contacts has zero
 /// reach.
 struct ContactProblem {
@@ -48,16 +49,14 @@ struct Way {
   const char* name;
   /// Writes the indices of the pairs that may overlap to `hits`; returns how many.
   std::size_t (*find_pairs)(const PairProblem& problem, std::uint32_t* hits);
-  void (*step_contacts)(const ContactProblem& problem);  ///< null if it is about pairs alone
+  void (*step_contacts)(const ContactProblem& problem);
 };
 
-/// test_block() of engine/pair_search.cpp for one pair.
+/// The test of engine/pair_search.cpp for one pair.
 [[gnu::always_inline]] inline bool may_overlap(std::uint32_t i, std::uint32_t j, float reach2,
                                                const std::int32_t* x, const std::int32_t* y,
                                                CoarseUnits units) {
-  const float dx = static_cast<float>(coarse_difference(x[j], x[i])) * units.x;
-  const float dy = static_cast<float>(coarse_difference(y[j], y[i])) * units.y;
-  return dx * dx + dy * dy < reach2;
+  return units.square(coarse_difference(x[j], x[i]), coarse_difference(y[j], y[i])) < reach2;
 }
 
 /// Sixteen or eight pairs at a time; only those of a vector that has a hit are looked at singly.

@@ -6,6 +6,7 @@
 #include "tests/ordered_grains.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -47,6 +48,10 @@ bool same(const std::vector<Record>& a, const std::vector<Record>& b) {
                     [](const Record& c, const Record& d) { return all_of(c) == all_of(d); });
 }
 
+inline bool same(const std::optional<Contact>& a, const std::optional<Contact>& b) {
+  return a && b ? all_of(*a) == all_of(*b) : a.has_value() == b.has_value();
+}
+
 /// Every bit that a state holds, whether it is in the hash or not.
 inline bool same(const State& a, const State& b) {
   const Grains g = ordered_by_id(a.grains), h = ordered_by_id(b.grains);
@@ -56,6 +61,8 @@ inline bool same(const State& a, const State& b) {
          && same(a.contacts, b.contacts) && same(a.open_visits, b.open_visits)
          && all_of(a.tally.grains) == all_of(b.tally.grains)
          && all_of(a.tally.walls) == all_of(b.tally.walls)
+         && same(a.tally.grains.deepest, b.tally.grains.deepest)
+         && same(a.tally.walls.deepest, b.tally.walls.deepest)
          && a.tally.impulses.y == b.tally.impulses.y
          && a.tally.impulses.work == b.tally.impulses.work
          && all_of(a.tally.brakes) == all_of(b.tally.brakes)

@@ -1,6 +1,7 @@
 // What the runs of curves share: many short problems, computed at once and written as one table.
 #pragma once
 
+#include "app/clock.hpp"
 #include "app/cost.hpp"
 #include "app/exit_status.hpp"
 #include "app/print_summary.hpp"
@@ -10,7 +11,6 @@
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 
-#include <chrono>
 #include <cstdint>
 #include <numeric>
 
@@ -23,10 +23,9 @@ namespace riesel::app {
 ///   write_table(file, summary)  the curve in run.h5
 /// `grains`: how many move in each problem.
 template <class Follow, class Summarise, class WriteTable>
-int run_points(const io::Settings& settings, int grains, const RunDirectory& directory,
-               const Arguments& arguments, Verbosity verbosity, Follow follow, Summarise summarise,
-               WriteTable write_table) {
-  using Clock = std::chrono::steady_clock;
+int run_problems(const io::Settings& settings, int grains, const RunDirectory& directory,
+                 const Arguments& arguments, Verbosity verbosity, Follow follow,
+                 Summarise summarise, WriteTable write_table) {
   const int threads = threads_for_curve(settings);
   const auto provenance = io::collect_provenance({.arguments = arguments,
                                                   .seed = settings.integer("seed"),
@@ -35,7 +34,7 @@ int run_points(const io::Settings& settings, int grains, const RunDirectory& dir
                                                   .settings = settings.effective_yaml()});
   const auto start = Clock::now();
   const auto results = follow(threads);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = seconds_since(start);
   const std::int64_t steps =
       std::accumulate(results.begin(), results.end(), std::int64_t{0},
                       [](std::int64_t sum, const auto& result) { return sum + result.steps; });
