@@ -1,5 +1,6 @@
 #include "io/sweep_table.hpp"
 
+#include "engine/estimate.hpp"
 #include "io/build_info.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
