@@ -3,6 +3,7 @@
 #include "app/check_parts.hpp"
 #include "app/cost.hpp"
 #include "app/schedule.hpp"
+#include "app/series.hpp"
 #include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
@@ -41,6 +42,34 @@ void warn_of_open_walls(const State& state) {
     warn("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may leave the tube; "
          "choose wall.spacing below {:.3g} m",
          smallest, gap, smallest + 2.0 * wall.radius);
+}
+
+double rows_of(const io::Settings& settings, const State& state, double steps) {
+  const auto steps_per_row = static_cast<double>(Schedule(settings, state.time_step).steps_per_row);
+  return std::floor(steps / steps_per_row) + 1.0;
+}
+
+double bytes_per_row() { return static_cast<double>(series_columns().size() * sizeof(double)); }
+
+/// Memory that a save takes besides what stepping does: a copy of the state, both files as they are
+/// written, and the series, which grow. Measured: 140 to 390 bytes per grain, fewest where grains
+/// are many; 1.3 times the series.
+double bytes_to_save(const io::Settings& settings, const State& state, double steps) {
+  constexpr double per_grain = 200.0, per_byte_of_series = 1.3;
+  return per_grain * static_cast<double>(state.grains.size())
+         + per_byte_of_series * bytes_per_row() * rows_of(settings, state, steps);
+}
+
+/// Only if they are worth a thought.
+void print_series(const io::Settings& settings, const State& state, double steps) {
+  constexpr double few = 1e5, many = 1e6;
+  const double rows = rows_of(settings, state, steps);
+  if (rows < few) return;
+  line("series", "{:.3g} rows, {:.1f} MB", rows, rows * bytes_per_row() / 1e6);
+  if (rows > many)
+    warn("each save writes all rows, and the summary reads them: choose output.interval longer, "
+         "{:.2g} s for {:.0g} rows",
+         steps * state.time_step / few, few);
 }
 
 void print_trajectory(const io::Settings& settings, const State& state, double steps) {
@@ -133,10 +162,13 @@ void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
   const auto precision = scenarios::run_length(settings).relative_error;
   if (precision) line("ends", "when the mean is known to {:.3g} %", 100.0 * *precision);
   line("steps", "{}{:.0f}", precision ? "at most " : "", steps);
+  const double seconds =
+      n * steps / speed + rows_of(settings, flow.state, steps) * seconds_per_row(flow);
   line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
-       precision ? "at most " : "", readable_time(n * steps / speed), threads,
-       threads == 1 ? "" : "s", speed / 1e6);
-  print_memory();
+       precision ? "at most " : "", readable_time(seconds), threads, threads == 1 ? "" : "s",
+       speed / 1e6);
+  print_memory(bytes_to_save(settings, flow.state, steps));
+  print_series(settings, flow.state, steps);
   print_trajectory(settings, flow.state, steps);
 }
 

@@ -66,13 +66,13 @@ void print_cost_of_curve(const CurveCost& cost, int threads) {
   line("steps", "about {:.2g}", cost.steps);
   line("expected time", "{} on {} thread{}", readable_time(cost.seconds), threads,
        threads == 1 ? "" : "s");
-  print_memory();
+  print_memory(0.0);
 }
 
-void print_memory() {
+void print_memory(double more) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  line("memory", "about {:.0f} MB", static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6);
+  line("memory", "about {:.0f} MB", (static_cast<double>(usage.ru_maxrss) * 1024.0 + more) / 1e6);
 }
 
 }  // namespace riesel::app

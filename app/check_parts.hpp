@@ -46,7 +46,7 @@ void warn_of_time_step(const io::Settings& settings);
 
 void print_cost_of_curve(const CurveCost& cost, int threads);
 
-/// The most that this process has used so far.
-void print_memory();
+/// The most that this process has used so far, and so many bytes more.
+void print_memory(double more);
 
 }  // namespace riesel::app

@@ -3,7 +3,9 @@
 #include "app/clock.hpp"
 #include "app/schedule.hpp"
 #include "app/stepping.hpp"
+#include "engine/observables.hpp"
 #include "engine/simulation.hpp"
+#include "engine/strips.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -59,6 +61,19 @@ double measured_speed(const io::Settings& settings, const scenarios::Flow& flow,
     if (steps == 0) return speed_of_what_fails_at_once;
   }
   return static_cast<double>(flow.state.grains.size()) * static_cast<double>(steps) / spent;
+}
+
+double seconds_per_row(const scenarios::Flow& flow) {
+  constexpr double seconds = 0.02;
+  const Strips strips = Strips::of(flow.state);
+  const auto start = Clock::now();
+  double rows = 0.0, spent = 0.0;
+  for (; spent < seconds; ++rows) {
+    const Observables now = observe(flow.state);
+    sum_over_strips(strips, flow.state, flow.model, now.mean_vy);
+    spent = seconds_since(start);
+  }
+  return spent / rows;
 }
 
 int threads_for_curve(const io::Settings& settings) {

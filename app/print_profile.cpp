@@ -7,8 +7,9 @@
 
 namespace riesel::app {
 
-void print_profile(const Profile& profile, const RunTimes& times, std::int64_t steps) {
+void print_profile(const Simulation& simulation, const RunTimes& times, std::int64_t steps) {
   using Phase = Profile::Phase;
+  const Profile& profile = simulation.profile();
   struct Row {
     const char* name;
     double seconds;
@@ -33,7 +34,10 @@ void print_profile(const Profile& profile, const RunTimes& times, std::int64_t s
   for (const Row& row : rows)
     fmt::print("{:<18}{:>10.3f}{:>8.1f}{:>12.1f}\n", row.name, row.seconds,
                100.0 * row.seconds / total, 1e9 * row.seconds / static_cast<double>(steps));
-  fmt::print("one step in {} was looked at in detail, on the first thread\n",
+  const Way way = simulation.preferred_way();
+  fmt::print("stepped {} on {} thread{} at the end; one step in {} was looked at in detail, on the "
+             "first thread\n",
+             way.by_flights ? "by windows" : "plainly", way.threads, way.threads == 1 ? "" : "s",
              Profile::steps_per_sample);
 }
 

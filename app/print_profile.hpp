@@ -1,7 +1,7 @@
 // Tells the user where the time of a run went.
 #pragma once
 
-#include "engine/profile.hpp"
+#include "engine/simulation.hpp"
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ struct RunTimes {
   double stepping = 0.0, measuring = 0.0, output = 0.0;
 };
 
-/// A table of phases with their shares; `steps` are those done.
-void print_profile(const Profile& profile, const RunTimes& times, std::int64_t steps);
+/// A table of phases with their shares, and how was stepped; `steps` are those done.
+void print_profile(const Simulation& simulation, const RunTimes& times, std::int64_t steps);
 
 }  // namespace riesel::app

@@ -96,6 +96,7 @@ public:
     try {
       if (files_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
+      last_ = observe(simulation_.state());
       if (past_.rows > 0 && (schedule_.is_row(first_step_) || schedule_.is_look(first_step_)))
         look();
       if (max_walltime_ && longest_save_ == 0.0) save();  // to know how long it takes
@@ -178,6 +179,12 @@ private:
                   > *max_walltime_;
   }
 
+  /// The rows, so that the time to save may have: the reserve is twice of what it was.
+  bool has_doubled_since_saved() const {
+    constexpr std::int64_t few = 1000;
+    return files_.rows() > 2 * std::max(few, rows_saved_);
+  }
+
   std::string ended_by() const {
     if (!schedule_.relative_error) return "duration";
     return simulation_.state().step < schedule_.last_step ? "precision" : "at_most";
@@ -199,7 +206,9 @@ private:
       add_row();
     else if (schedule_.is_look(state.step))
       look();
-    if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints) save();
+    if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints
+        || (max_walltime_ && has_doubled_since_saved()))
+      save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
                    fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s{}", state.time(), last_.mean_vy,
                                precision_so_far_));
@@ -260,6 +269,7 @@ private:
     files_.flush(simulation_.state());
     io::write_checkpoint(files_.directory().file(io::checkpoint_name), checkpoint());
     last_checkpoint_ = Clock::now();
+    rows_saved_ = files_.rows();
     times_.output += seconds_since(start);
     longest_save_ = std::max(longest_save_, seconds_since(start));
     tell_more("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
@@ -300,10 +310,11 @@ private:
 
   int tell_result() {
     files_.directory().require_in_place();
+    const io::RunSummary run = run_summary();  // of the time up to here
     io::FlowSummary s =
         summarise({files_.record(), strips_, profiles_, interval(), limits_.warnings()},
                   simulation_.state(), simulation_.model(), last_);
-    s.run = run_summary();
+    s.run = run;
     s.ended_by = ended_by();
     files_.record().write_validity(s.validity.verdict);
     const std::int64_t first = std::llround(s.transient_end / interval());  // sample after that
@@ -316,7 +327,7 @@ private:
     io::write_durably(files_.directory().file(io::summary_name), io::to_json(s));
     if (verbosity_ != Verbosity::quiet) print_summary(s, files_.directory().path());
     if (simulation_.profile().on())
-      print_profile(simulation_.profile(), times_, simulation_.state().step - first_step_);
+      print_profile(simulation_, times_, simulation_.state().step - first_step_);
     return exit_done;
   }
 
@@ -360,6 +371,7 @@ private:
   Clock::time_point start_, last_checkpoint_;
   double longest_piece_ = 0.0;  // s, of stepping between two looks at the clock
   double longest_save_ = 0.0;   // s
+  std::int64_t rows_saved_ = 0;
   RunTimes times_;
 };
 

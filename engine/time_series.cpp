@@ -34,6 +34,10 @@ constexpr std::size_t blocks = 10;
 // The smallest series worth a second look.
 constexpr auto min_samples = static_cast<std::size_t>(min_independent_samples);
 
+// A sum over lags costs samples times lags. Longer series are averaged in batches first: what is
+// shorter than a batch of these makes no difference to the time, see windowed_time().
+constexpr std::size_t most_samples_for_lags = 0x1p16;
+
 // Variations below this fraction of the largest sample are rounding, not motion.
 constexpr double resolution = 1e-12;
 
@@ -118,7 +122,7 @@ double long_run_variance(std::span<const double> deviations, std::size_t first) 
 
 /// Autocorrelation time with Sokal's window, which ends at the first lag of five decay times (the
 /// integrated time is two of them), and at a fifth of the series at the latest.
-double windowed_time(std::span<const double> deviations) {
+double time_by_lags(std::span<const double> deviations) {
   const std::size_t n = deviations.size();
   const double scale = 1.0 / (power_of(deviations) * static_cast<double>(n));
   double time = 1.0;
@@ -131,6 +135,25 @@ double windowed_time(std::span<const double> deviations) {
   return time * (1.0 + bias_of_subtracted_mean);
 }
 
+/// The means of batches of equal length; up to one sample less than a batch is left over.
+std::vector<double> means_of_batches(std::span<const double> series, std::size_t batch) {
+  std::vector<double> means(series.size() / batch);
+  for (std::size_t b = 0; b < means.size(); ++b)
+    means[b] = mean_of(series.subspan(b * batch, batch));
+  return means;
+}
+
+/// The same from means of batches where samples are many: the variance of the mean of all, which is
+/// the power of what is averaged times its time over its number, is that of the mean of the
+/// batches.
+double windowed_time(std::span<const double> deviations) {
+  const std::size_t batch = (deviations.size() - 1) / most_samples_for_lags + 1;
+  if (batch == 1) return time_by_lags(deviations);
+  const std::vector<double> means = means_of_batches(deviations, batch);
+  const double part = power_of(means) / power_of(deviations);
+  return part == 0.0 ? 1.0 : part * static_cast<double>(batch) * time_by_lags(means);
+}
+
 /// Of deviations from a mean (`first_cosine` 1) or from a line (2: the line took the first cosine).
 double integrated_time(std::span<const double> deviations, std::size_t first_cosine) {
   const double variance = power_of(deviations);
@@ -139,24 +162,18 @@ double integrated_time(std::span<const double> deviations, std::size_t first_cos
   return std::max({1.0, slow, windowed_time(deviations)});
 }
 
-std::vector<double> block_means(std::span<const double> series) {
-  const std::size_t length = series.size() / blocks;
-  std::vector<double> means(blocks);
-  for (std::size_t b = 0; b < blocks; ++b) means[b] = mean_of(series.subspan(b * length, length));
-  return means;
-}
-
 /// Standard error of the slope fitted to a random walk that gains the variance w per sample: w
 /// shows in the steps from block mean to block mean, of variance 2/3 w times the length of a block;
 /// the slope has the variance 6/5 w/n.
 double random_walk_slope_error(std::span<const double> series) {
-  const std::vector<double> means = block_means(series);
+  const std::size_t whole_length = series.size() / blocks;
+  const std::vector<double> means =
+      means_of_batches(series.first(blocks * whole_length), whole_length);
   std::vector<double> steps(blocks - 1);
   std::transform(means.begin() + 1, means.end(), means.begin(), steps.begin(), std::minus<>());
   const double mean_step = mean_of(steps);
   for (double& step : steps) step -= mean_step;
   const double step_variance = product(steps, steps) / static_cast<double>(blocks - 2);
-  const std::size_t whole_length = series.size() / blocks;
   const auto block_length = static_cast<double>(whole_length);
   const double walk_variance = 1.5 * step_variance / block_length;
   return std::sqrt(1.2 * walk_variance / static_cast<double>(series.size()));

@@ -221,6 +221,8 @@ void require_this_format(const std::filesystem::path& path, const Json& json) {
 Summary read_summary(const std::filesystem::path& path) {
   const auto json = read_json(path, "give the directory of a run that is over");
   require_this_format(path, json);
+  if (json.is_discarded())
+    throw FileError(path, "is damaged (it is no JSON)", "restore the file, or make the run again");
   try {
     if (json.contains("curve")) return read_curve(json);
     if (json.contains("column")) return read_column(json);

@@ -51,7 +51,9 @@ SlipLaw slip_law(const io::Settings& settings) {
   const std::string problem = "so much damping that grains do not rebound";
   if (settings.has("contact.restitution"))
     settings.reject("contact.restitution", problem,
-                    "choose it larger, or restitution_of: wall, where damping counts most");
+                    settings.text("contact.restitution_of") == "wall"
+                        ? "choose it larger"
+                        : "choose it larger, or restitution_of: wall, where damping counts most");
   settings.reject("contact.damping", problem,
                   fmt::format("choose it below {:.4g} 1/s, which is critical for the heaviest pair",
                               2.0 * std::sqrt(contact.k_n / contact.reduced_mass)));

@@ -110,8 +110,12 @@ void reject_strong_gravity(const io::Settings& settings, std::size_t grains, con
   const double largest = largest_speed(state.box, state.time_step, grains)
                          / (static_cast<double>(steps_per_look) * state.time_step);
   if (std::hypot(state.gravity.x, state.gravity.y) < largest) return;
-  settings.reject("gravity", "too strong for this tube and time step",
-                  fmt::format("choose less than {:.3g} m/s^2, or a shorter time step", largest));
+  settings.reject(
+      "gravity",
+      fmt::format("too strong for this tube and a time step of {:.3g} s", state.time_step),
+      fmt::format("choose less than {:.3g} m/s^2, or a shorter time step: a light grain or a stiff "
+                  "contact (do grains.mass and contact.stiffness have their units?)",
+                  largest));
 }
 
 void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,

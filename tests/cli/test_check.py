@@ -113,6 +113,15 @@ class Check(CommandTest):
         stiffer = softer.replace("0.2 kN/m", f"{0.2 * 1.05 * factor} kN/m")
         self.assertNotIn("overlaps over", self.check(stiffer))
 
+    def test_of_more_rows_than_anybody_reads(self):
+        """And with the interval that the warning tells there is none."""
+        many = ["--set", "run.duration=10 s", "--set", "output.interval=2 us"]
+        text = self.check(MILD_TUBE, *many)
+        self.assert_warned(text, "output.interval")
+        self.assertAlmostEqual(plain_number(text, r"series +(\S+) rows"), 5e6, delta=1e6)
+        interval = plain_number(text, r"longer, (\S+) s for")
+        self.assertNotIn("output.interval", self.check(MILD_TUBE, *many, "--set", f"output.interval={interval} s"))
+
     def test_of_few_steps_per_collision(self):
         self.assert_warned(self.check(MILD_TUBE, "--set", "run.steps_per_collision=10"),
                            "10 steps per collision", "50")

@@ -184,6 +184,15 @@ class Interruption(CommandTest):
         self.assertEqual(result.returncode, OUT_OF_TIME, result)
         self.assertLess(time.monotonic() - begin, LIMIT)
 
+    def test_by_the_limit_on_the_clock_when_saving_takes_longer_and_longer(self):
+        """The reserve is twice what the last saving took, so it is saved whenever the series has doubled."""
+        for limit, saves in (["--max-walltime", "1 h"], 4), ([], 2):
+            result = self.riesel("run", "long.yaml", "--out", "out", "--verbose", "--set", "run.duration=10 ms",
+                                 "--set", "output.interval=2 us", *limit)
+            self.assertEqual(result.returncode, 0, result)
+            self.assertEqual(result.stderr.count("checkpoint at t = "), saves, result.stderr)
+            shutil.rmtree(self.out)
+
     def test_messages_are_never_written_into_the_files_of_a_run(self):
         """If standard streams are closed the next files that are opened would get their numbers."""
         for closed in ("2>&-", "<&- 2>&-", "<&- >&- 2>&-"):
