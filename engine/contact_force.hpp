@@ -146,8 +146,9 @@ template <class Turn, class Normal, class Slip>
 
   Touch t{};
   t.overlap = e.reach - distance;
-  t.rate = -(e.vx * nx + e.vy * ny);
-  t.slip = t.centre_slip = e.vx * ny - e.vy * nx;
+  // What is nothing has no sign, or it would be that of whoever is first: hence 0 - x and x + 0.
+  t.rate = 0.0 - (e.vx * nx + e.vy * ny);
+  t.slip = t.centre_slip = (e.vx * ny - e.vy * nx) + 0.0;
   double half_step_slip = e.half_vx * ny - e.half_vy * nx;
   // The way slipped since the last step, with the distance that the bodies had on the way.
   const double on_the_way = distance - 0.5 * dt * (e.half_vx * nx + e.half_vy * ny);
@@ -183,8 +184,8 @@ template <class Turn, class Normal, class Slip>
   const double f_s = slip_law.force(sliding);
 
   // n = (nx, ny), s = (-ny, nx)
-  t.friction_x = -f_s * ny;
-  t.friction_y = f_s * nx;
+  t.friction_x = 0.0 - f_s * ny;
+  t.friction_y = f_s * nx + 0.0;
   t.fx = t.friction_x - f_n * nx;
   t.fy = t.friction_y - f_n * ny;
   t.elastic_energy = normal.stored_energy(t.overlap);
@@ -194,8 +195,8 @@ template <class Turn, class Normal, class Slip>
     t.elastic_energy += t.spring_energy;
   }
   if constexpr (turns) {
-    t.torque = distance * f_s;
-    t.rolling_torque = rolling_resistance(turn, f_n, dt) + 0.0;  // no negative zero
+    t.torque = distance * f_s + 0.0;
+    t.rolling_torque = rolling_resistance(turn, f_n, dt) + 0.0;
   }
   t.normal_power = (f_n - elastic) * t.rate;
   return t;

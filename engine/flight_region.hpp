@@ -44,8 +44,9 @@ public:
   FlightRegion& operator=(const FlightRegion&) = delete;
   ~FlightRegion() = default;
 
-  // Each of these is to be called for all regions, by the thread that has the slice, before the
-  // next is called for any; but while slices are askew only as step_askew() in flights.cpp says.
+  // Each of these is to be called for all regions, by the thread that has the slice. Where the
+  // threads wait for each other in between, flights.cpp says, and what slices wait for that are
+  // askew.
 
   /// The candidates have just been listed, at `step`, that of all grains.
   void start_over(std::int64_t step);

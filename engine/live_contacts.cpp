@@ -10,11 +10,11 @@ namespace riesel {
 
 namespace {
 
-/// From the friction on name.grain to that on the first body, or back.
+/// From the friction on name.grain to that on the first body, or back. Nothing has no sign.
 void see_from_the_other(Contact& contact) {
-  contact.friction_x = -contact.friction_x;
-  contact.friction_y = -contact.friction_y;
-  contact.rolling_torque = 0.0 - contact.rolling_torque;  // nothing has no sign
+  contact.friction_x = 0.0 - contact.friction_x;
+  contact.friction_y = 0.0 - contact.friction_y;
+  contact.rolling_torque = 0.0 - contact.rolling_torque;
 }
 
 /// All of a lane goes to another, and leaves zeros. Rows are of 64-bit words, whatever these mean.

@@ -62,7 +62,9 @@ State ready(State state) {
 }
 
 Askew sound(const Askew& askew) {
-  require(askew.slice > 0 && askew.steps > 0, "slices need grains and steps");
+  constexpr std::int64_t most_steps = 1'000'000;
+  require(askew.slice > 0 && askew.steps > 0 && askew.steps <= most_steps,
+          "slices need grains and steps, not too many");
   return askew;
 }
 
@@ -186,17 +188,19 @@ Simulation::Preparation Simulation::wanted() const {
 
 /// Whoever is to step the grains starts from the state alone, as after a checkpoint.
 void Simulation::prepare() {
-  prepared_ = wanted();
+  const Preparation next = wanted();
+  prepared_.reset();  // until all of it is there: the system may grant no more threads
   flights_.reset();
   plain_steps_.reset();
-  const auto [by_flights, threads] = prepared_->way;
+  const auto [by_flights, threads] = next.way;
   const double skin = by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
-  candidates_ = std::make_unique<Candidates>(state_, model_.slip, threads, skin,
-                                             prepared_->slices_per_thread);
+  candidates_ =
+      std::make_unique<Candidates>(state_, model_.slip, threads, skin, next.slices_per_thread);
   if (by_flights)
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_, askew_);
   else
     plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, askew_);
+  prepared_ = next;
   profile_first_thread();
 }
 

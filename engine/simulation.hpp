@@ -40,7 +40,7 @@ public:
   /// Does `steps` steps. The result does not depend on the number of threads, nor on how the steps
   /// are shared between calls. None for steps <= 0. Throws RunFailure when a force is not finite or
   /// a grain is lost; in which step a lost one is found, and whether one that is thrown far within
-  /// a few steps is, depends on the threads and on the calls.
+  /// a few steps is, depends on the stepping (automatic: on the clock), the threads and the calls.
   void advance(std::int64_t steps);
 
   const State& state() const { return state_; }

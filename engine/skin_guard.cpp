@@ -50,7 +50,9 @@ std::int64_t SkinGuard::hold_until(std::uint32_t slot, const Motion& course, std
   const double left = room_ * room_ - x * x - y * y;
   if (left <= 0.0) return now;
   const double outward = x * ux + y * uy;
-  const double steps_left = left / (outward + std::sqrt(outward * outward + speed2 * left));
+  const double root = std::sqrt(outward * outward + speed2 * left);
+  // Either is the root; this way round nothing cancels.
+  const double steps_left = outward < 0.0 ? (root - outward) / speed2 : left / (outward + root);
   return now + Forecast::whole_steps(steps_left) - 1;
 }
 

@@ -133,8 +133,8 @@ auto step_lanes(const ContactProblem& c, std::size_t i) {
   const auto per_distance = all(1.0) / distance;
   const auto nx = x * per_distance, ny = y * per_distance;
   const auto overlap = reach - distance;
-  const auto rate = Lanes::negative(vx * nx + vy * ny);
-  const auto slip = vx * ny - vy * nx;
+  const auto rate = all(0.0) - (vx * nx + vy * ny);
+  const auto slip = (vx * ny - vy * nx) + all(0.0);
 
   const auto elastic = all(c.law.k_n) * overlap;
   const auto damping = all(c.law.gamma_n) * mass * rate;
@@ -153,8 +153,8 @@ auto step_lanes(const ContactProblem& c, std::size_t i) {
   const auto limit = all(c.friction) * Lanes::size(f_n);
   const auto f_s = Lanes::negative(
       larger<Lanes>(Lanes::negative(limit), smaller<Lanes>(limit, mass * half_step_slip / dt)));
-  const auto fx = Lanes::negative(f_n) * nx - f_s * ny;
-  const auto fy = Lanes::negative(f_n) * ny + f_s * nx;
+  const auto friction_x = all(0.0) - f_s * ny, friction_y = f_s * nx + all(0.0);
+  const auto fx = friction_x - f_n * nx, fy = friction_y - f_n * ny;
 
   const auto zero = all(0.0);
   const auto set = [&](double* member, auto value) {
@@ -167,8 +167,8 @@ auto step_lanes(const ContactProblem& c, std::size_t i) {
   const auto friction_power =
       Lanes::load(c.friction_x + i) * mean_vx + Lanes::load(c.friction_y + i) * mean_vy;
   Lanes::store(c.friction_loss + i, Lanes::load(c.friction_loss + i) + friction_power * dt);
-  set(c.friction_x, Lanes::negative(f_s) * ny);
-  set(c.friction_y, f_s * nx);
+  set(c.friction_x, friction_x);
+  set(c.friction_y, friction_y);
   set(c.end, all(u.time) + until);
   set(c.overlap, overlap);
   set(c.max_overlap, larger<Lanes>(Lanes::load(c.max_overlap + i), overlap));

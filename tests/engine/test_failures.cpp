@@ -179,3 +179,21 @@ TEST_CASE("a failed run stays failed") {
   CHECK_THROWS_AS(simulation.advance(5), RunFailure);
   CHECK(simulation.state().step == 1);
 }
+
+TEST_CASE("a run that was refused threads goes on when it has them again") {
+  const State start = small_tube(41);
+  Simulation simulation(start, paper_model(), 2, Stepping::automatic);
+  simulation.advance(64);
+  bool refused = false;
+#pragma omp parallel num_threads(2)
+#pragma omp single
+  try {  // a thread of a team that has no more to give, when another way of stepping is to be tried
+    simulation.advance(64);
+  } catch (const RunFailure&) {
+    refused = true;
+  }
+  CHECK(refused);
+  simulation.advance(64);
+  REQUIRE(simulation.state().step == 128);
+  CHECK(state_hash(simulation.state()) == state_hash(advanced(start, paper_model(), 128)));
+}

@@ -9,6 +9,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 using namespace systems;
@@ -168,6 +169,20 @@ TEST_CASE("any order of the slots gives the same bits") {
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
   CHECK(
       same(advanced(shuffled(start(), seed), paper_model(), some_steps, 1, stepping), expected()));
+}
+
+TEST_CASE("nothing has no sign, whichever grain of a contact is the first") {
+  // At rest and struck head on, so that there is no slip and no force along one axis.
+  State head_on = empty_box(8e-3, 20e-3);
+  add_grain(head_on, grain(3.01e-3, 5e-3, 0.0, 0.0));
+  add_grain(head_on, grain(2e-3, 5e-3, 1.0, 0.0));
+  for (const double x : {0.6e-3, 7.4e-3}) add_grain(head_on, grain(x, 15e-3, 0.0, 0.0));
+  const State plain = advanced(head_on, paper_model(), 30, 1, Stepping::plain);
+  const State windows = advanced(head_on, paper_model(), 30, 1, Stepping::windows);
+  REQUIRE(plain.contacts.size() == 1);
+  CHECK(state_hash(plain) == state_hash(windows));
+  CHECK_FALSE(std::signbit(plain.contacts[0].friction_x));
+  CHECK_FALSE(std::signbit(plain.contacts[0].entry_slip));
 }
 
 TEST_CASE("a run taken up again at any step has the same bits") {

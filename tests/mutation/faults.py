@@ -21,6 +21,8 @@ FAULTS = [
      "  app::occupy_closed_streams();\n", ""),
     ("ten thousand steps before a look at the clock", "app/pace.hpp",
      "std::int64_t steps() const { return steps_; }", "std::int64_t steps() const { return 10000 + 0 * steps_; }"),
+    ("grains outside of the tube that are taken for a start", "scenarios/packing.cpp",
+     "if (grain_outside(simulation_.state()))", "if (false)"),
     ("walls that move while grains look for their places", "scenarios/packing.cpp",
      "for (WallLattice& wall : state.walls) wall.motion = {};", ""),
     ("a fall that gets too fast to be told", "scenarios/flow_start.cpp",
@@ -33,6 +35,9 @@ FAULTS = [
     # The physics of a contact
     ("damping of the wrong sign", "engine/contact_law.hpp",
      "return gamma_n * m_red * rate;", "return -gamma_n * m_red * rate;"),
+    ("nothing that has the sign of whoever is first", "engine/contact_force.hpp",
+     "t.slip = t.centre_slip = (e.vx * ny - e.vy * nx) + 0.0;",
+     "t.slip = t.centre_slip = e.vx * ny - e.vy * nx;"),
     ("friction along the slip", "engine/contact_law.hpp",
      "return -capped(s.limit, s.slip_mass * s.half_step_slip / s.dt);",
      "return capped(s.limit, s.slip_mass * s.half_step_slip / s.dt);"),

@@ -126,6 +126,13 @@ TEST_CASE("grains of two sizes do not overlap at the start, however different th
   }
 }
 
+TEST_CASE("grains that are pressed out of the tube are no start") {
+  // Plain stepping found none of them lost before all overlaps were gone.
+  CHECK_THROWS_AS(tube({"grains.polydispersity=0.3", "grains.area_fraction=0.72",
+                        "wall.spacing=1.7 mm", "tube.width=8 mm", "tube.length=22 mm", "seed=1"}),
+                  io::SettingsError);
+}
+
 TEST_CASE("grains in a tube barely wider than they are stand clear of its walls") {
   const State state = tube({"tube.width=1.8 mm", "grains.area_fraction=0.3"}).state;
   CHECK(state.grains.size() > 5);
