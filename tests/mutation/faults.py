@@ -22,7 +22,7 @@ FAULTS = [
     ("ten thousand steps before a look at the clock", "app/pace.hpp",
      "std::int64_t steps() const { return steps_; }", "std::int64_t steps() const { return 10000 + 0 * steps_; }"),
     ("grains outside of the tube that are taken for a start", "scenarios/packing.cpp",
-     "if (grain_outside(simulation_.state()))", "if (false)"),
+     "return !grain_outside(simulation_.state());", "return true;"),
     ("walls that move while grains look for their places", "scenarios/packing.cpp",
      "for (WallLattice& wall : state.walls) wall.motion = {};", ""),
     ("a fall that gets too fast to be told", "scenarios/flow_start.cpp",
