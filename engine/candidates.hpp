@@ -8,8 +8,8 @@
 // have brought a grain is added up; when that is too far, the true displacements are looked at.
 //
 // Slices may be ahead of each other by some steps (Askew). Nobody can sort meanwhile, and that the
-// candidates hold for so long is only expected. A grain that goes farther is a stray: plain stepping
-// looks for whoever it overlaps by itself, flights end the run if there is somebody.
+// candidates hold for so long is only expected. A grain that goes farther is a stray: plain
+// stepping looks for whoever it overlaps by itself, flights end the run if there is somebody.
 //
 // To walls the common motion does bring grains, if gravity is not along them: what is listed as
 // near a wall has half a skin more for it, and holds as long as the common fall takes no more.

@@ -123,9 +123,9 @@ ValidityVerdict judge(const Evidence& evidence) {
 }
 
 std::optional<Finding> finding_named(std::string_view name, double value) {
-  const auto found = std::ranges::find(criteria, name, &Criterion::name);
-  if (found == criteria.end()) return std::nullopt;
-  return finding_of(*found, value, judge(*found, value));
+  for (const Criterion& c : criteria)
+    if (c.name == name) return finding_of(c, value, judge(c, value));
+  return std::nullopt;
 }
 
 Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
