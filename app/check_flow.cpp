@@ -44,36 +44,31 @@ void warn_of_open_walls(const State& state) {
          smallest, gap, smallest + 2.0 * wall.radius);
 }
 
-double rows_of(const io::Settings& settings, const State& state, double steps) {
-  const auto steps_per_row = static_cast<double>(Schedule(settings, state.time_step).steps_per_row);
-  return std::floor(steps / steps_per_row) + 1.0;
+/// Bytes in run.h5.
+double bytes_of_series(double rows) {
+  return rows * static_cast<double>(series_columns().size() * sizeof(double));
 }
-
-double bytes_per_row() { return static_cast<double>(series_columns().size() * sizeof(double)); }
 
 /// Memory that a save takes besides what stepping does: a copy of the state, both files as they are
 /// written, and the series, which grow. Measured: 140 to 390 bytes per grain, fewest where grains
 /// are many; 1.3 times the series.
-double bytes_to_save(const io::Settings& settings, const State& state, double steps) {
+double bytes_to_save(std::size_t grains, double rows) {
   constexpr double per_grain = 200.0, per_byte_of_series = 1.3;
-  return per_grain * static_cast<double>(state.grains.size())
-         + per_byte_of_series * bytes_per_row() * rows_of(settings, state, steps);
+  return per_grain * static_cast<double>(grains) + per_byte_of_series * bytes_of_series(rows);
 }
 
-/// Only if they are worth a thought.
-void print_series(const io::Settings& settings, const State& state, double steps) {
+/// Only if it is worth a thought. `duration`: s, simulated.
+void print_series(double rows, double duration) {
   constexpr double few = 1e5, many = 1e6;
-  const double rows = rows_of(settings, state, steps);
   if (rows < few) return;
-  line("series", "{:.3g} rows, {:.1f} MB", rows, rows * bytes_per_row() / 1e6);
+  line("series", "{:.3g} rows, {:.1f} MB", rows, bytes_of_series(rows) / 1e6);
   if (rows > many)
     warn("each save writes all rows, and the summary reads them: choose output.interval longer, "
          "{:.2g} s for {:.0g} rows",
-         steps * state.time_step / few, few);
+         duration / few, few);
 }
 
-void print_trajectory(const io::Settings& settings, const State& state, double steps) {
-  const std::int64_t steps_per_frame = Schedule(settings, state.time_step).steps_per_frame;
+void print_trajectory(const State& state, std::int64_t steps_per_frame, double steps) {
   if (steps_per_frame == 0) return;
   const double frames = std::floor(steps / static_cast<double>(steps_per_frame)) + 1.0;
   line("trajectory", "{:.0f} frames, {:.1f} MB", frames,
@@ -155,21 +150,22 @@ void print_brake(const io::Settings& settings, const scenarios::Flow& flow, doub
 
 void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
   constexpr double seconds_to_measure = 0.3;
-  const auto n = static_cast<double>(flow.state.grains.size());
-  const double steps = steps_of(settings, flow);
-  const int threads = threads_for(settings, flow.state.grains.size());
+  const std::size_t grains = flow.state.grains.size();
+  const Schedule schedule(settings, flow.state.time_step);
+  const auto steps = static_cast<double>(schedule.last_step);
+  const double rows = std::floor(steps / static_cast<double>(schedule.steps_per_row)) + 1.0;
+  const int threads = threads_for(settings, grains);
   const double speed = measured_speed(settings, flow, threads, seconds_to_measure);
   const auto precision = scenarios::run_length(settings).relative_error;
   if (precision) line("ends", "when the mean is known to {:.3g} %", 100.0 * *precision);
   line("steps", "{}{:.0f}", precision ? "at most " : "", steps);
-  const double seconds =
-      n * steps / speed + rows_of(settings, flow.state, steps) * seconds_per_row(flow);
+  const double seconds = static_cast<double>(grains) * steps / speed + rows * seconds_per_row(flow);
   line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
        precision ? "at most " : "", readable_time(seconds), threads, threads == 1 ? "" : "s",
        speed / 1e6);
-  print_memory(bytes_to_save(settings, flow.state, steps));
-  print_series(settings, flow.state, steps);
-  print_trajectory(settings, flow.state, steps);
+  print_memory(bytes_to_save(grains, rows));
+  print_series(rows, steps * flow.state.time_step);
+  print_trajectory(flow.state, schedule.steps_per_frame, steps);
 }
 
 }  // namespace

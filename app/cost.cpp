@@ -20,9 +20,9 @@ namespace {
 /// Particle-steps per second: any number does for a run that will not last.
 constexpr double speed_of_what_fails_at_once = 1e7;
 
-/// So many of them that there are `sample` or fewer.
+/// Evenly spread, so that there are `sample` of them at most.
 template <class Item>
-std::vector<Item> every_nth(const std::vector<Item>& all, std::size_t sample) {
+std::vector<Item> sample_of(const std::vector<Item>& all, std::size_t sample) {
   std::vector<Item> some;
   for (std::size_t i = 0; i < all.size(); i += all.size() / sample + 1) some.push_back(all[i]);
   return some;
@@ -82,12 +82,12 @@ int threads_for_curve(const io::Settings& settings) {
 }
 
 CurveCost measured_cost(const scenarios::ImpactCurve& curve, int threads, std::size_t sample) {
-  return cost_of_all(every_nth(curve.impacts, sample), curve.impacts.size(),
+  return cost_of_all(sample_of(curve.impacts, sample), curve.impacts.size(),
                      [&](const auto& some) { return follow_all(curve.setup, some, threads); });
 }
 
 CurveCost measured_cost(const scenarios::ColumnCurve& curve, int threads, std::size_t sample) {
-  std::vector<double> gaps = every_nth(curve.gap_ratios, sample);
+  std::vector<double> gaps = sample_of(curve.gap_ratios, sample);
   for (double& gap : gaps) gap = curve.gap(gap);
   return cost_of_all(gaps, curve.gap_ratios.size(),
                      [&](const auto& some) { return drop_all(curve.setup, some, threads); });

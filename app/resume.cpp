@@ -30,8 +30,7 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
     if (!may_change(setting.key))
       throw io::SettingsError(setting.key_place, setting.key, "cannot change when a run is resumed",
                               "only run.duration, run.until, run.threads, run.stepping, limits and "
-                              "output.checkpoint_interval can; for anything else "
-                              "start a new run");
+                              "output.checkpoint_interval can; for anything else start a new run");
   }
 }
 

@@ -96,9 +96,7 @@ public:
     try {
       if (files_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
-      last_ = observe(simulation_.state());
-      if (past_.rows > 0 && (schedule_.is_row(first_step_) || schedule_.is_look(first_step_)))
-        look();
+      if (past_.rows > 0) look_where_it_stopped();
       if (max_walltime_ && longest_save_ == 0.0) save();  // to know how long it takes
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
@@ -230,6 +228,14 @@ private:
     files_.record().append(series_row(last_, simulation_.state().tally));
     note_precision();
     heed_limits();
+  }
+
+  /// As at that step before, if anything was due there; else only to have something to tell.
+  void look_where_it_stopped() {
+    if (schedule_.is_row(first_step_) || schedule_.is_look(first_step_))
+      look();
+    else
+      last_ = observe(simulation_.state());
   }
 
   void look() {

@@ -27,6 +27,7 @@ struct CoarseUnits {
     const float metres_x = static_cast<float>(dx) * x, metres_y = static_cast<float>(dy) * y;
     return metres_x * metres_x + metres_y * metres_y;
   }
+
   /// (reach + resolution)^2 in m^2, rounded up: no pair closer than `reach` (m) is farther in
   /// coarse positions.
   float generous_square(double reach) const {

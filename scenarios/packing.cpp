@@ -82,7 +82,7 @@ public:
   Relaxation(const State& empty, const std::vector<Place>& places, const std::vector<double>& radii)
       : radii_(radii),
         simulation_(start(empty, places, radii), model(), useful_threads(radii.size()),
-                    Stepping::plain, all_together()) {}
+                    Stepping::plain, all_together) {}
 
   void push_for_a_while() { simulation_.advance(steps_per_round); }
 
@@ -123,12 +123,8 @@ private:
             .attraction = Attraction::clip};
   }
 
-  /// Slices that go askew end where a grain is thrown far.
-  static Askew all_together() {
-    Askew askew;
-    askew.fewest = std::numeric_limits<std::size_t>::max();
-    return askew;
-  }
+  /// Never askew: that ends where a grain is thrown far.
+  static constexpr Askew all_together = {.fewest = std::numeric_limits<std::size_t>::max()};
 
   static State start(const State& empty, const std::vector<Place>& places,
                      const std::vector<double>& radii) {
