@@ -29,6 +29,7 @@ struct Encounter {
   double half_vx, half_vy;  ///< m/s, half a step before
   double reach;             ///< m, sum of the radii; larger than the distance
   double reduced_mass;      ///< kg
+  double per_reduced_mass;  ///< 1/kg
 };
 
 /// The turning of two bodies in contact, seen from the first one. The surfaces meet on the line of
@@ -90,29 +91,43 @@ struct Touch {
   return -(torque * mean_roll + rolling_torque * mean_spin) * dt;
 }
 
-/// How much of the last and of the next time step two bodies spend in the overlap: s, at most dt.
+/// How much of the last and of the next time step two bodies spend in the overlap.
 struct Passage {
-  double since, until;
+  double since, until;  ///< s, at most dt
+  /// s, for which the present kick stands: half of each of the two steps, unless the contact begins
+  /// (or ends) in it; then there is no other kick to stand for the rest.
+  double kick_time;
 };
 
-/// The relative path is extrapolated with the present velocity and normal acceleration (m/s^2,
-/// positive apart).
-[[gnu::always_inline]] inline Passage passage(const Encounter& e, double distance,
-                                              double acceleration, double dt) {
+/// The relative path is extrapolated with the present velocity and force (N, positive apart).
+/// `closing` is -r v, m^2/s.
+[[gnu::always_inline]] inline Passage passage(const Encounter& e, double distance, double closing,
+                                              double force, double dt) {
   // |r + v s + a s^2 / 2|^2 = reach^2, to second order in s
-  const double closing = -(e.x * e.vx + e.y * e.vy);
-  const double curvature = e.vx * e.vx + e.vy * e.vy + distance * acceleration;
   const double depth2 = (e.reach - distance) * (e.reach + distance);
-  const double root = std::sqrt(closing * closing + curvature * depth2);
-  // Written without a quotient that could be 0/0, negative or not a number: then the bodies stay in
-  // touch.
-  return {depth2 < dt * (root + closing) ? depth2 / (root + closing) : dt,
-          depth2 < dt * (root - closing) ? depth2 / (root - closing) : dt};
+  const double straight = closing * closing + (e.vx * e.vx + e.vy * e.vy) * depth2;
+  const double root = std::sqrt(straight + (distance * e.per_reduced_mass * depth2) * force);
+  const bool begins = depth2 < dt * (root + closing), ends = depth2 < dt * (root - closing);
+  // What could be 0/0, negative or not a number is not taken: then the bodies stay in touch.
+  const double since = depth2 / (root + closing), until = depth2 / (root - closing);
+  return {.since = begins ? since : dt,
+          .until = ends ? until : dt,
+          .kick_time = (begins ? since : 0.5 * dt) + (ends ? until : 0.5 * dt)};
 }
 
-/// The part of the step before (or after) now for which the present kick stands: half of it, unless
-/// the contact begins (or ends) in it; then there is no other kick to stand for the rest.
-inline double kick_time(double in_touch, double dt) { return in_touch < dt ? in_touch : 0.5 * dt; }
+/// N, the least that a normal force may be: a bound for both kinds of attraction, as GCC 12 does
+/// not vectorise a branch.
+inline double least_force(Attraction attraction) {
+  return attraction == Attraction::clip ? 0.0 : -std::numeric_limits<double>::infinity();
+}
+
+/// N, positive where it pushes: the mean over the step, in which the damping acts for `kick_time`.
+[[gnu::always_inline]] inline double mean_normal_force(double elastic, double damping, double least,
+                                                       double kick_time, double per_dt) {
+  const bool pulls = elastic + damping < least;
+  const double pushing = pulls ? 0.0 : elastic, slowing = pulls ? 0.0 : damping * per_dt;
+  return std::max(pushing + kick_time * slowing, least);
+}
 
 /// kg, what opposes a change of the slip: a tangential force moves the centres, and turns grains
 /// that rotate.
@@ -140,66 +155,74 @@ template <class Turn, class Normal, class Slip>
                                           const Normal& normal, const Slip& slip_law, double mu,
                                           Attraction attraction, double dt) {
   constexpr bool turns = std::is_same_v<Turn, Turning>;
-  const double distance = std::sqrt(e.x * e.x + e.y * e.y);
-  const double per_distance = 1.0 / distance;
+  // Contacts that are few wait for each other's results, not for units that compute: root and
+  // quotient side by side, and what does not depend on a late result put together before it.
+  const double distance2 = e.x * e.x + e.y * e.y;
+  const double distance = std::sqrt(distance2);
+  const double per_distance = distance * (1.0 / distance2);
   const double nx = e.x * per_distance, ny = e.y * per_distance;
 
-  Touch t{};
-  t.overlap = e.reach - distance;
+  const double overlap = e.reach - distance;
   // What is nothing has no sign, or it would be that of whoever is first: hence 0 - x and x + 0.
-  t.rate = 0.0 - (e.vx * nx + e.vy * ny);
-  t.slip = t.centre_slip = (e.vx * ny - e.vy * nx) + 0.0;
+  const double closing = 0.0 - (e.x * e.vx + e.y * e.vy);
+  const double rate = closing * per_distance;
+  const double centre_slip = (e.vx * ny - e.vy * nx) + 0.0;
+  double slip = centre_slip;
   double half_step_slip = e.half_vx * ny - e.half_vy * nx;
   // The way slipped since the last step, with the distance that the bodies had on the way.
   const double on_the_way = distance - 0.5 * dt * (e.half_vx * nx + e.half_vy * ny);
   double slipping = half_step_slip * (distance / on_the_way);
   if constexpr (turns) {
-    t.slip += distance * turn.roll;
+    slip += distance * turn.roll;
     half_step_slip += distance * turn.half_roll;
     slipping += on_the_way * turn.half_roll;
   }
 
-  const double elastic = normal.elastic(t.overlap);
-  const double damping = normal.damping(t.overlap, t.rate, e.reduced_mass);
+  const double elastic = normal.elastic(overlap);
+  const double damping = normal.damping(overlap, rate, e.reduced_mass);
   const double present = elastic + damping;
-  const Passage in_touch = passage(e, distance, present / e.reduced_mass, dt);
-  t.since = in_touch.since;
-  t.until = in_touch.until;
-  const double weight = (kick_time(t.since, dt) + kick_time(t.until, dt)) / dt;
-
-  // One bound for both kinds of attraction instead of a branch: GCC 12 does not vectorise that.
-  const double least =
-      attraction == Attraction::clip ? 0.0 : -std::numeric_limits<double>::infinity();
-  const double f_n = present < least ? 0.0 : std::max(elastic + weight * damping, least);
+  const Passage in_touch = passage(e, distance, closing, present, dt);
+  const double least = least_force(attraction), per_dt = 1.0 / dt;
+  const double f_n = mean_normal_force(elastic, damping, least, in_touch.kick_time, per_dt);
 
   const Sliding sliding{.limit = mu * std::abs(f_n),
                         .present_limit = mu * std::abs(std::max(present, least)),
-                        .slip = t.slip,
+                        .slip = slip,
                         .half_step_slip = half_step_slip,
                         .spring = stretch.spring + slipping * stretch.time,
-                        .weight = weight,
+                        .weight = in_touch.kick_time * per_dt,
                         .reduced_mass = e.reduced_mass,
                         .slip_mass = slip_mass(e, distance, turn),
-                        .dt = dt};
+                        .per_dt = per_dt};
   const double f_s = slip_law.force(sliding);
-
   // n = (nx, ny), s = (-ny, nx)
-  t.friction_x = 0.0 - f_s * ny;
-  t.friction_y = f_s * nx + 0.0;
-  t.fx = t.friction_x - f_n * nx;
-  t.fy = t.friction_y - f_n * ny;
-  t.elastic_energy = normal.stored_energy(t.overlap);
+  const double friction_x = 0.0 - f_s * ny, friction_y = f_s * nx + 0.0;
+
+  double spring = 0.0, spring_energy = 0.0, torque = 0.0, rolling_torque = 0.0;
   if constexpr (Slip::has_spring) {
-    t.spring = slip_law.elongation(sliding);
-    t.spring_energy = slip_law.stored_energy(t.spring);
-    t.elastic_energy += t.spring_energy;
+    spring = slip_law.elongation(sliding);
+    spring_energy = slip_law.stored_energy(spring);
   }
   if constexpr (turns) {
-    t.torque = distance * f_s + 0.0;
-    t.rolling_torque = rolling_resistance(turn, f_n, dt) + 0.0;
+    torque = distance * f_s + 0.0;
+    rolling_torque = rolling_resistance(turn, f_n, dt) + 0.0;
   }
-  t.normal_power = (f_n - elastic) * t.rate;
-  return t;
+  return {.fx = friction_x - f_n * nx,
+          .fy = friction_y - f_n * ny,
+          .friction_x = friction_x,
+          .friction_y = friction_y,
+          .overlap = overlap,
+          .rate = rate,
+          .slip = slip,
+          .centre_slip = centre_slip,
+          .since = in_touch.since,
+          .until = in_touch.until,
+          .elastic_energy = normal.stored_energy(overlap) + spring_energy,
+          .normal_power = (f_n - elastic) * rate,
+          .spring = spring,
+          .spring_energy = spring_energy,
+          .torque = torque,
+          .rolling_torque = rolling_torque};
 }
 
 }  // namespace riesel

@@ -33,16 +33,21 @@ motion_of_wall(ContactTile& c, std::size_t i, const Bodies& bodies, const StepUn
                          units);
 }
 
+[[gnu::always_inline]] inline ReducedPair reduced_pair(const ContactTile& c, std::size_t i) {
+  return {.reach = c.reach[i],
+          .mass = c.reduced_mass[i],
+          .per_mass = c.per_mass[0][i] + c.per_mass[1][i]};
+}
+
 /// Looks at both bodies, where they are now.
 template <class Numbers, Partner partner>
 [[gnu::always_inline]] inline Encounter encounter_of(ContactTile& c, std::size_t i,
                                                      const Bodies& bodies, const StepUnits& units) {
   if constexpr (partner == Partner::grain)
-    return encounter<Numbers>(relative_motion(bodies, c.body[0][i], c.body[1][i]), c.reach[i],
-                              c.reduced_mass[i], units);
+    return encounter<Numbers>(relative_motion(bodies, c.body[0][i], c.body[1][i]),
+                              reduced_pair(c, i), units);
   else
-    return encounter<Numbers>(motion_of_wall(c, i, bodies, units), c.reach[i], c.reduced_mass[i],
-                              units);
+    return encounter<Numbers>(motion_of_wall(c, i, bodies, units), reduced_pair(c, i), units);
 }
 
 /// The same in a contact that has been followed up to the step before.
@@ -50,7 +55,7 @@ template <class Numbers, Partner partner>
 [[gnu::always_inline]] inline Encounter
 next_encounter(ContactTile& c, std::size_t i, const Bodies& bodies, const StepUnits& units) {
   if constexpr (partner == Partner::grain)
-    return encounter<Numbers>(next_motion(c, i), c.reach[i], c.reduced_mass[i], units);
+    return encounter<Numbers>(next_motion(c, i), reduced_pair(c, i), units);
   else
     return encounter_of<Numbers, partner>(c, i, bodies, units);
 }
@@ -142,14 +147,14 @@ template <class Numbers, Partner partner>
 [[gnu::always_inline]] inline double kick_bodies(ContactTile& c, std::size_t i, bool touching,
                                                  const Touch& t, const StepUnits& u) {
   const double fx = touching ? t.fx : 0.0, fy = touching ? t.fy : 0.0;
-  const double x = fx * c.per_mass[0][i] * u.kick_x;
-  const double y = fy * c.per_mass[0][i] * u.kick_y;
+  const double x = fx * (c.per_mass[0][i] * u.kick_x);
+  const double y = fy * (c.per_mass[0][i] * u.kick_y);
   c.kick[0][0][i] = Numbers::whole(x);
   c.kick[0][1][i] = Numbers::whole(y);
   double size = std::abs(x) + std::abs(y);
   if constexpr (partner == Partner::grain) {
-    const double other_x = -fx * c.per_mass[1][i] * u.kick_x;
-    const double other_y = -fy * c.per_mass[1][i] * u.kick_y;
+    const double other_x = -fx * (c.per_mass[1][i] * u.kick_x);
+    const double other_y = -fy * (c.per_mass[1][i] * u.kick_y);
     c.kick[1][0][i] = Numbers::whole(other_x);
     c.kick[1][1][i] = Numbers::whole(other_y);
     size += std::abs(other_x) + std::abs(other_y);

@@ -77,7 +77,7 @@ struct Sliding {
   double weight;          ///< the part of the step in which the bodies are in touch
   double reduced_mass;    ///< kg
   double slip_mass;       ///< kg, inertia of the slip: m_red, and less where the bodies can turn
-  double dt;              ///< s
+  double per_dt;          ///< 1/s, of the time step
 };
 
 [[gnu::always_inline]] inline double capped(double limit, double force) {
@@ -91,7 +91,7 @@ struct CappedSlip {
   static constexpr bool has_spring = false;
 
   double force(const Sliding& s) const {
-    return -capped(s.limit, s.slip_mass * s.half_step_slip / s.dt);
+    return capped(s.limit, -(s.slip_mass * s.half_step_slip * s.per_dt));
   }
 };
 
@@ -111,7 +111,7 @@ struct ViscousSlip {
   double gamma_t;  ///< 1/s
 
   double force(const Sliding& s) const {
-    return -capped(s.limit, gamma_t * s.reduced_mass * s.slip);
+    return capped(s.limit, -(gamma_t * s.reduced_mass * s.slip));
   }
 };
 
@@ -128,7 +128,7 @@ struct SpringSlip {
   double elongation(const Sliding& s) const { return capped(s.present_limit / k_t, s.spring); }
   double force(const Sliding& s) const {
     const double present = k_t * elongation(s) + gamma_t * s.reduced_mass * s.slip;
-    return -capped(s.limit, s.weight * present);
+    return capped(s.limit, -(s.weight * present));
   }
   double stored_energy(double elongation) const { return 0.5 * k_t * elongation * elongation; }
 };

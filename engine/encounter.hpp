@@ -126,21 +126,28 @@ relative_motion(const Bodies& b, std::int64_t i, const BodyMotion& wall, const S
           .kick_y = wrapped_difference(wall.kick_y, wrapped_sum(b.kick_y[i], units.fall.y))};
 }
 
-/// `reach` is the sum of the radii (m), `reduced_mass` in kg. The kick of the step before takes the
-/// velocity from the half step to the full one.
+/// What of two bodies does not change, for their relative motion.
+struct ReducedPair {
+  double reach;     ///< m, sum of the radii
+  double mass;      ///< kg, the reduced mass
+  double per_mass;  ///< 1/kg
+};
+
+/// The kick of the step before takes the velocity from the half step to the full one.
 template <class Numbers = ByConversion>
-[[gnu::always_inline]] inline Encounter encounter(const BodyMotion& m, double reach,
-                                                  double reduced_mass, const StepUnits& units) {
+[[gnu::always_inline]] inline Encounter encounter(const BodyMotion& m, const ReducedPair& pair,
+                                                  const StepUnits& units) {
   const double half_vx = Numbers::real(m.ux) * units.velocity_x;
   const double half_vy = Numbers::real(m.uy) * units.velocity_y;
   return {.x = Numbers::real(m.x) * units.metre_x,
           .y = Numbers::real(m.y) * units.metre_y,
-          .vx = half_vx + 0.5 * (Numbers::real(m.kick_x) * units.velocity_x),
-          .vy = half_vy + 0.5 * (Numbers::real(m.kick_y) * units.velocity_y),
+          .vx = half_vx + Numbers::real(m.kick_x) * (0.5 * units.velocity_x),
+          .vy = half_vy + Numbers::real(m.kick_y) * (0.5 * units.velocity_y),
           .half_vx = half_vx,
           .half_vy = half_vy,
-          .reach = reach,
-          .reduced_mass = reduced_mass};
+          .reach = pair.reach,
+          .reduced_mass = pair.mass,
+          .per_reduced_mass = pair.per_mass};
 }
 
 /// The spin of a body in rad/s, at the full step and half a step before.

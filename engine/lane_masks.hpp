@@ -7,6 +7,7 @@
 #include "engine/aligned.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,13 @@ struct LaneMasks {
   /// Of a block, which is a vector of masks.
   static constexpr std::size_t lanes = cache_line / sizeof(Mask);
 
+  /// Of each lane.
+  static constexpr std::array<Mask, lanes> bits = [] {
+    std::array<Mask, lanes> all{};
+    for (std::size_t lane = 0; lane < lanes; ++lane) all[lane] = Mask{1} << lane;
+    return all;
+  }();
+
   AlignedVector<Mask> of_blocks;
 
   /// That hold `count` lanes.
@@ -31,10 +39,12 @@ struct LaneMasks {
   void resize(std::size_t count) { of_blocks.resize(blocks(count)); }
 
   /// The bit of a lane for finding number 0 or 1, if it was made. To be given 0 or 1: GCC 12 makes
-  /// no vectors of a selection between the bit and nothing.
+  /// no vectors of a selection between the bit and nothing. The bit is looked up: a shift by the
+  /// lane is by a number of 32 bits, as which so many lanes go at once that with masks of 64 bits
+  /// they need two vectors.
   [[gnu::always_inline]] static constexpr Mask bit_if(Mask found, std::size_t lane,
                                                       std::size_t finding = 0) {
-    return found << static_cast<Mask>(lane + finding * lanes);
+    return (0 - found) & (bits[lane] << (finding * lanes));
   }
   /// Calls visit(lane) for those of the first `count` lanes of which this was found, in order.
   template <class Visit>

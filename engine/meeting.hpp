@@ -36,6 +36,12 @@ struct Meeting {
             .per_mass_first = 1.0 / mass_first,
             .per_mass_second = with_wall() ? 0.0 : 1.0 / mass_second};
   }
+  ReducedPair reduced() const {
+    const BodyPair pair = bodies();
+    return {.reach = reach(),
+            .mass = reduced_mass(),
+            .per_mass = pair.per_mass_first + pair.per_mass_second};
+  }
 };
 
 /// Two free grains, in slots i and j.
@@ -102,7 +108,7 @@ inline Encounter encounter(const Meeting& m, const Bodies& b, const StepUnits& u
   const BodyMotion motion =
       m.with_wall() ? relative_motion(b, m.first, wall_point(m, b, m.first, units), units)
                     : relative_motion(b, m.first, m.second);
-  return encounter(motion, m.reach(), m.reduced_mass(), units);
+  return encounter(motion, m.reduced(), units);
 }
 
 /// The same of bodies that rotate.

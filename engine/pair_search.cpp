@@ -94,13 +94,15 @@ RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
   const std::int32_t *x = positions.x.data(), *y = positions.y.data();
   const std::int32_t x_i = x[i], y_i = y[i];
   std::size_t found = 0;
-  alignas(cache_line) std::array<std::uint8_t, lanes> result{};
+  alignas(cache_line) std::array<std::uint32_t, lanes> result{};  // as wide as a coordinate
   for (std::size_t j = range.begin; j < range.end; j += lanes) {
 #pragma omp simd
     for (std::size_t lane = 0; lane < lanes; ++lane)
       result[lane] =
           units.square(coarse_difference(x[j + lane], x_i), coarse_difference(y[j + lane], y_i))
-          < farthest2;
+                  < farthest2
+              ? 1
+              : 0;
     const std::size_t count = std::min(lanes, range.end - j);
     // As above.
     for (std::size_t lane = 0; lane < count; ++lane) {

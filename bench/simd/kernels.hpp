@@ -123,36 +123,37 @@ auto step_lanes(const ContactProblem& c, std::size_t i) {
   const auto half_vy = difference(c.bodies.uy) * all(u.velocity_y);
   const auto x = difference(c.bodies.x) * all(u.metre_x);
   const auto y = difference(c.bodies.y) * all(u.metre_y);
-  const auto vx = half_vx + half * (difference(c.bodies.kick_x) * all(u.velocity_x));
-  const auto vy = half_vy + half * (difference(c.bodies.kick_y) * all(u.velocity_y));
+  const auto vx = half_vx + difference(c.bodies.kick_x) * all(0.5 * u.velocity_x);
+  const auto vy = half_vy + difference(c.bodies.kick_y) * all(0.5 * u.velocity_y);
   const auto reach = Lanes::load(c.reach + i), mass = Lanes::load(c.reduced_mass + i);
 
   const auto distance2 = x * x + y * y;
   const auto touching = distance2 < reach * reach;
   const auto distance = Lanes::root(distance2);
-  const auto per_distance = all(1.0) / distance;
+  const auto per_distance = distance * (all(1.0) / distance2);
   const auto nx = x * per_distance, ny = y * per_distance;
   const auto overlap = reach - distance;
-  const auto rate = all(0.0) - (vx * nx + vy * ny);
+  const auto closing = all(0.0) - (x * vx + y * vy);
+  const auto rate = closing * per_distance;
   const auto slip = (vx * ny - vy * nx) + all(0.0);
 
   const auto elastic = all(c.law.k_n) * overlap;
   const auto damping = all(c.law.gamma_n) * mass * rate;
-  const auto closing = Lanes::negative(x * vx + y * vy);
-  const auto curvature = vx * vx + vy * vy + distance * ((elastic + damping) / mass);
+  const auto first = Lanes::load(c.per_mass_first + i), second = Lanes::load(c.per_mass_second + i);
   const auto depth2 = overlap * (reach + distance);
-  const auto root = Lanes::root(closing * closing + curvature * depth2);
-  const auto in_touch = [&](auto speed) {
-    return Lanes::choose(depth2 < dt * speed, depth2 / speed, dt);
-  };
-  const auto since = in_touch(root + closing), until = in_touch(root - closing);
-  const auto kick_time = [&](auto time) { return Lanes::choose(time < dt, time, half * dt); };
-  const auto weight = (kick_time(since) + kick_time(until)) / dt;
-  const auto f_n = elastic + weight * damping;
+  const auto straight = closing * closing + (vx * vx + vy * vy) * depth2;
+  const auto per_force = distance * (first + second) * depth2;
+  const auto root = Lanes::root(straight + per_force * (elastic + damping));
+  const auto begins = depth2 < dt * (root + closing), ends = depth2 < dt * (root - closing);
+  const auto since = depth2 / (root + closing), until = depth2 / (root - closing);
+  const auto kick_time =
+      Lanes::choose(begins, since, half * dt) + Lanes::choose(ends, until, half * dt);
+  const auto per_dt = all(1.0 / u.dt);
+  const auto f_n = elastic + kick_time * (damping * per_dt);
   const auto half_step_slip = half_vx * ny - half_vy * nx;
   const auto limit = all(c.friction) * Lanes::size(f_n);
-  const auto f_s = Lanes::negative(
-      larger<Lanes>(Lanes::negative(limit), smaller<Lanes>(limit, mass * half_step_slip / dt)));
+  const auto stops = Lanes::negative(mass * half_step_slip * per_dt);
+  const auto f_s = larger<Lanes>(Lanes::negative(limit), smaller<Lanes>(limit, stops));
   const auto friction_x = all(0.0) - f_s * ny, friction_y = f_s * nx + all(0.0);
   const auto fx = friction_x - f_n * nx, fy = friction_y - f_n * ny;
 
@@ -169,7 +170,7 @@ auto step_lanes(const ContactProblem& c, std::size_t i) {
   Lanes::store(c.friction_loss + i, Lanes::load(c.friction_loss + i) + friction_power * dt);
   set(c.friction_x, friction_x);
   set(c.friction_y, friction_y);
-  set(c.end, all(u.time) + until);
+  set(c.end, all(u.time) + Lanes::choose(ends, until, dt));
   set(c.overlap, overlap);
   set(c.max_overlap, larger<Lanes>(Lanes::load(c.max_overlap + i), overlap));
   set(c.elastic_energy, half * all(c.law.k_n) * overlap * overlap);
@@ -177,10 +178,9 @@ auto step_lanes(const ContactProblem& c, std::size_t i) {
   add(c.normal_loss, (f_n - elastic) * rate * dt);
 
   const auto own_x = Lanes::choose(touching, fx, zero), own_y = Lanes::choose(touching, fy, zero);
-  const auto first = Lanes::load(c.per_mass_first + i), second = Lanes::load(c.per_mass_second + i);
   auto size = zero;
   const auto kick = [&](Fixed* member, auto force, auto per_mass, double unit) {
-    const auto quanta = force * per_mass * all(unit);
+    const auto quanta = force * (per_mass * all(unit));
     Lanes::store(member + i, nearest<Lanes>(quanta));
     size = size + Lanes::size(quanta);
   };

@@ -153,8 +153,9 @@ private:
 
     const Vector2d half_step = b.half_step_velocity - a.half_step_velocity;
     const Vector2d velocity = half_step + 0.5 * dt_ * (b.acceleration - a.acceleration);
-    const Encounter e{separation.x(), separation.y(), velocity.x(), velocity.y(),
-                      half_step.x(),  half_step.y(),  reach,        reduced_mass};
+    const Encounter e{separation.x(), separation.y(), velocity.x(),
+                      velocity.y(),   half_step.x(),  half_step.y(),
+                      reach,          reduced_mass,   1.0 / reduced_mass};
     const auto touch_of = [&](const auto& turn, const Stretch& stretch) {
       return std::visit(
           [&](const auto& normal, const auto& slip) {

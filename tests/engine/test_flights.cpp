@@ -61,7 +61,7 @@ TEST_CASE("a heap on a slope goes both ways alike") {
   Dice dice(73);
   throw_grains(state, 40, {.left = 0.0, .right = 12e-3, .low = 0.0, .high = 9.6e-3, .speed = 0.4},
                dice);
-  const State end = same_both_ways(state, 40'000);
+  const State end = same_both_ways(state, 30'000);
   CHECK(end.tally.grains.begun > 100);
   CHECK(end.tally.walls.begun > 30);
   CHECK_FALSE(end.contacts.empty());

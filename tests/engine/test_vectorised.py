@@ -1,7 +1,8 @@
-"""The loops that carry the speed are vector loops: GCC says so when it compiles them.
+"""The loops that carry the speed are vector loops, of vectors as wide as there are: GCC says so when it
+compiles them.
 
-A loop that GCC gives up on computes the same bits, at 0.7 of the speed of a whole run: no other
-test notices.
+A loop that GCC gives up on computes the same bits, at 0.7 of the speed of a whole run: no other test
+notices.
 """
 
 import collections
@@ -16,7 +17,11 @@ import unittest
 
 BUILD = pathlib.Path(os.environ["RIESEL_BUILD"])
 SIMD = "#pragma omp simd"
-MACHINES = ("x86-64-v3", "x86-64-v4")
+REDUCTION = "reduction("
+BYTES = {"x86-64-v3": 32, "x86-64-v4": 64}  # of a vector
+
+# Its integers of 32 bits make it two narrow vectors side by side, which is as fast.
+TWO_VECTORS = {("close_watch.cpp", "x86-64-v4"): 32}
 
 # How many instances of the loops of a file become vector loops, at least, with AVX2 and with AVX-512,
 # whose instructions make doubles of integers. Those over contacts: two partners, turning or not, four
@@ -39,15 +44,15 @@ def compile_commands():
             and "/tests/" not in e["file"]}
 
 
-def vectorised_lines(entry, machine):
-    """The lines of the file at which a loop was vectorised, once for each instance."""
+def vectorised_lines(entry, machine, width):
+    """The lines of the file at which a loop was made of vectors of so many bytes, once for each instance."""
     words = shlex.split(entry["command"])
     words = words[next(i for i, w in enumerate(words) if re.search(r"(\+\+|g\+\+-\d+)$", w)):]
     words[words.index("-o") + 1] = os.devnull
     words = [w for w in words if not re.fullmatch(r"-g\d?", w)]
     words += [f"-march={machine}", "-DRIESEL_VECTOR_KERNEL=", "-fopt-info-vec-optimized", "-S"]
     told = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True, check=True)
-    at = re.escape(entry["file"]) + r":(\d+):\d+: optimized: loop vectorized"
+    at = re.escape(entry["file"]) + rf":(\d+):\d+: optimized: loop vectorized using {width} byte vectors"
     return collections.Counter(int(n) for n in re.findall(at, told.stdout + told.stderr))
 
 
@@ -67,16 +72,18 @@ class Vectorised(unittest.TestCase):
 
     def test_loops(self):
         commands = compile_commands()
-        for (name, expected), machine in itertools.product(EXPECTED.items(), MACHINES):
+        for (name, expected), machine in itertools.product(EXPECTED.items(), BYTES):
             with self.subTest(file=name, machine=machine):
                 entry = commands[name]
                 lines = pathlib.Path(entry["file"]).read_text(encoding="utf-8").splitlines()
                 pragmas = [n for n, line in enumerate(lines, 1) if SIMD in line]
                 self.assertEqual(len(pragmas), len(expected))
-                told = vectorised_lines(entry, machine)
+                told = vectorised_lines(entry, machine, TWO_VECTORS.get((name, machine), BYTES[machine]))
                 found = collections.Counter()
                 for line, n in told.items():
-                    found[loop_of(line, pragmas)] += n
+                    # What a reduction begins and ends with are loops of their own, in the line of the pragma.
+                    if line not in pragmas or REDUCTION not in lines[line - 1]:
+                        found[loop_of(line, pragmas)] += n
                 for pragma, number in zip(pragmas, expected):
                     self.assertGreaterEqual(found[pragma], number, f"{name}:{pragma}, of {dict(told)}")
 

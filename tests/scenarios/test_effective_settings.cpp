@@ -40,7 +40,7 @@ bool same(const SlipLaw& a, const SlipLaw& b) {
                       .weight = 1.0,
                       .reduced_mass = 1e-6,
                       .slip_mass = 1e-6,
-                      .dt = 1e-6});
+                      .per_dt = 1e6});
   };
   return std::visit(force, a) == std::visit(force, b);
 }

@@ -58,7 +58,7 @@ public:
     const auto steps = [&](double t) { return std::llround(t / start.state.time_step); };
     simulation_.advance(steps(0.3));
     before_ = observe(simulation_.state());
-    for (int sample = 0; sample < 10'000; ++sample) {
+    for (int sample = 0; sample < 40'000; ++sample) {
       simulation_.advance(steps(0.2e-3));
       blocks_.add(sum_over_strips(strips_, simulation_.state(), start.model, 0.0));
     }
