@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """riesel and LAMMPS side by side on the same states: python3 bench/peers/run.py
 
-For each case both start from one riesel checkpoint, with the same contact law and the same time step. First it is checked
-that they do the same physics over a short time. Then LAMMPS's neighbour list is tuned. Then all are timed in turns over the
-same steps. docs/suite.md says more. Exit status: 1 if the physics does not agree or a program fails.
+For each case both start from the same riesel checkpoints, with the same contact law and the same time step. First it is
+checked that they do the same physics over a short time. Then LAMMPS's neighbour list is tuned. Then all are timed in turns
+over the same steps, each time from the state of another seed. docs/suite.md says more. Exit status: 1 if the physics does
+not agree or a program fails.
 """
 
 import argparse
@@ -50,8 +51,8 @@ class Riesel:
         return json.loads(subprocess.run(pinned(command) if pin else command, check=True,
                                          stdout=subprocess.PIPE).stdout)
 
-    def state(self, case, size):
-        return self.ask("state", case, size, "--set", "contact.slip=viscous",
+    def state(self, case, size, seed):
+        return self.ask("state", case, size, "--set", f"seed={seed}", "--set", "contact.slip=viscous",
                         "--set", f"contact.slip_damping={CASES[case]!r}")
 
     def advance(self, start, variant, warm_up, steps):
@@ -100,16 +101,17 @@ def tuned(lammps, start, steps):
     return best
 
 
-def timed(riesel, lammps, start, steps, repetitions):
-    """{variant: seconds of each repetition}, in turns."""
+def timed(riesel, lammps, starts, steps):
+    """{variant: seconds of each repetition, for as many grains as the first start has}, in turns. Each repetition has a
+    start of its own: a state of few grains has by chance half or twice as many contacts as the mean."""
     warm_up = max(20, steps // 10)
-    contenders = {name: lambda name=name: riesel.advance(start, name, warm_up, steps) for name in RIESEL}
-    contenders |= {name: lambda ranks=ranks: lammps.advance(start, ranks, warm_up, steps)
+    contenders = {name: lambda start, name=name: riesel.advance(start, name, warm_up, steps) for name in RIESEL}
+    contenders |= {name: lambda start, ranks=ranks: lammps.advance(start, ranks, warm_up, steps)
                    for name, ranks in LAMMPS_RANKS.items()}
     seconds = {name: [] for name in contenders}
-    for _ in range(repetitions):
+    for start in starts:
         for name, measure in contenders.items():
-            seconds[name].append(measure()["seconds"])
+            seconds[name].append(measure(start)["seconds"] * starts[0]["grains"] / start["grains"])
     return seconds
 
 
@@ -124,18 +126,20 @@ def row_of(case, size, variant, grains, steps, seconds):
 
 def compare_case(riesel, lammps, case, size, options):
     """All of one case in one size."""
-    start = riesel.state(case, size)
+    starts = [riesel.state(case, size, seed) for seed in range(1, options.repetitions + 1)]
+    start = starts[0]
     grains = start["grains"]
     print(f"\n{case}, {grains} grains, k_n = {start['k_n']:g} N/m, gamma_n = {start['gamma_n']:.4g} 1/s, "
           f"gamma_t = {start['gamma_t']:g} 1/s, time step {start['time_step']:.4g} s", flush=True)
     with tempfile.TemporaryDirectory() as folder:
-        start["data"] = str(Path(folder) / "tube.data")
-        write_lammps_data(read_state(start["checkpoint"]), start["data"])
+        for seed, one in enumerate(starts, 1):
+            one["data"] = str(Path(folder) / f"{seed}.data")
+            write_lammps_data(read_state(one["checkpoint"]), one["data"])
         agreement = physics(riesel, lammps, start, steps=200)
         scan_steps = max(200, int(0.5 * options.seconds * 4e7 / grains))
         best = tuned(lammps, start, scan_steps)
         steps = max(200, int(options.seconds * best / grains))
-        seconds = timed(riesel, lammps, start, steps, options.repetitions)
+        seconds = timed(riesel, lammps, starts, steps)
 
     rows = {name: row_of(case, size, name, grains, steps, times) for name, times in seconds.items()}
     for name, row in rows.items():
@@ -156,7 +160,7 @@ def parse():
                         help="the suite's program")
     parser.add_argument("--case", action="append", choices=list(CASES))
     parser.add_argument("--size", action="append", choices=SIZES, help="default: 1.4k and 10k")
-    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--repetitions", type=int, default=7, help="each from the state of another seed")
     parser.add_argument("--seconds", type=float, default=2.0, help="that a repetition takes LAMMPS on one core")
     parser.add_argument("--out", type=Path, help="default: bench/results/peers-<machine>-<commit>.json")
     return parser.parse_args()
