@@ -80,6 +80,7 @@ void Appointments::fetch() const {
 void Appointments::start_over() {
   const std::size_t candidates = slice_.pairs.size() + slice_.near_walls.size();
   calendar_.clear();
+  close_watch_.clear();
   due_.assign(candidates + candidates_at_a_time, {Appointment::never, false});
   reconsidered_.clear();
   link();
@@ -154,23 +155,26 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
   }
 }
 
-/// Pairs that are in contact or watched have none. Both are looked at in any case: no branch.
-bool Appointments::needs_appointment(std::uint32_t pair) const {
-  const auto in_contact = static_cast<unsigned>(std::signbit(slice_.pairs.reach2[pair]));
-  const auto watched = static_cast<unsigned>(due_[pair].is_for(Appointment::always));
-  return (in_contact | watched) == 0;
+bool Appointments::in_contact(std::uint32_t pair) const {
+  return std::signbit(slice_.pairs.reach2[pair]);
 }
 
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
   const Period period{.now = now, .earliest = earliest, .latest = std::max(hold_until, earliest)};
+  bool any_watched = false;
   reconsidered_.keep_if([&](std::uint32_t candidate) {
-    if (candidate < pair_count()) return needs_appointment(candidate);
+    if (candidate < pair_count()) {
+      any_watched = any_watched | due_[candidate].is_watched();
+      return !in_contact(candidate);
+    }
     const double steps =
         free_steps_at_wall(slice_.near_walls[candidate - pair_count()], period.now);
     enter(candidate, Forecast::whole_steps(steps), true, period);
     return false;
   });
+  if (any_watched)
+    reconsidered_.keep_if([this](std::uint32_t pair) { return !is_watched_on(pair); });
   const auto pairs = reconsidered_.items();
   Forecast forecast;
   for (std::size_t begin = 0; begin < pairs.size(); begin += Forecast::most_pairs) {
@@ -179,6 +183,28 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
     enter_pairs(some, forecast, period);
   }
   reconsidered_.clear();
+}
+
+void Appointments::watch(std::uint32_t pair, std::uint32_t first, std::uint32_t second,
+                         double reach, double far, std::int64_t step) {
+  due_[pair] = Appointment::watched(close_watch_.size());
+  close_watch_.add(pair, first, second, reach, far, step);
+}
+
+void Appointments::end_watch(std::uint32_t pair) {
+  const std::size_t i = due_[pair].watched_as();
+  due_[pair] = {Appointment::never, false};
+  close_watch_.remove(i);
+  if (i < close_watch_.size()) due_[close_watch_.pair(i)] = Appointment::watched(i);
+}
+
+/// Whether the pair is watched, and has to be: if a grain of it has been deflected or let go, it is
+/// not any more.
+bool Appointments::is_watched_on(std::uint32_t pair) {
+  if (!due_[pair].is_watched()) return false;
+  if (close_watch_.holds(due_[pair].watched_as())) return true;
+  end_watch(pair);
+  return false;
 }
 
 /// What has just been foreseen. Most pairs do not meet before all is made anew: of these it is

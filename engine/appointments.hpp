@@ -8,7 +8,10 @@
 
 #include "engine/border.hpp"
 #include "engine/calendar.hpp"
+#include "engine/close_watch.hpp"
 #include "engine/courses.hpp"
+#include "engine/deflected_grains.hpp"
+#include "engine/encounter.hpp"
 #include "engine/free_flight.hpp"
 #include "engine/selection.hpp"
 #include "engine/slice.hpp"
@@ -26,13 +29,17 @@ namespace riesel {
 class Appointment {
 public:
   static constexpr std::int32_t never = -1;
-  static constexpr std::int32_t always = -2;
 
-  /// `step` is counted since the candidates were listed, less than 2^30, or `never`, or `always`:
-  /// somebody else looks at the candidate in every step.
+  /// `step` is counted since the candidates were listed, less than 2^30, or `never`.
   Appointment(std::int32_t step, bool exact) : word_(2 * step + (exact ? 1 : 0)) {}
+  /// Pair number i of those that are watched in every step, as long as nobody is deflected.
+  static Appointment watched(std::size_t i) {
+    return {first_watched - static_cast<std::int32_t>(i), true};
+  }
 
   bool is_for(std::int32_t step) const { return word_ >> 1 == step; }
+  bool is_watched() const { return word_ >> 1 <= first_watched; }
+  std::size_t watched_as() const { return static_cast<std::size_t>(first_watched - (word_ >> 1)); }
   bool exact() const { return (word_ & 1) != 0; }
   void cancel() { *this = {never, exact()}; }
   /// Becomes `other` if `mask` is -1, stays if it is 0: without a branch, which GCC makes of a
@@ -42,6 +49,8 @@ public:
   }
 
 private:
+  static constexpr std::int32_t first_watched = -2;
+
   std::int32_t word_;
 };
 
@@ -50,7 +59,12 @@ public:
   /// Deflected grains may be off their courses by `tolerance` (m). Keeps references.
   Appointments(const State& state, const Slice& slice, const Courses& courses, const Border& border,
                double tolerance)
-      : state_(state), slice_(slice), courses_(courses), border_(border), tolerance_(tolerance) {}
+      : state_(state),
+        slice_(slice),
+        courses_(courses),
+        border_(border),
+        tolerance_(tolerance),
+        close_watch_(courses) {}
 
   /// The candidates of the slice have just been listed: none has an appointment.
   void start_over();
@@ -66,9 +80,9 @@ public:
 
   /// For a pair that is closer than the grains of it that may stray, 1 or 2, can go.
   void make_for_next_step(std::uint32_t pair, std::int64_t now, int strays);
-  /// No appointments are made for a pair that is watched.
-  void begin_watch(std::uint32_t pair) { due_[pair] = {Appointment::always, false}; }
-  void end_watch(std::uint32_t pair) { due_[pair].cancel(); }
+  /// Has the pair watched from the next step on, see CloseWatch::add().
+  void watch(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach,
+             double far, std::int64_t step);
   /// Makes the appointments of all that are to be reconsidered, with the courses of step `now`: not
   /// before `earliest`, and none for after `hold_until` unless it is `earliest`.
   void make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
@@ -76,9 +90,14 @@ public:
   void make_all(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
 
   /// Calls look_at_pair(index) and look_at_near_wall(index) for those that are due, which have no
-  /// appointment then.
+  /// appointment then, and are not watched. `deflected` have moved to `step`, of which `units` are.
   template <class LookAtPair, class LookAtNearWall>
-  void keep(std::int64_t step, LookAtPair look_at_pair, LookAtNearWall look_at_near_wall) {
+  void keep(std::int64_t step, const StepUnits& units, const DeflectedGrains& deflected,
+            LookAtPair look_at_pair, LookAtNearWall look_at_near_wall) {
+    for (const std::uint32_t pair : close_watch_.due_in(units, deflected)) {
+      end_watch(pair);
+      look_at_pair(pair);
+    }
     const auto today = calendar_.due_in(step);
     const std::int32_t now = since_sorted(step);
     for (const std::uint32_t candidate : today) {
@@ -98,7 +117,9 @@ private:
   void link();
   template <class Wanted>
   void reconsider_if(std::uint32_t slot, Wanted wanted);
-  bool needs_appointment(std::uint32_t pair) const;
+  bool in_contact(std::uint32_t pair) const;
+  bool is_watched_on(std::uint32_t pair);
+  void end_watch(std::uint32_t pair);
   struct Period {
     std::int64_t now, earliest, latest;  // steps
   };
@@ -125,6 +146,7 @@ private:
   // on. Of links_ and due_ a few more can be read.
   std::vector<std::uint32_t> first_pair_, first_link_, links_;
   Selection reconsidered_;  // candidates
+  CloseWatch close_watch_;
 };
 
 }  // namespace riesel

@@ -2,23 +2,19 @@
 
 #include "engine/vector_kernel.hpp"
 
-#include <algorithm>
-
 namespace riesel {
 
 namespace {
 
 struct Watched {
-  std::array<const std::int64_t*, 2> slot, place;
   Fixed *x, *y;
-  const Fixed *ux, *uy;
+  const Fixed *ux, *uy, *flies;
+  const Fixed *rest_x, *rest_y;
   const double *reach2, *far2;
 };
 
 /// What they are looked at with.
 struct Sight {
-  const std::int32_t* place;  // by slot
-  const Fixed *deflected_x, *deflected_y;
   Fall fallen;
   double metre_x, metre_y;
 };
@@ -26,17 +22,12 @@ struct Sight {
 /// Whether pair k is due. Its second grain goes on along its course.
 template <class Numbers>
 [[gnu::always_inline]] inline bool is_due(const Watched& w, std::size_t k, const Sight& s) {
-  const std::int64_t first = w.place[0][k], second = w.place[1][k];
-  const std::int64_t elsewhere = (s.place[w.slot[0][k]] - first) | (s.place[w.slot[1][k]] - second);
-  w.x[k] = wrapped_sum(w.x[k], wrapped_sum(w.ux[k], s.fallen.x));
-  w.y[k] = wrapped_sum(w.y[k], wrapped_sum(w.uy[k], s.fallen.y));
-  const std::int64_t second_or_any = second < 0 ? 0 : second;
-  const Fixed x = second < 0 ? w.x[k] : s.deflected_x[second_or_any];
-  const Fixed y = second < 0 ? w.y[k] : s.deflected_y[second_or_any];
-  const double dx = Numbers::real(wrapped_difference(x, s.deflected_x[first])) * s.metre_x;
-  const double dy = Numbers::real(wrapped_difference(y, s.deflected_y[first])) * s.metre_y;
+  w.x[k] = wrapped_sum(w.x[k], wrapped_sum(w.ux[k], s.fallen.x) & w.flies[k]);
+  w.y[k] = wrapped_sum(w.y[k], wrapped_sum(w.uy[k], s.fallen.y) & w.flies[k]);
+  const double dx = Numbers::real(wrapped_sum(w.x[k], w.rest_x[k])) * s.metre_x;
+  const double dy = Numbers::real(wrapped_sum(w.y[k], w.rest_y[k])) * s.metre_y;
   const double distance2 = dx * dx + dy * dy;
-  return distance2 < w.reach2[k] || distance2 > w.far2[k] || elsewhere != 0;
+  return distance2 < w.reach2[k] || distance2 > w.far2[k];
 }
 
 struct WatchLoop {
@@ -62,14 +53,8 @@ void CloseWatch::for_each_column(Visit visit) {
   Columns& c = columns_;
   for (auto* both : {&c.slot, &c.place})
     for (auto& column : *both) visit(column);
-  for (auto* column : {&c.x, &c.y, &c.ux, &c.uy}) visit(*column);
+  for (auto* column : {&c.x, &c.y, &c.ux, &c.uy, &c.flies}) visit(*column);
   for (auto* column : {&c.reach2, &c.far2}) visit(*column);
-}
-
-void CloseWatch::start_over(std::uint32_t own_slot) {
-  pairs_.clear();
-  own_slot_ = own_slot;
-  for (auto& slots : columns_.slot) std::fill(slots.begin(), slots.end(), own_slot);
 }
 
 void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach,
@@ -78,19 +63,21 @@ void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t seco
   pairs_.push_back(pair);
   const std::size_t room = Due::padded(pairs_.size());
   if (columns_.x.size() < room) {
-    for (auto& slots : columns_.slot) slots.resize(2 * room, own_slot_);
     for_each_column([room](auto& column) { column.resize(2 * room); });
+    for (auto* column : {&rest_x_, &rest_y_}) column->resize(2 * room);
     are_due_.resize(2 * room);
   }
   columns_.slot[0][i] = first;
   columns_.slot[1][i] = second;
   columns_.place[0][i] = courses_.place(first);
   columns_.place[1][i] = courses_.place(second);
-  const Motion on_course = courses_.motion(second, step);
+  const bool flies = !courses_.deflected(second);
+  const Motion on_course = flies ? courses_.motion(second, step) : Motion{};
   columns_.x[i] = on_course.x;
   columns_.y[i] = on_course.y;
   columns_.ux[i] = on_course.ux;
   columns_.uy[i] = on_course.uy;
+  columns_.flies[i] = flies ? -1 : 0;
   columns_.reach2[i] = reach * reach;
   columns_.far2[i] = far * far;
 }
@@ -102,41 +89,49 @@ void CloseWatch::remove(std::size_t i) {
   for_each_column([i, last](auto& column) { column[i] = column[last]; });
 }
 
+bool CloseWatch::holds(std::size_t i) const {
+  const Columns& c = columns_;
+  const auto is_there = [&](std::size_t grain) {
+    return courses_.place(static_cast<std::uint32_t>(c.slot[grain][i])) == c.place[grain][i];
+  };
+  return is_there(0) && is_there(1);
+}
+
+/// One by one: vectors are not faster at gathering.
+void CloseWatch::look_up(const Bodies& bodies) {
+  const Columns& c = columns_;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Fixed stands = ~c.flies[i];
+    const std::int64_t first = c.place[0][i], second = c.place[1][i] & stands;
+    rest_x_[i] = wrapped_difference(bodies.x[second] & stands, bodies.x[first]);
+    rest_y_[i] = wrapped_difference(bodies.y[second] & stands, bodies.y[first]);
+  }
+}
+
 const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
                                                      const DeflectedGrains& deflected) {
   due_.clear();
-  leaving_.clear();
   const std::size_t count = pairs_.size();
   if (count == 0) return due_;
+  look_up(deflected.bodies());
   const Columns& c = columns_;
-  const Watched watched{.slot = {c.slot[0].data(), c.slot[1].data()},
-                        .place = {c.place[0].data(), c.place[1].data()},
-                        .x = columns_.x.data(),
+  const Watched watched{.x = columns_.x.data(),
                         .y = columns_.y.data(),
                         .ux = c.ux.data(),
                         .uy = c.uy.data(),
+                        .flies = c.flies.data(),
+                        .rest_x = rest_x_.data(),
+                        .rest_y = rest_y_.data(),
                         .reach2 = c.reach2.data(),
                         .far2 = c.far2.data()};
-  const Bodies bodies = deflected.bodies();
-  const Sight sight{.place = courses_.places().data(),
-                    .deflected_x = bodies.x,
-                    .deflected_y = bodies.y,
-                    .fallen = units.fallen,
-                    .metre_x = units.metre_x,
-                    .metre_y = units.metre_y};
+  const Sight sight{.fallen = units.fallen, .metre_x = units.metre_x, .metre_y = units.metre_y};
   constexpr std::size_t few = 5;  // for which gathering them into vectors takes too long
   if (count <= few) {
     for (std::size_t i = 0; i < count; ++i)
-      if (is_due<ByConversion>(watched, i, sight)) leaving_.push_back(i);
+      if (is_due<ByConversion>(watched, i, sight)) due_.push_back(pairs_[i]);
   } else {
     run_vector_loop<WatchLoop>(Due::blocks(count), watched, sight, are_due_.of_blocks.data());
-    are_due_.for_each_found(count, [this](std::size_t i) { leaving_.push_back(i); });
-  }
-  // From the end, as the last pair takes the place of the one that goes.
-  std::reverse(leaving_.begin(), leaving_.end());
-  for (const std::size_t i : leaving_) {
-    due_.push_back(pairs_[i]);
-    remove(i);
+    are_due_.for_each_found(count, [this](std::size_t i) { due_.push_back(pairs_[i]); });
   }
   return due_;
 }

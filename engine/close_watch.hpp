@@ -21,37 +21,43 @@ public:
   /// Keeps the reference.
   explicit CloseWatch(const Courses& courses) : courses_(courses) {}
 
-  /// Watches no pairs any more. From now on those of a slice to which `own_slot` belongs.
-  void start_over(std::uint32_t own_slot);
+  std::size_t size() const { return pairs_.size(); }
+  std::uint32_t pair(std::size_t i) const { return pairs_[i]; }
 
-  /// Watches a pair from the next step on. `first` is deflected, `second` may be; `reach` is the
-  /// sum of the radii, and beyond a distance of `far` the pair is let go (m).
+  /// Watches a pair from the next step on, as the last one. `first` is deflected, `second` may be;
+  /// `reach` is the sum of the radii, and beyond a distance of `far` nobody need watch it (m).
   void add(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach, double far,
            std::int64_t step);
+  /// Pair number i is not watched any more. The last pair gets its number.
+  void remove(std::size_t i);
+  void clear() { pairs_.clear(); }
 
-  /// The pairs that touch, are far apart, or of which a grain has been deflected or let go since;
-  /// they are not watched any more. To be called in every step, after `deflected` has moved to it.
+  /// Whether each grain of pair number i still is deflected, or flies, as it was when added. If not
+  /// the pair is to be removed: for the caller to ask when a grain has been deflected or let go.
+  bool holds(std::size_t i) const;
+
+  /// The pairs that touch or are far apart. To be called once in every step, after `deflected` has
+  /// moved to it.
   const std::vector<std::uint32_t>& due_in(const StepUnits& units,
                                            const DeflectedGrains& deflected);
 
 private:
   using Due = LaneMasks<std::uint64_t>;
-  /// The grains of the pairs, and where the second is if it flies.
+  /// The grains of the pairs, and where the second is if it flies; else it is at 0 and stays there.
   struct Columns {
     std::array<AlignedVector<std::int64_t>, 2> slot, place;
-    AlignedVector<Fixed> x, y, ux, uy;
-    AlignedVector<double> reach2, far2;  // m^2
+    AlignedVector<Fixed> x, y, ux, uy, flies;  // all bits are set if it does
+    AlignedVector<double> reach2, far2;        // m^2
   };
   template <class Visit>
   void for_each_column(Visit visit);
-  void remove(std::size_t i);
+  void look_up(const Bodies& bodies);
 
   const Courses& courses_;
   std::vector<std::uint32_t> pairs_;
-  std::uint32_t own_slot_ = 0;  // for the padding: other slots others may be writing to
-  Columns columns_;             // padded to whole blocks
-  Due are_due_;                 // in the last step
-  std::vector<std::size_t> leaving_;
+  Columns columns_;                       // padded to whole blocks
+  AlignedVector<Fixed> rest_x_, rest_y_;  // where the second is if it stands, minus the first
+  Due are_due_;                           // in the last step
   std::vector<std::uint32_t> due_;
 };
 

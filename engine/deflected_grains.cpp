@@ -19,11 +19,8 @@ namespace {
 template <class Axis>
 [[gnu::always_inline]] inline void move_along(const Axis& a, std::size_t i, Fixed fallen) {
   const Fixed u = wrapped_sum(a.u[i], a.kick[i]);
-  const Fixed off_u = wrapped_sum(a.off_u[i], a.kick[i]);
   a.u[i] = u;
   a.position[i] = wrapped_sum(a.position[i], wrapped_sum(u, fallen));
-  a.off_u[i] = off_u;
-  a.off[i] = wrapped_sum(a.off[i], off_u);
 }
 
 /// `count` is a multiple of `lanes`.
@@ -41,12 +38,16 @@ RIESEL_VECTOR_KERNEL void move_lanes(std::size_t count, const Axis& along_x, con
   }
 }
 
-/// 1 if the next step leads beyond the tolerance (quanta).
+/// Carries on by the next step what place i is off its course; 1 if that is beyond the tolerance
+/// (quanta).
 template <class Axis>
 [[gnu::always_inline]] inline std::uint64_t strays_along(const Axis& a, std::size_t i,
                                                          Fixed tolerance) {
-  const Fixed next = wrapped_sum(a.off[i], wrapped_sum(a.off_u[i], a.kick[i]));
-  return next > tolerance || next < -tolerance ? 1 : 0;
+  const Fixed off_u = wrapped_sum(a.off_u[i], a.kick[i]);
+  const Fixed off = wrapped_sum(a.off[i], off_u);
+  a.off_u[i] = off_u;
+  a.off[i] = off;
+  return off > tolerance || off < -tolerance ? 1 : 0;
 }
 
 /// Finds where the next step leads beyond the tolerance along an axis.
@@ -157,11 +158,8 @@ void DeflectedGrains::clear_kicks() {
   std::fill(spin_kick_.begin(), spin_kick_.end(), 0);
 }
 
-/// The next move takes up the kick: the course is that of then.
 void DeflectedGrains::set_course(Place place) {
-  columns_[off_x][place] = columns_[off_y][place] = 0;
-  columns_[off_ux][place] = wrapped_difference(0, columns_[at_kick_x][place]);
-  columns_[off_uy][place] = wrapped_difference(0, columns_[at_kick_y][place]);
+  for (const Column c : {off_x, off_y, off_ux, off_uy}) columns_[c][place] = 0;
 }
 
 const std::vector<DeflectedGrains::Place>& DeflectedGrains::straying(Fixed tolerance_x,

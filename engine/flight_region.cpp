@@ -45,7 +45,6 @@ FlightRegion::FlightRegion(Airspace& airspace, std::size_t index, Profile& profi
       deflected_(airspace.state.grains.inertia),
       skin_guard_(airspace.state, airspace.candidates, airspace.courses, airspace.room),
       appointments_(airspace.state, slice_, airspace.courses, border_, airspace.tolerance),
-      close_watch_(airspace.courses),
       profile_(profile) {}
 
 void FlightRegion::start_over(std::int64_t step) {
@@ -57,7 +56,6 @@ void FlightRegion::start_over(std::int64_t step) {
   border_.find_neighbours(airspace_.candidates.slices_are_thick());
   border_.list_foreign();
   appointments_.start_over();
-  close_watch_.start_over(static_cast<std::uint32_t>(slice_.begin));
 }
 
 /// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
@@ -167,12 +165,8 @@ FlightRegion::Position FlightRegion::foreign_position(std::uint32_t slot, std::i
 
 /// Looks at the candidates that are due: which contacts begin?
 void FlightRegion::keep_appointments(std::int64_t step) {
-  for (const std::uint32_t pair : close_watch_.due_in(units_, deflected_)) {
-    appointments_.end_watch(pair);
-    look_at_pair(pair, step);
-  }
   appointments_.keep(
-      step, [&](std::uint32_t pair) { look_at_pair(pair, step); },
+      step, units_, deflected_, [&](std::uint32_t pair) { look_at_pair(pair, step); },
       [&](std::uint32_t near_wall) { look_at_near_wall(near_wall, step); });
 }
 
@@ -206,8 +200,7 @@ void FlightRegion::look_again(std::uint32_t pair, std::int64_t step, double reac
   constexpr double far_per_stray = 3.0;  // else it would come and go
   const double far = reach + far_per_stray * strays * airspace_.tolerance;
   const bool first_deflected = airspace_.courses.deflected(i);
-  close_watch_.add(pair, first_deflected ? i : j, first_deflected ? j : i, reach, far, step);
-  appointments_.begin_watch(pair);
+  appointments_.watch(pair, first_deflected ? i : j, first_deflected ? j : i, reach, far, step);
 }
 
 /// A grain that touches a wall is looked at in every step: it may touch a second wall grain.
@@ -233,6 +226,7 @@ void FlightRegion::step_contacts(std::int64_t step) {
 
   LiveContacts& pairs = slice_.pair_contacts;
   complete_step(slice_, pairs, units_, [&](std::size_t i) {
+    appointments_.reconsider_pair(pairs.meeting(i).candidate);
     let_go(pairs.first(i));
     let_go(pairs.second(i));
   });
@@ -263,12 +257,13 @@ void FlightRegion::suffer(std::int64_t step) {
   });
 }
 
-/// Gives a new course to grains that have ended a contact or go too far from the old course.
+/// Gives a new course to grains that have ended their last contact or go too far from the old
+/// course.
 void FlightRegion::correct_courses(std::int64_t step) {
   for (const DeflectedGrains::Place place : let_go_) {
-    if (!deflected_.in_use(place)) continue;
+    if (!deflected_.in_use(place) || deflected_.contacts(place) > 0) continue;
     if (!is_guest(place)) set_course(place, step);
-    if (deflected_.contacts(place) == 0) release(place);
+    release(place);
   }
   let_go_.clear();
   for (const DeflectedGrains::Place place : deflected_.straying(tolerance_x_, tolerance_y_))

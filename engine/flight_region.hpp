@@ -8,7 +8,6 @@
 #include "engine/appointments.hpp"
 #include "engine/border.hpp"
 #include "engine/candidates.hpp"
-#include "engine/close_watch.hpp"
 #include "engine/contact_law.hpp"
 #include "engine/courses.hpp"
 #include "engine/deflected_grains.hpp"
@@ -123,7 +122,6 @@ private:
   SkinGuard skin_guard_;
   std::int64_t needed_until_ = nobody_asks;  // step, the candidates
   Appointments appointments_;
-  CloseWatch close_watch_;
   Profile& profile_;
 };
 

@@ -20,9 +20,6 @@ SIMD = "#pragma omp simd"
 REDUCTION = "reduction("
 BYTES = {"x86-64-v3": 32, "x86-64-v4": 64}  # of a vector
 
-# Its integers of 32 bits make it two narrow vectors side by side, which is as fast.
-TWO_VECTORS = {("close_watch.cpp", "x86-64-v4"): 32}
-
 # How many instances of the loops of a file become vector loops, at least, with AVX2 and with AVX-512,
 # whose instructions make doubles of integers. Those over contacts: two partners, turning or not, four
 # slip laws, the linear law and Hertz's, few contacts and many; pow() and laws from outside cannot be
@@ -78,7 +75,7 @@ class Vectorised(unittest.TestCase):
                 lines = pathlib.Path(entry["file"]).read_text(encoding="utf-8").splitlines()
                 pragmas = [n for n, line in enumerate(lines, 1) if SIMD in line]
                 self.assertEqual(len(pragmas), len(expected))
-                told = vectorised_lines(entry, machine, TWO_VECTORS.get((name, machine), BYTES[machine]))
+                told = vectorised_lines(entry, machine, BYTES[machine])
                 found = collections.Counter()
                 for line, n in told.items():
                     # What a reduction begins and ends with are loops of their own, in the line of the pragma.
