@@ -39,6 +39,15 @@ bool is_too_deep(const std::vector<char>& bytes) {
 
 }  // namespace
 
+std::string flaw_of(const std::exception& error) {
+  const std::string text = error.what();
+  if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
+    return text.substr(text.find("] ") + 2);  // behind the library's name and number for it
+  if (dynamic_cast<const Json::exception*>(&error) != nullptr)
+    return "a value in it is of another type";
+  return text;
+}
+
 Json read_json(const std::filesystem::path& path, const std::string& remedy) {
   const auto bytes = read_bytes(path, remedy);
   Json json(Json::value_t::discarded);

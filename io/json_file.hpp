@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,9 @@ T integer_of(const Json& json) {
   if (!fits) throw std::runtime_error(json.dump() + " is no integer of this size");
   return json.get<T>();
 }
+
+/// What is wrong with JSON that parses, for a message; `error` came of reading values from it.
+std::string flaw_of(const std::exception& error);
 
 /// On several lines. Text that is no UTF-8 (a message of the system, say) does not stop it.
 inline std::string text_of(const Json& json) {

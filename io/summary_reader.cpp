@@ -228,7 +228,7 @@ Summary read_summary(const std::filesystem::path& path) {
     if (json.contains("column")) return read_column(json);
     return read_flow(json);
   } catch (const std::exception& error) {
-    throw FileError(path, fmt::format("is damaged ({})", error.what()),
+    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)),
                     "restore the file, or make the run again");
   }
 }

@@ -113,7 +113,7 @@ Manifest read_manifest(const fs::path& directory) {
   try {
     return manifest_of(json);
   } catch (const std::exception& error) {
-    throw FileError(path, fmt::format("is no manifest of a sweep ({})", error.what()),
+    throw FileError(path, fmt::format("is no manifest of a sweep ({})", flaw_of(error)),
                     "run 'riesel sweep' again: it writes a new one and keeps the results");
   }
 }

@@ -67,7 +67,10 @@ TEST_CASE("What is no manifest is refused") {
                            whole.substr(0, whole.size() / 2)}) {
     write(directory / manifest_name, text);
     CHECK(error().find("is no manifest of a sweep") != std::string::npos);
+    CHECK(error().find("json.exception") == std::string::npos);
   }
+  write(directory / manifest_name, "{}");
+  CHECK(error().find("key 'format' not found") != std::string::npos);
 }
 
 TEST_CASE("The CSV table quotes what must be and has nothing for a missing value") {
