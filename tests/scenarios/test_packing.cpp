@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 using namespace scenario_fixture;
 using Catch::Matchers::WithinAbs;
@@ -41,6 +43,14 @@ double least_gap_to_walls(const State& state) {
     }
   }
   return least;
+}
+
+/// Whether no grain has gone through a wall.
+bool all_between_walls(const State& state) {
+  const std::vector<Grain> grains = grains_of(state);
+  return std::all_of(grains.begin(), grains.end(), [&](const Grain& grain) {
+    return grain.x > 0.0 && grain.x < state.box.width;
+  });
 }
 
 double area_of_grains(const State& state) {
@@ -119,17 +129,27 @@ TEST_CASE("grains of two sizes do not overlap at the start, however different th
   const State state = tube(overrides).state;
   CHECK(least_gap_between_grains(state) > -rounding);
   CHECK(least_gap_to_walls(state) > -rounding);
-  for (const Grain& grain : grains_of(state)) {  // nor has one gone through a wall
-    CHECK(grain.x > 0.0);
-    CHECK(grain.x < state.box.width);
-  }
+  CHECK(all_between_walls(state));
 }
 
 TEST_CASE("grains that are pressed out of the tube are no start") {
-  // Plain stepping found none of them lost before all overlaps were gone.
-  CHECK_THROWS_AS(tube({"grains.polydispersity=0.3", "grains.area_fraction=0.72",
-                        "wall.spacing=1.7 mm", "tube.width=8 mm", "tube.length=22 mm", "seed=1"}),
-                  io::SettingsError);
+  // It depends on the seed, and on the last bits of contacts, whether some are before all overlaps
+  // are gone.
+  int starts = 0, refused = 0;
+  for (int seed = 1; seed <= 60; ++seed) {
+    try {
+      const State state =
+          tube({"grains.polydispersity=0.3", "grains.area_fraction=0.72", "wall.spacing=1.7 mm",
+                "tube.width=8 mm", "tube.length=22 mm", "seed=" + std::to_string(seed)})
+              .state;
+      CHECK(all_between_walls(state));
+      ++starts;
+    } catch (const io::SettingsError&) {
+      ++refused;
+    }
+  }
+  CHECK(starts > 0);
+  CHECK(refused > 0);
 }
 
 TEST_CASE("grains in a tube barely wider than they are stand clear of its walls") {
