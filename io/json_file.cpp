@@ -40,7 +40,7 @@ bool is_too_deep(const std::vector<char>& bytes) {
 }  // namespace
 
 std::string flaw_of(const std::exception& error) {
-  const std::string text = error.what();
+  std::string text = error.what();
   if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
     return text.substr(text.find("] ") + 2);  // behind the library's name and number for it
   if (dynamic_cast<const Json::exception*>(&error) != nullptr)
