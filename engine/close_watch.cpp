@@ -7,8 +7,9 @@ namespace riesel {
 namespace {
 
 struct Watched {
+  const std::int64_t* second;  // place
   Fixed *x, *y;
-  const Fixed *ux, *uy, *flies;
+  const Fixed *ux, *uy;
   const Fixed *rest_x, *rest_y;
   const double *reach2, *far2;
 };
@@ -19,11 +20,18 @@ struct Sight {
   double metre_x, metre_y;
 };
 
+/// All bits are set if a grain at this place flies, none if it is deflected.
+[[gnu::always_inline]] inline Fixed flies(std::int64_t place) {
+  static_assert(Courses::flying < 0);
+  return place >> 63;
+}
+
 /// Whether pair k is due. Its second grain goes on along its course.
 template <class Numbers>
 [[gnu::always_inline]] inline bool is_due(const Watched& w, std::size_t k, const Sight& s) {
-  w.x[k] = wrapped_sum(w.x[k], wrapped_sum(w.ux[k], s.fallen.x) & w.flies[k]);
-  w.y[k] = wrapped_sum(w.y[k], wrapped_sum(w.uy[k], s.fallen.y) & w.flies[k]);
+  const Fixed goes_on = flies(w.second[k]);
+  w.x[k] = wrapped_sum(w.x[k], wrapped_sum(w.ux[k], s.fallen.x) & goes_on);
+  w.y[k] = wrapped_sum(w.y[k], wrapped_sum(w.uy[k], s.fallen.y) & goes_on);
   const double dx = Numbers::real(wrapped_sum(w.x[k], w.rest_x[k])) * s.metre_x;
   const double dy = Numbers::real(wrapped_sum(w.y[k], w.rest_y[k])) * s.metre_y;
   const double distance2 = dx * dx + dy * dy;
@@ -51,9 +59,9 @@ struct WatchLoop {
 template <class Visit>
 void CloseWatch::for_each_column(Visit visit) {
   Columns& c = columns_;
-  for (auto* both : {&c.slot, &c.place})
-    for (auto& column : *both) visit(column);
-  for (auto* column : {&c.x, &c.y, &c.ux, &c.uy, &c.flies}) visit(*column);
+  for (auto& column : c.slot) visit(column);
+  for (auto& column : c.place) visit(column);
+  for (auto* column : {&c.x, &c.y, &c.ux, &c.uy}) visit(*column);
   for (auto* column : {&c.reach2, &c.far2}) visit(*column);
 }
 
@@ -71,13 +79,11 @@ void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t seco
   columns_.slot[1][i] = second;
   columns_.place[0][i] = courses_.place(first);
   columns_.place[1][i] = courses_.place(second);
-  const bool flies = !courses_.deflected(second);
-  const Motion on_course = flies ? courses_.motion(second, step) : Motion{};
+  const Motion on_course = courses_.deflected(second) ? Motion{} : courses_.motion(second, step);
   columns_.x[i] = on_course.x;
   columns_.y[i] = on_course.y;
   columns_.ux[i] = on_course.ux;
   columns_.uy[i] = on_course.uy;
-  columns_.flies[i] = flies ? -1 : 0;
   columns_.reach2[i] = reach * reach;
   columns_.far2[i] = far * far;
 }
@@ -92,7 +98,7 @@ void CloseWatch::remove(std::size_t i) {
 bool CloseWatch::holds(std::size_t i) const {
   const Columns& c = columns_;
   const auto is_there = [&](std::size_t grain) {
-    return courses_.place(static_cast<std::uint32_t>(c.slot[grain][i])) == c.place[grain][i];
+    return courses_.place(c.slot[grain][i]) == c.place[grain][i];
   };
   return is_there(0) && is_there(1);
 }
@@ -101,7 +107,7 @@ bool CloseWatch::holds(std::size_t i) const {
 void CloseWatch::look_up(const Bodies& bodies) {
   const Columns& c = columns_;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const Fixed stands = ~c.flies[i];
+    const Fixed stands = ~flies(c.place[1][i]);
     const std::int64_t first = c.place[0][i], second = c.place[1][i] & stands;
     rest_x_[i] = wrapped_difference(bodies.x[second] & stands, bodies.x[first]);
     rest_y_[i] = wrapped_difference(bodies.y[second] & stands, bodies.y[first]);
@@ -115,17 +121,17 @@ const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
   if (count == 0) return due_;
   look_up(deflected.bodies());
   const Columns& c = columns_;
-  const Watched watched{.x = columns_.x.data(),
+  const Watched watched{.second = c.place[1].data(),
+                        .x = columns_.x.data(),
                         .y = columns_.y.data(),
                         .ux = c.ux.data(),
                         .uy = c.uy.data(),
-                        .flies = c.flies.data(),
                         .rest_x = rest_x_.data(),
                         .rest_y = rest_y_.data(),
                         .reach2 = c.reach2.data(),
                         .far2 = c.far2.data()};
   const Sight sight{.fallen = units.fallen, .metre_x = units.metre_x, .metre_y = units.metre_y};
-  constexpr std::size_t few = 5;  // for which gathering them into vectors takes too long
+  constexpr std::size_t few = 5;  // a vector would have to wait for what has just been stored
   if (count <= few) {
     for (std::size_t i = 0; i < count; ++i)
       if (is_due<ByConversion>(watched, i, sight)) due_.push_back(pairs_[i]);

@@ -45,9 +45,10 @@ private:
   using Due = LaneMasks<std::uint64_t>;
   /// The grains of the pairs, and where the second is if it flies; else it is at 0 and stays there.
   struct Columns {
-    std::array<AlignedVector<std::int64_t>, 2> slot, place;
-    AlignedVector<Fixed> x, y, ux, uy, flies;  // all bits are set if it does
-    AlignedVector<double> reach2, far2;        // m^2
+    std::array<std::vector<std::uint32_t>, 2> slot;
+    std::array<AlignedVector<std::int64_t>, 2> place;
+    AlignedVector<Fixed> x, y, ux, uy;
+    AlignedVector<double> reach2, far2;  // m^2
   };
   template <class Visit>
   void for_each_column(Visit visit);

@@ -182,7 +182,7 @@ FAULTS = [
     ("kicks forgotten where flights begin", "engine/flight_region.cpp",
      "deflected_.add_kick(deflect(kick.slot, step), kick.by);", "deflect(kick.slot, step);"),
     ("a watched pair whose second grain only falls", "engine/close_watch.cpp",
-     "wrapped_sum(w.uy[k], s.fallen.y) & w.flies[k]", "s.fallen.y & w.flies[k]"),
+     "wrapped_sum(w.uy[k], s.fallen.y) & goes_on", "s.fallen.y & goes_on"),
     ("a watch that overlooks who has been let go", "engine/appointments.cpp",
      "if (close_watch_.holds(due_[pair].watched_as())) return true;", "return true;"),
     ("a pair that counts as watched for ever", "engine/appointments.hpp",
