@@ -6,7 +6,7 @@ namespace riesel::bench {
 
 double plain_traffic(const State& state) {
   State copy = state;
-  Candidates candidates(copy, CappedSlip{}, 1, Candidates::short_skin);
+  Candidates candidates(copy, CappedSlip{}, 1, Candidates::plain_stepping);
   Slice& all = candidates.slices().front();
   find_overlapping(all, copy, candidates.when_sorted(), candidates.units());
   const auto per_grain = [&](std::size_t count) {

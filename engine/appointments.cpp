@@ -74,7 +74,8 @@ double steps_to_nearest(const Flight& f, const WallLattice& wall, double reach, 
 
 void Appointments::fetch() const {
   riesel::fetch(std::span(due_));
-  for (const auto* list : {&first_pair_, &first_link_, &links_}) riesel::fetch(std::span(*list));
+  riesel::fetch(std::span(first_));
+  riesel::fetch(std::span(links_));
 }
 
 void Appointments::start_over() {
@@ -96,22 +97,21 @@ void Appointments::link() {
     std::uint32_t candidate = n_pairs;
     for (const NearWall& near : slice_.near_walls) visit(near.slot - begin, candidate++);
   };
-  first_pair_.assign(border_.numbered() + 1, 0);
-  first_link_.assign(border_.numbered() + 1, 0);
-  for (const std::uint32_t slot : slice_.pairs.first) ++first_pair_[slot - begin + 1];
-  for_each_link([&](std::size_t grain, std::uint32_t) { ++first_link_[grain + 1]; });
-  for (std::size_t i = 1; i < first_link_.size(); ++i) {
-    first_pair_[i] += first_pair_[i - 1];
-    first_link_[i] += first_link_[i - 1];
+  first_.assign(border_.numbered() + 1, {});
+  for (const std::uint32_t slot : slice_.pairs.first) ++first_[slot - begin + 1].pair;
+  for_each_link([&](std::size_t grain, std::uint32_t) { ++first_[grain + 1].link; });
+  for (std::size_t i = 1; i < first_.size(); ++i) {
+    first_[i].pair += first_[i - 1].pair;
+    first_[i].link += first_[i - 1].link;
   }
   links_.clear();  // which makes the next line take no more than it needs
-  links_.resize(first_link_.back() + candidates_at_a_time);
+  links_.resize(first_.back().link + candidates_at_a_time);
   // Each link goes to the end of what is left of its grain's part.
   for_each_link([&](std::size_t grain, std::uint32_t candidate) {
-    links_[--first_link_[grain + 1]] = candidate;
+    links_[--first_[grain + 1].link] = candidate;
   });
-  first_link_.erase(first_link_.begin());
-  first_link_.push_back(static_cast<std::uint32_t>(links_.size()) - candidates_at_a_time);
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i - 1].link = first_[i].link;
+  first_.back().link = static_cast<std::uint32_t>(links_.size()) - candidates_at_a_time;
 }
 
 /// Several candidates are written at a time, whether they are wanted, or there, or not.
@@ -130,9 +130,9 @@ void Appointments::reconsider_if(std::uint32_t slot, Wanted wanted) {
       reconsidered_.take(found);
     }
   };
-  const std::uint32_t pair = first_pair_[grain], link = first_link_[grain];
-  add(first_pair_[grain + 1] - pair, [&](std::uint32_t k) { return pair + k; });
-  add(first_link_[grain + 1] - link, [&](std::uint32_t k) { return links_[link + k]; });
+  const First first = first_[grain], end = first_[grain + 1];
+  add(end.pair - first.pair, [&](std::uint32_t k) { return first.pair + k; });
+  add(end.link - first.link, [&](std::uint32_t k) { return links_[first.link + k]; });
 }
 
 void Appointments::reconsider(std::uint32_t slot) {
@@ -155,10 +155,6 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
   }
 }
 
-bool Appointments::in_contact(std::uint32_t pair) const {
-  return std::signbit(slice_.pairs.reach2[pair]);
-}
-
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
   const Period period{.now = now, .earliest = earliest, .latest = std::max(hold_until, earliest)};
@@ -166,7 +162,7 @@ void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t ho
   reconsidered_.keep_if([&](std::uint32_t candidate) {
     if (candidate < pair_count()) {
       any_watched = any_watched | due_[candidate].is_watched();
-      return !in_contact(candidate);
+      return !due_[candidate].is_in_contact();
     }
     const double steps =
         free_steps_at_wall(slice_.near_walls[candidate - pair_count()], period.now);

@@ -36,8 +36,11 @@ public:
   static Appointment watched(std::size_t i) {
     return {first_watched - static_cast<std::int32_t>(i), true};
   }
+  /// Of a pair that touches: nobody looks for it.
+  static Appointment in_contact() { return {touching, false}; }
 
   bool is_for(std::int32_t step) const { return word_ >> 1 == step; }
+  bool is_in_contact() const { return word_ >> 1 == touching; }
   bool is_watched() const { return word_ >> 1 <= first_watched; }
   std::size_t watched_as() const { return static_cast<std::size_t>(first_watched - (word_ >> 1)); }
   bool exact() const { return (word_ & 1) != 0; }
@@ -49,7 +52,7 @@ public:
   }
 
 private:
-  static constexpr std::int32_t first_watched = -2;
+  static constexpr std::int32_t touching = -2, first_watched = -3;
 
   std::int32_t word_;
 };
@@ -78,6 +81,12 @@ public:
     reconsidered_.add(pair_count() + near_wall);
   }
 
+  /// The pair touches from now on, or does not any more: then it will get a new appointment.
+  void begin_contact(std::uint32_t pair) { due_[pair] = Appointment::in_contact(); }
+  void end_contact(std::uint32_t pair) {
+    due_[pair] = {Appointment::never, false};
+    reconsider_pair(pair);
+  }
   /// For a pair that is closer than the grains of it that may stray, 1 or 2, can go.
   void make_for_next_step(std::uint32_t pair, std::int64_t now, int strays);
   /// Has the pair watched from the next step on, see CloseWatch::add().
@@ -117,7 +126,6 @@ private:
   void link();
   template <class Wanted>
   void reconsider_if(std::uint32_t slot, Wanted wanted);
-  bool in_contact(std::uint32_t pair) const;
   bool is_watched_on(std::uint32_t pair);
   void end_watch(std::uint32_t pair);
   struct Period {
@@ -142,10 +150,13 @@ private:
 
   Calendar calendar_;
   std::vector<Appointment> due_;  // of each candidate
-  // The candidates of a slot of the slice: pairs from first_pair_ on, and links_ from first_link_
-  // on. Of links_ and due_ a few more can be read.
-  std::vector<std::uint32_t> first_pair_, first_link_, links_;
-  Selection reconsidered_;  // candidates
+  /// Where the candidates of a grain begin: pairs of which it is the first, and links_.
+  struct First {
+    std::uint32_t pair = 0, link = 0;
+  };
+  std::vector<First> first_;          // of each grain of the slice, or foreign in it, and the end
+  std::vector<std::uint32_t> links_;  // to other candidates; like due_, with some room to read
+  Selection reconsidered_;            // candidates
   CloseWatch close_watch_;
 };
 

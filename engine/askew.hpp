@@ -21,7 +21,7 @@ namespace riesel {
 struct Askew {
   /// Grains of a slice, or more where the box is wide: so few that as many slices as there are
   /// steps between the first and the last fit into a part of the last cache.
-  std::size_t slice = 6000;
+  std::size_t slice = 4000;
   std::int64_t steps = 12;  ///< that one slice is ahead of another at most
   /// With fewer grains all slices do each step together: they fit into the caches as they are.
   std::size_t fewest = 200'000;

@@ -3,6 +3,7 @@
 
 #include "engine/aligned.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,6 +17,9 @@ struct SlotPair {
 /// have been added since they were listed. Arrays of equal size.
 struct CandidatePairs {
   AlignedVector<std::uint32_t> first, second;
+  /// Whether they are searched for those that overlap. Only then there is a reach2, which takes a
+  /// third of the memory.
+  bool searched = true;
   /// m^2, (sum of radii)^2 plus the resolution of the coarse positions; negative while the pair is
   /// in contact, so that nobody looks for it
   AlignedVector<float> reach2;
@@ -36,25 +40,31 @@ struct CandidatePairs {
   void reserve(std::size_t n) {
     first.reserve(n);
     second.reserve(n);
-    reach2.reserve(n);
+    if (searched) reach2.reserve(n);
   }
   void resize(std::size_t n) {
     first.resize(n);
     second.resize(n);
-    reach2.resize(n);
+    if (searched) reach2.resize(n);
   }
   void set(std::size_t pair, std::uint32_t i, std::uint32_t j, float square) {
     first[pair] = i;
     second[pair] = j;
-    reach2[pair] = square;
+    if (searched) reach2[pair] = square;
   }
   void add(std::uint32_t i, std::uint32_t j, float square) {
     first.push_back(i);
     second.push_back(j);
-    reach2.push_back(square);
+    if (searched) reach2.push_back(square);
   }
   void add_copy(const CandidatePairs& of, std::size_t pair) {
     add(of.first[pair], of.second[pair], of.reach2[pair]);
+  }
+  void begin_contact(std::size_t pair) {
+    if (searched) reach2[pair] = -std::abs(reach2[pair]);
+  }
+  void end_contact(std::size_t pair) {
+    if (searched) reach2[pair] = std::abs(reach2[pair]);
   }
 };
 

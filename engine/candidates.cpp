@@ -39,7 +39,7 @@ double largest(const std::vector<Slice>& slices, double Slice::*member) {
 
 }  // namespace
 
-Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter,
+Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
                        std::size_t slices_per_thread)
     : slip_(slip),
       units_(state.box),
@@ -58,13 +58,15 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
   if (state.box.length <= 2.0 * (reach + least_skin * diameter))
     throw std::invalid_argument("the period is too short for the nearest image to be unique");
   const double longest_skin = 0.499 * state.box.length - reach;
-  skin_ = std::max(least_skin * diameter, std::min(skin_per_diameter * diameter, longest_skin));
+  skin_ =
+      std::max(least_skin * diameter, std::min(purpose.skin_per_diameter * diameter, longest_skin));
   steps_to_walls_ = steps_of_fall(std::abs(state.box.metres_x(fall_.x)), 0.5 * skin_);
   for (const WallLattice& wall : state.walls)
     if (!wall.smooth()
         && wall.spacing(state.box) < WallLattice::least_spacing(max_radius_ + wall.radius))
       throw std::invalid_argument("the grains of a wall are too close together");
 
+  for (Slice& slice : slices_) slice.pairs.searched = purpose.searched;
   as_a_team(threads, [&](std::size_t member) {
     const std::span<Slice> mine = share(member);
     renew(state, mine, state.step);
@@ -77,7 +79,7 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, double sk
 double Candidates::rows(const State& state) {
   const Grains& grains = state.grains;
   const double largest = 2.0 * *std::max_element(grains.radius.begin(), grains.radius.end());
-  return state.box.length / (largest + short_skin * mean_diameter(grains));
+  return state.box.length / (largest + plain_stepping.skin_per_diameter * mean_diameter(grains));
 }
 
 bool Candidates::in_trouble() const {

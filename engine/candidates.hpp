@@ -33,16 +33,20 @@ namespace riesel {
 
 class Candidates {
 public:
-  /// The skin as a part of the mean diameter: more means more pairs to look at, less means more
-  /// sortings. This one serves plain stepping.
-  static constexpr double short_skin = 0.35;
-  /// A period that leaves no room for this one is too short.
+  /// What serves those who use the candidates.
+  struct Purpose {
+    /// More means more pairs to look at, less means more sortings.
+    double skin_per_diameter;
+    bool searched;  ///< as CandidatePairs::searched
+  };
+  static constexpr Purpose plain_stepping{.skin_per_diameter = 0.35, .searched = true};
+  /// As a part of the mean diameter: a period that leaves no room for this skin is too short.
   static constexpr double least_skin = 0.25;
 
   /// Sorts `state` and takes over its contacts. Throws std::invalid_argument if the box is too
   /// short for the nearest image to be unique, wall grains are too close together, or a contact of
   /// the state cannot be one.
-  Candidates(State& state, const SlipLaw& slip, int threads, double skin_per_diameter,
+  Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
              std::size_t slices_per_thread = 1);
 
   /// How many rows of cells plain stepping has, about.

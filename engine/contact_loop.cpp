@@ -48,21 +48,17 @@ Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t ne
 }
 
 void note_lasting(Slice& slice, const Meeting& meeting) {
-  if (meeting.name.wall == no_wall) {
-    float& reach2 = slice.pairs.reach2[meeting.candidate];
-    reach2 = -std::abs(reach2);
-  } else {
+  if (meeting.name.wall == no_wall)
+    slice.pairs.begin_contact(meeting.candidate);
+  else
     slice.near_walls[meeting.candidate].partners |= meeting.wall_bit;
-  }
 }
 
 void note_over(Slice& slice, const Meeting& meeting) {
-  if (meeting.name.wall == no_wall) {
-    float& reach2 = slice.pairs.reach2[meeting.candidate];
-    reach2 = std::abs(reach2);
-  } else {
+  if (meeting.name.wall == no_wall)
+    slice.pairs.end_contact(meeting.candidate);
+  else
     slice.near_walls[meeting.candidate].partners &= ~meeting.wall_bit;
-  }
 }
 
 void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting) {

@@ -131,7 +131,6 @@ void FlightRegion::fetch() const {
   riesel::fetch(own(airspace_.courses.places()));
   for (const auto* column : {&slice_.pairs.first, &slice_.pairs.second})
     riesel::fetch(std::span(*column));
-  riesel::fetch(std::span(slice_.pairs.reach2));
   appointments_.fetch();
 }
 
@@ -226,7 +225,7 @@ void FlightRegion::step_contacts(std::int64_t step) {
 
   LiveContacts& pairs = slice_.pair_contacts;
   complete_step(slice_, pairs, units_, [&](std::size_t i) {
-    appointments_.reconsider_pair(pairs.meeting(i).candidate);
+    appointments_.end_contact(pairs.meeting(i).candidate);
     let_go(pairs.first(i));
     let_go(pairs.second(i));
   });
@@ -292,6 +291,8 @@ void FlightRegion::take_up(LiveContacts& contacts, std::size_t contact, std::int
   const auto first = place_of(contacts.first(contact));
   const auto second = place_of(contacts.second(contact));
   contacts.move(contact, first, second);
+  const Meeting& meeting = contacts.meeting(contact);
+  if (!meeting.with_wall()) appointments_.begin_contact(meeting.candidate);
   change_contacts(first, 1);
   if (second != first) change_contacts(second, 1);  // it is no wall grain
 }

@@ -39,9 +39,8 @@ namespace riesel {
 
 class Flights {
 public:
-  /// A skin that serves flights, as a part of the mean diameter: pairs far apart cost no more than
-  /// an appointment.
-  static constexpr double skin_per_diameter = 0.65;
+  /// Pairs far apart cost no more than an appointment.
+  static constexpr Candidates::Purpose purpose{.skin_per_diameter = 0.65, .searched = false};
 
   /// Nobody else uses the candidates afterwards. Keeps references.
   Flights(State& state, const ContactModel& model, Candidates& candidates, const Askew& askew);

@@ -193,9 +193,9 @@ void Simulation::prepare() {
   flights_.reset();
   plain_steps_.reset();
   const auto [by_flights, threads] = next.way;
-  const double skin = by_flights ? Flights::skin_per_diameter : Candidates::short_skin;
-  candidates_ =
-      std::make_unique<Candidates>(state_, model_.slip, threads, skin, next.slices_per_thread);
+  candidates_ = std::make_unique<Candidates>(
+      state_, model_.slip, threads, by_flights ? Flights::purpose : Candidates::plain_stepping,
+      next.slices_per_thread);
   if (by_flights)
     flights_ = std::make_unique<Flights>(state_, model_, *candidates_, askew_);
   else

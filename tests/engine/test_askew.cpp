@@ -28,7 +28,7 @@ State askew(const State& state, const ContactModel& model, std::int64_t steps, i
 
 /// Steps from the start of `state` that can be done without another look.
 std::int64_t steps_ahead(State state, std::size_t slices) {
-  Candidates candidates(state, CappedSlip{}, 1, Candidates::short_skin, slices);
+  Candidates candidates(state, CappedSlip{}, 1, Candidates::plain_stepping, slices);
   CoarsePositions coarse = candidates.when_sorted();
   return candidates.ready_for(state, coarse, candidates.share(0), state.step, small_slices.steps);
 }
@@ -46,8 +46,8 @@ State long_tube(double polydispersity, double inertia = 0.0) {
 }
 
 constexpr double diameter = 2.0 * radius;
-constexpr double skin = Candidates::short_skin * diameter;
-constexpr double skin_of_flights = Flights::skin_per_diameter * diameter;
+constexpr double skin = Candidates::plain_stepping.skin_per_diameter * diameter;
+constexpr double skin_of_flights = Flights::purpose.skin_per_diameter * diameter;
 constexpr std::int64_t groups = 61;  // of three grains, so that some are shared by two slices
 
 State at_rest() {
@@ -181,7 +181,8 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
 
 TEST_CASE("slices do each step together where grains are too fast for more") {
   State state = long_tube(0.1);
-  state.grains.ux[7] = state.box.fixed_x(0.2 * Candidates::short_skin * diameter);
+  state.grains.ux[7] =
+      state.box.fixed_x(0.2 * Candidates::plain_stepping.skin_per_diameter * diameter);
   CHECK(steps_ahead(state, 10) == 1);
 }
 
@@ -258,7 +259,7 @@ TEST_CASE("a force that is not finite is told of in the step in which it was fou
 TEST_CASE("strays of flights touch grains that are candidates") {
   const bool across = GENERATE(true, false);
   State start = blows(across);
-  const double close_by = (1.5 + 0.5 * Flights::skin_per_diameter + 0.01) * diameter;
+  const double close_by = (1.5 + 0.5 * Flights::purpose.skin_per_diameter + 0.01) * diameter;
   for (std::int64_t group = 0; group < groups; ++group) {
     const double y = static_cast<double>(group) * 5e-3;
     add_grain(start,
@@ -278,7 +279,7 @@ TEST_CASE("strays of flights that touch somebody else end the run") {
   };
   const bool across = GENERATE(true, false);
   REQUIRE(failure(blows(across)) == "no failure");
-  const double beyond = diameter * (1.5 + Flights::skin_per_diameter + 0.08);
+  const double beyond = diameter * (1.5 + Flights::purpose.skin_per_diameter + 0.08);
   for (std::int64_t group = 0; group < groups; ++group)
     for (const double side : {-1.0, 1.0}) {
       State start = blows(across);
@@ -293,7 +294,8 @@ TEST_CASE("strays of flights that touch somebody else end the run") {
 TEST_CASE("strays of flights that reach a wall they had not been close to end the run") {
   for (const double side : {-1.0, 1.0}) {
     State start = at_rest();
-    const double to_wall = wall_radius + (1.5 + 0.5 * Flights::skin_per_diameter + 0.05) * diameter;
+    const double to_wall =
+        wall_radius + (1.5 + 0.5 * Flights::purpose.skin_per_diameter + 0.05) * diameter;
     for (std::int64_t group = 0; group < groups; ++group)
       add_blow(start, side < 0.0 ? to_wall : 10e-3 - to_wall, static_cast<double>(group) * 5e-3,
                true);
@@ -313,7 +315,7 @@ TEST_CASE("flights expect that squeezed grains fly apart") {
 TEST_CASE(
     "flights do each step together if somebody may leave the skin at twice the present speeds") {
   State start = blows(true);
-  const double beyond = diameter * (1.5 + Flights::skin_per_diameter + 0.08);
+  const double beyond = diameter * (1.5 + Flights::purpose.skin_per_diameter + 0.08);
   for (std::int64_t group = 0; group < groups; ++group)
     add_grain(start, grain(5e-3 + beyond, static_cast<double>(group) * 5e-3, 0.0, 0.0));
   add_grain(start, grain(5e-3, 2.5e-3, 0.02 * diameter / time_step, 0.0));
@@ -325,7 +327,7 @@ TEST_CASE(
 TEST_CASE("flights expect that a wall that shakes throws grains farther than they are fast") {
   State start = at_rest();
   const double to_grain = wall_radius + radius + 0.1 * diameter;
-  const double to_other = to_grain + (1.05 + Flights::skin_per_diameter) * diameter;
+  const double to_other = to_grain + (1.05 + Flights::purpose.skin_per_diameter) * diameter;
   for (std::int64_t group = 0; group < groups; ++group)
     for (const double x : {to_grain, to_other})
       add_grain(start, grain(x, static_cast<double>(group) * 5e-3, 0.0, 0.0));

@@ -134,8 +134,8 @@ FAULTS = [
      "won_once_ = faster && !won_once_;", "won_once_ = false;"),
     ("one look at each way at the beginning", "engine/stepping_choice.hpp",
      "first_looks = 2;", "first_looks = 1;"),
-    ("a pair never looked for again after its first contact", "engine/contact_loop.cpp",
-     "reach2 = std::abs(reach2);", "reach2 = -std::abs(reach2);"),
+    ("a pair never looked for again after its first contact", "engine/candidate_pairs.hpp",
+     "if (searched) reach2[pair] = std::abs(reach2[pair]);", ""),
 
     # Time and flights
     ("one step too few in the fall of a flight", "engine/fixed_point.hpp",
@@ -190,7 +190,10 @@ FAULTS = [
     ("a watched pair that does not know its new number", "engine/appointments.cpp",
      "if (i < close_watch_.size()) due_", "if (i > close_watch_.size()) due_"),
     ("a pair that nobody looks at after its contact", "engine/flight_region.cpp",
-     "    appointments_.reconsider_pair(pairs.meeting(i).candidate);\n", ""),
+     "    appointments_.end_contact(pairs.meeting(i).candidate);\n", ""),
+    ("a pair that is looked for while it touches", "engine/flight_region.cpp",
+     "  if (!meeting.with_wall()) appointments_.begin_contact(meeting.candidate);\n",
+     "  static_cast<void>(meeting);\n"),
     ("a skin guard that forgets the tolerance and half the skin", "engine/skin_guard.cpp",
      "return (0.5 * skin - tolerance - resolution) / generous;",
      "return (skin + 0.0 * tolerance - resolution) / generous;"),
