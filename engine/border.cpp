@@ -74,11 +74,9 @@ Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall&
     if (found == other.border.end() || !found->deflected) return;
     m = found->motion;
     if (other.step == step) return;
-    m.ux = wrapped_sum(m.ux, m.kick_x);
-    m.uy = wrapped_sum(m.uy, m.kick_y);
+    m.take_up_kick();
     m.x = wrapped_sum(m.x, wrapped_sum(m.ux, fallen.x));
     m.y = wrapped_sum(m.y, wrapped_sum(m.uy, fallen.y));
-    m.spin = wrapped_sum(m.spin, m.spin_kick);
   });
   return m;
 }

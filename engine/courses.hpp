@@ -24,6 +24,13 @@ namespace riesel {
 /// Position, displacement per step and kick of one grain, in quanta; as in Grains.
 struct Motion {
   Fixed x, y, ux, uy, kick_x, kick_y, spin, spin_kick;
+
+  /// As the next step does first.
+  void take_up_kick() {
+    ux = wrapped_sum(ux, kick_x);
+    uy = wrapped_sum(uy, kick_y);
+    spin = wrapped_sum(spin, spin_kick);
+  }
 };
 
 class Courses {

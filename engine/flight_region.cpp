@@ -67,12 +67,12 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
     for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
 }
 
-void FlightRegion::set_out(std::int64_t step) {
+void FlightRegion::set_out(std::int64_t step, Kicks kicks) {
   suffer(step);
   border_.mine().hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
     if (is_guest(place)) continue;
-    set_course(place, step);
+    set_course(place, step, kicks);
     if (deflected_.contacts(place) == 0) let_go_.push_back(place);
   }
   announce(step);
@@ -338,18 +338,11 @@ void FlightRegion::release(DeflectedGrains::Place place) {
   deflected_.release(place);
 }
 
-/// From here, with the velocity of the next step.
-void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step) {
+/// From here, with the velocity of the next step if it brought no other kick.
+void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step, Kicks kick) {
   const std::uint32_t slot = deflected_.slot(place);
-  const Motion m = deflected_.motion(place);
-  const Motion course{.x = m.x,
-                      .y = m.y,
-                      .ux = wrapped_sum(m.ux, m.kick_x),
-                      .uy = wrapped_sum(m.uy, m.kick_y),
-                      .kick_x = 0,
-                      .kick_y = 0,
-                      .spin = wrapped_sum(m.spin, m.spin_kick),
-                      .spin_kick = 0};
+  Motion course = deflected_.motion(place);
+  if (kick == Kicks::to_come) course.take_up_kick();
   airspace_.courses.set(slot, course, step);
   deflected_.set_course(place);
   Announcement& mine = border_.mine();

@@ -50,7 +50,10 @@ public:
   /// The candidates have just been listed, at `step`, that of all grains.
   void start_over(std::int64_t step);
   void take_up_contacts(std::int64_t step);
-  void set_out(std::int64_t step);
+  /// The last kicks: in the velocities already, as in the middle of a step, when all have moved, or
+  /// to be taken up by the next step.
+  enum class Kicks { taken_up, to_come };
+  void set_out(std::int64_t step, Kicks kicks);
   void make_all_appointments(std::int64_t step, std::int64_t earliest, std::int64_t hold_until);
 
   /// All grains have landed at `step`, the origin of courses, and go on from there.
@@ -99,7 +102,7 @@ private:
   void let_go(std::int64_t body);
   void change_contacts(DeflectedGrains::Place place, std::int32_t by);
   void release(DeflectedGrains::Place place);
-  void set_course(DeflectedGrains::Place place, std::int64_t step);
+  void set_course(DeflectedGrains::Place place, std::int64_t step, Kicks kick = Kicks::to_come);
 
   bool is_guest(DeflectedGrains::Place place) const {
     return !border_.owns(deflected_.slot(place));

@@ -42,7 +42,7 @@ void Flights::for_each_region(const Member& member, Do something) {
 
 void Flights::take_off(Member& member, std::int64_t step) {
   if (!member.under_way) {
-    begin(member, step, step + 1);
+    begin(member, step, FlightRegion::Kicks::to_come);
     member.under_way = true;
     return;
   }
@@ -54,8 +54,9 @@ void Flights::take_off(Member& member, std::int64_t step) {
   for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
 }
 
-/// Makes the appointments of all candidates, which have just been listed. All grains are at `step`.
-void Flights::begin(Member& member, std::int64_t step, std::int64_t earliest) {
+/// Makes the appointments of all candidates, which have just been listed. All grains are at `step`;
+/// in the middle of it, when kicks are taken up, candidates can be due in this very one.
+void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks) {
   if (member.begin == 0) {
     airspace_.courses.start_over(step);
     airspace_.candidates.forget_cells();
@@ -64,9 +65,10 @@ void Flights::begin(Member& member, std::int64_t step, std::int64_t earliest) {
   wait();
   for_each_region(member, [&](FlightRegion& region) { region.take_up_contacts(step); });
   wait();
-  for_each_region(member, [&](FlightRegion& region) { region.set_out(step); });
+  for_each_region(member, [&](FlightRegion& region) { region.set_out(step, kicks); });
   wait();
   heed(member);
+  const std::int64_t earliest = kicks == FlightRegion::Kicks::taken_up ? step : step + 1;
   for_each_region(member, [&](FlightRegion& region) {
     region.make_all_appointments(step, earliest, member.hold_until);
   });
@@ -83,7 +85,7 @@ void Flights::renew(Member& member, std::int64_t step) {
   member.profile.begin_build();
   land(member, step);
   airspace_.candidates.sort_anew(airspace_.state, member.share, step);
-  begin(member, step, step);
+  begin(member, step, FlightRegion::Kicks::taken_up);
   member.profile.done_build();
 }
 

@@ -70,7 +70,7 @@ private:
   };
 
   void take_off(Member& member, std::int64_t step);
-  void begin(Member& member, std::int64_t step, std::int64_t earliest);
+  void begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks);
   void land(Member& member, std::int64_t step);
   void renew(Member& member, std::int64_t step);
   void heed(Member& member) const;

@@ -2,6 +2,7 @@
 // wherever the tests run (test_properties.cpp).
 //
 //   properties set-ups FIRST COUNT     complains of those that are not as they must be
+//   properties flows FIRST COUNT       likewise, of flows that go on for long
 //   properties impacts FIRST COUNT     prints the largest gains of energy
 //   properties hashes FIRST COUNT      prints the state hashes of each set-up, of plain stepping on
 //                                      one thread and of windows on two: to compare two builds
@@ -41,6 +42,31 @@ int check_set_ups(std::uint64_t first, std::uint64_t count) {
   std::printf("%llu set-ups, %llu of them wrong; in %llu a run has a reason to fail\n",
               static_cast<unsigned long long>(count), static_cast<unsigned long long>(wrong),
               static_cast<unsigned long long>(failures));
+  return wrong == 0 ? 0 : 1;
+}
+
+int check_flows(std::uint64_t first, std::uint64_t count) {
+  std::uint64_t wrong = 0;
+  std::int64_t contacts = 0;
+  double contact_steps = 0.0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const SetUp flow = random_flow(seed);
+    const Outcome expected = reference(flow);
+    // Teams larger than the machine are slow.
+    const Complaints complaints = same_by_windows(flow, expected, seed % 10 == 0 ? 2 : 1);
+    for (const riesel::ContactTally* kind :
+         {&expected.end.tally.grains, &expected.end.tally.walls}) {
+      contacts += kind->ended;
+      contact_steps += kind->duration.value() / flow.start.time_step;
+    }
+    if (complaints.empty()) continue;
+    ++wrong;
+    std::printf("%llu: %s\n    %s\n", static_cast<unsigned long long>(seed),
+                description(flow).c_str(), complaints.front().c_str());
+  }
+  std::printf("%llu flows, %llu of them wrong; %lld contacts, of %.3g steps together\n",
+              static_cast<unsigned long long>(count), static_cast<unsigned long long>(wrong),
+              static_cast<long long>(contacts), contact_steps);
   return wrong == 0 ? 0 : 1;
 }
 
@@ -88,13 +114,14 @@ int print_hashes(std::uint64_t first, std::uint64_t count) {
 /// The exit status.
 int answer(int argc, char** argv) {
   if (argc != 4) {
-    std::fputs("usage: properties (set-ups | impacts | hashes) FIRST COUNT\n", stderr);
+    std::fputs("usage: properties (set-ups | flows | impacts | hashes) FIRST COUNT\n", stderr);
     return 2;
   }
   const std::string_view what = argv[1];
   const std::uint64_t first = std::strtoull(argv[2], nullptr, 10);
   const std::uint64_t count = std::strtoull(argv[3], nullptr, 10);
   if (what == "set-ups") return check_set_ups(first, count);
+  if (what == "flows") return check_flows(first, count);
   return what == "impacts" ? print_gains(first, count) : print_hashes(first, count);
 }
 

@@ -150,7 +150,17 @@ Complaints energy_won(const SetUp& set_up, const State& end, const Energies& ene
 
 Outcome reference(const SetUp& set_up) { return outcome(set_up, 1, Stepping::plain); }
 
-Outcome by_windows(const SetUp& set_up) { return outcome(set_up, 2, Stepping::windows); }
+Outcome by_windows(const SetUp& set_up, int threads) {
+  return outcome(set_up, threads, Stepping::windows);
+}
+
+Complaints same_by_windows(const SetUp& set_up, const Outcome& expected, int threads) {
+  const Outcome found = by_windows(set_up, threads);
+  if (found.failure != expected.failure)
+    return {"\"" + found.failure + "\" by windows, \"" + expected.failure + "\" plainly"};
+  if (!found.failure.empty() || same_states::same(found.end, expected.end)) return {};
+  return {"other bits by windows on " + std::to_string(threads) + " threads"};
+}
 
 Complaints same_bits(const SetUp& set_up, const Outcome& expected, std::uint64_t seed,
                      const std::filesystem::path& scratch) {

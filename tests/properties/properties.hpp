@@ -21,14 +21,17 @@ struct Outcome {
 
 /// Plainly, on one thread, in one go.
 Outcome reference(const SetUp& set_up);
-/// By windows on two threads, in one go.
-Outcome by_windows(const SetUp& set_up);
+/// By windows, in one go.
+Outcome by_windows(const SetUp& set_up, int threads = 2);
 
 /// Goes there again by several journeys, which change the way of stepping, the number of threads,
 /// the order of the slots and the length of the advances on the way, look at the state, measure a
 /// profile, and go through a checkpoint in `scratch`: every bit must be that of `expected`.
 Complaints same_bits(const SetUp& set_up, const Outcome& expected, std::uint64_t seed,
                      const std::filesystem::path& scratch);
+
+/// Goes there again by windows in one go, on this number of threads.
+Complaints same_by_windows(const SetUp& set_up, const Outcome& expected, int threads);
 
 /// Contacts that began have ended or last; damping and friction never win energy, nor does the
 /// whole but by the error of the time step; the walls gave the momentum along the tube; without

@@ -157,6 +157,33 @@ SetUp random_set_up(std::uint64_t seed) {
   return set_up;
 }
 
+SetUp random_flow(std::uint64_t seed) {
+  Dice dice(seed);
+  SetUp flow{.start = empty_box(8e-3, dice.between(8e-3, 30e-3)),
+             .model = random_model(dice),
+             .steps = 1'000'000,
+             .equal_masses = false,
+             .steps_per_contact = dice.between(20.0, 60.0)};
+  State& state = flow.start;
+  const bool sheared = dice.below(2) == 0;
+  if (!sheared) state.gravity.y = dice.between(5.0, 20.0);
+  add_walls(state, static_cast<std::int64_t>(state.box.length / dice.between(0.7e-3, 1.2e-3)));
+  if (sheared) state.walls[1].motion.velocity = dice.between(1.0, 10.0);
+  constexpr double fastest = 10.0;  // m/s, of two grains that meet
+  const double shortest = contact_time(flow.model.normal, 0.5 * mass, fastest);
+  state.time_step = shortest / flow.steps_per_contact;
+  add_rotation(seed, shortest, flow.model, state);
+  const Throw where{.left = 0.0,
+                    .right = state.box.width,
+                    .low = 0.0,
+                    .high = state.box.length,
+                    .speed = power_of_ten(dice, -1.0, 0.5),
+                    .polydispersity = 0.2};
+  const double room = state.box.width * state.box.length / (radius * radius);
+  throw_grains(state, static_cast<std::size_t>(dice.between(0.08, 0.155) * room), where, dice);
+  return flow;
+}
+
 std::string description(const SetUp& s) {
   static const std::vector<const char*> normal{"linear", "power", "Hertz"};
   static const std::vector<const char*> slip{"capped", "literal", "viscous", "spring"};

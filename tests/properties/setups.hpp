@@ -24,6 +24,10 @@ struct SetUp {
 
 SetUp random_set_up(std::uint64_t seed);
 
+/// A tube or a shear cell in which contacts are many and some last, for so long that what happens
+/// once in a hundred million contact steps does happen. For each law; no step is too long.
+SetUp random_flow(std::uint64_t seed);
+
 /// A contact law of any kind, with its friction. Loses energy, or at least wins none.
 riesel::ContactModel random_model(systems::Dice& dice);
 
