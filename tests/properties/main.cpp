@@ -52,8 +52,8 @@ int check_flows(std::uint64_t first, std::uint64_t count) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const SetUp flow = random_flow(seed);
     const Outcome expected = reference(flow);
-    // Teams larger than the machine are slow.
-    const Complaints complaints = same_by_windows(flow, expected, seed % 10 == 0 ? 2 : 1);
+    // Teams are slow on a busy machine: only some.
+    const Complaints complaints = same_by_windows(flow, expected, seed % 50 == 0 ? 2 : 1);
     for (const riesel::ContactTally* kind :
          {&expected.end.tally.grains, &expected.end.tally.walls}) {
       contacts += kind->ended;

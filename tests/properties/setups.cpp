@@ -167,7 +167,7 @@ SetUp random_flow(std::uint64_t seed) {
   State& state = flow.start;
   const bool sheared = dice.below(2) == 0;
   if (!sheared) state.gravity.y = dice.between(5.0, 20.0);
-  add_walls(state, static_cast<std::int64_t>(state.box.length / dice.between(0.7e-3, 1.2e-3)));
+  add_walls(state, static_cast<std::int64_t>(state.box.length / dice.between(0.7e-3, 1.0e-3)));
   if (sheared) state.walls[1].motion.velocity = dice.between(1.0, 10.0);
   constexpr double fastest = 10.0;  // m/s, of two grains that meet
   const double shortest = contact_time(flow.model.normal, 0.5 * mass, fastest);
