@@ -99,19 +99,18 @@ void Appointments::link() {
   };
   first_.assign(border_.numbered() + 1, {});
   for (const std::uint32_t slot : slice_.pairs.first) ++first_[slot - begin + 1].pair;
-  for_each_link([&](std::size_t grain, std::uint32_t) { ++first_[grain + 1].link; });
+  for_each_link([&](std::size_t grain, std::uint32_t) { ++first_[grain].link; });
   for (std::size_t i = 1; i < first_.size(); ++i) {
     first_[i].pair += first_[i - 1].pair;
     first_[i].link += first_[i - 1].link;
   }
   links_.clear();  // which makes the next line take no more than it needs
   links_.resize(first_.back().link + candidates_at_a_time);
-  // Each link goes to the end of what is left of its grain's part.
+  // Now it is one past the last link of each grain. They are put in from behind: it becomes the
+  // first.
   for_each_link([&](std::size_t grain, std::uint32_t candidate) {
-    links_[--first_[grain + 1].link] = candidate;
+    links_[--first_[grain].link] = candidate;
   });
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i - 1].link = first_[i].link;
-  first_.back().link = static_cast<std::uint32_t>(links_.size()) - candidates_at_a_time;
 }
 
 /// Several candidates are written at a time, whether they are wanted, or there, or not.

@@ -22,6 +22,11 @@ namespace {
 
 using namespace properties;
 
+void print(std::uint64_t seed, const SetUp& set_up, const Complaints& complaints) {
+  std::printf("%llu: %s\n", static_cast<unsigned long long>(seed), description(set_up).c_str());
+  for (const auto& complaint : complaints) std::printf("    %s\n", complaint.c_str());
+}
+
 int check_set_ups(std::uint64_t first, std::uint64_t count) {
   const auto scratch =
       std::filesystem::temp_directory_path() / ("riesel-properties-" + std::to_string(first));
@@ -35,8 +40,7 @@ int check_set_ups(std::uint64_t first, std::uint64_t count) {
     for (const auto& more : balances(set_up, expected)) complaints.push_back(more);
     if (complaints.empty()) continue;
     ++wrong;
-    std::printf("%llu: %s\n", static_cast<unsigned long long>(seed), description(set_up).c_str());
-    for (const auto& complaint : complaints) std::printf("    %s\n", complaint.c_str());
+    print(seed, set_up, complaints);
   }
   std::filesystem::remove_all(scratch);
   std::printf("%llu set-ups, %llu of them wrong; in %llu a run has a reason to fail\n",
@@ -61,8 +65,7 @@ int check_flows(std::uint64_t first, std::uint64_t count) {
     }
     if (complaints.empty()) continue;
     ++wrong;
-    std::printf("%llu: %s\n    %s\n", static_cast<unsigned long long>(seed),
-                description(flow).c_str(), complaints.front().c_str());
+    print(seed, flow, complaints);
   }
   std::printf("%llu flows, %llu of them wrong; %lld contacts, of %.3g steps together\n",
               static_cast<unsigned long long>(count), static_cast<unsigned long long>(wrong),
