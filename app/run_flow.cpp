@@ -3,6 +3,7 @@
 #include "app/clock.hpp"
 #include "app/exit_status.hpp"
 #include "app/flow_failures.hpp"
+#include "app/flow_measurements.hpp"
 #include "app/flow_summary.hpp"
 #include "app/interrupt.hpp"
 #include "app/limit_watch.hpp"
@@ -15,7 +16,7 @@
 #include "app/series.hpp"
 #include "app/stepping.hpp"
 #include "app/terminal.hpp"
-#include "app/walltime.hpp"
+#include "app/time_limit.hpp"
 #include "engine/hash.hpp"
 #include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
@@ -72,7 +73,6 @@ public:
           const Arguments& arguments, Past past, const FlowOptions& options)
       : settings_(std::move(settings)),
         past_(std::move(past)),
-        max_walltime_(options.max_walltime),
         verbosity_(options.verbosity),
         schedule_(settings_, state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
@@ -81,10 +81,11 @@ public:
         limits_(scenarios::run_limits(settings_), past_.warnings),
         files_(std::move(directory), origin(arguments), past_.rows, simulation_.state(),
                schedule_.steps_per_frame),
-        strips_(Strips::of(simulation_.state())),
-        profiles_(past_.rows == 0 ? TimeBlocks(strips_.columns()) : past_.profiles),
-        histograms_(past_.rows == 0 ? HistogramBlocks() : HistogramBlocks(past_.histograms)),
+        measurements_(past_.rows == 0 ? FlowMeasurements(simulation_.state())
+                                      : FlowMeasurements(simulation_.state(), past_.profiles,
+                                                         past_.histograms)),
         progress_(options.verbosity),
+        time_limit_(options.max_walltime),
         first_step_(simulation_.state().step) {
     if (options.profile) simulation_.start_profile();
   }
@@ -97,7 +98,7 @@ public:
       if (files_.rows() == 0) begin();
       if (past_.had_other_settings) keep_settings();
       if (past_.rows > 0) look_where_it_stopped();
-      if (max_walltime_ && longest_save_ == 0.0) save();  // to know how long it takes
+      if (time_limit_.asks_to_save(files_.rows())) save();
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
       return fail(failure,
@@ -167,21 +168,7 @@ private:
     return static_cast<double>(schedule_.steps_per_row) * simulation_.state().time_step;
   }
 
-  bool is_interrupted() const { return interrupting_signal() != 0 || is_out_of_time(); }
-
-  /// With a reserve for what comes before the end: a piece of the way, and what it takes to save.
-  bool is_out_of_time() const {
-    constexpr double reserve = 2.0;
-    return max_walltime_
-           && seconds_since_start_of_program() + reserve * (longest_piece_ + longest_save_)
-                  > *max_walltime_;
-  }
-
-  /// The rows, so that the time to save may have: the reserve is twice of what it was.
-  bool has_doubled_since_saved() const {
-    constexpr std::int64_t few = 1000;
-    return files_.rows() > 2 * std::max(few, rows_saved_);
-  }
+  bool is_interrupted() const { return interrupting_signal() != 0 || time_limit_.is_reached(); }
 
   std::string ended_by() const {
     if (!schedule_.relative_error) return "duration";
@@ -197,7 +184,7 @@ private:
     simulation_.advance(steps);
     const double seconds = seconds_since(start);
     times_.stepping += seconds;
-    longest_piece_ = std::max(longest_piece_, seconds);
+    time_limit_.note_piece(seconds);
     pace_.note(steps, seconds);
     if (schedule_.is_frame(state.step)) add_frame();
     if (schedule_.is_row(state.step))
@@ -205,11 +192,11 @@ private:
     else if (schedule_.is_look(state.step))
       look();
     if (seconds_since(last_checkpoint_) > schedule_.seconds_between_checkpoints
-        || (max_walltime_ && has_doubled_since_saved()))
+        || time_limit_.asks_to_save(files_.rows()))
       save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
-                   fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s{}", state.time(), last_.mean_vy,
-                               precision_so_far_));
+                   fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s{}", state.time(),
+                               measurements_.last().mean_vy, precision_so_far_));
   }
 
   void add_frame() {
@@ -220,12 +207,10 @@ private:
 
   void add_row() {
     const auto start = Clock::now();
-    observe_all();
-    profiles_.add(
-        sum_over_strips(strips_, simulation_.state(), simulation_.model(), last_.mean_vy));
-    histograms_.add(simulation_.state().tally);
+    fail_if_too_fast(simulation_.state());
+    measurements_.add(simulation_);
     times_.measuring += seconds_since(start);
-    files_.record().append(series_row(last_, simulation_.state().tally));
+    files_.record().append(series_row(measurements_.last(), simulation_.state().tally));
     note_precision();
     heed_limits();
   }
@@ -235,22 +220,19 @@ private:
     if (schedule_.is_row(first_step_) || schedule_.is_look(first_step_))
       look();
     else
-      last_ = observe(simulation_.state());
+      measurements_.look(simulation_.state());
   }
 
   void look() {
-    observe_all();
+    fail_if_too_fast(simulation_.state());
+    measurements_.look(simulation_.state());
     heed_limits();
   }
 
-  void observe_all() {
-    fail_if_too_fast(simulation_.state());
-    last_ = observe(simulation_.state());
-  }
-
   void heed_limits() {
-    fail_if_through_a_wall(simulation_.state(), last_);
-    for (const std::string& message : limits_.newly_exceeded(simulation_.state(), last_)) {
+    const Observables& seen = measurements_.last();
+    fail_if_through_a_wall(simulation_.state(), seen);
+    for (const std::string& message : limits_.newly_exceeded(simulation_.state(), seen)) {
       if (limits_.stops()) throw LimitExceeded(message);
       progress_.finish();
       tell("riesel: {}\n", message);
@@ -265,8 +247,8 @@ private:
             .warnings = limits_.warnings(),
             .rows = files_.rows(),
             .wall_seconds = wall_seconds(),
-            .profiles = profiles_,
-            .histograms = histograms_.blocks()};
+            .profiles = measurements_.profiles(),
+            .histograms = measurements_.histograms()};
   }
 
   /// The series and the trajectory first: the checkpoint counts their rows and frames.
@@ -275,9 +257,8 @@ private:
     files_.flush(simulation_.state());
     io::write_checkpoint(files_.directory().file(io::checkpoint_name), checkpoint());
     last_checkpoint_ = Clock::now();
-    rows_saved_ = files_.rows();
     times_.output += seconds_since(start);
-    longest_save_ = std::max(longest_save_, seconds_since(start));
+    time_limit_.note_save(seconds_since(start), files_.rows());
     tell_more("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
               files_.rows(), seconds_since(start));
   }
@@ -317,17 +298,19 @@ private:
   int tell_result() {
     files_.directory().require_in_place();
     const io::RunSummary run = run_summary();  // of the time up to here
+    const Strips& strips = measurements_.strips();
+    const TimeBlocks& profiles = measurements_.profiles();
     io::FlowSummary s =
-        summarise({files_.record(), strips_, profiles_, interval(), limits_.warnings()},
-                  simulation_.state(), simulation_.model(), last_);
+        summarise({files_.record(), strips, profiles, interval(), limits_.warnings()},
+                  simulation_.state(), simulation_.model(), measurements_.last());
     s.run = run;
     s.ended_by = ended_by();
     files_.record().write_validity(s.validity.verdict);
     const std::int64_t first = std::llround(s.transient_end / interval());  // sample after that
     files_.record().write_profiles(
-        strips_, tube_profiles(profiles_, strips_, each_strip(strips_), first), s.transient_end);
+        strips, tube_profiles(profiles, strips, each_strip(strips), first), s.transient_end);
     files_.record().write_histograms(
-        histogram_tables(simulation_.state().tally, histograms_.blocks(), first, interval()),
+        histogram_tables(simulation_.state().tally, measurements_.histograms(), first, interval()),
         s.transient_end);
     files_.record().flush();
     io::write_durably(files_.directory().file(io::summary_name), io::to_json(s));
@@ -358,7 +341,6 @@ private:
 
   const io::Settings settings_;
   const Past past_;
-  const std::optional<double> max_walltime_;  // s
   const Verbosity verbosity_;
   const Schedule schedule_;
   const int threads_;
@@ -366,18 +348,13 @@ private:
   const std::uint64_t run_;  // see Checkpoint::run
   LimitWatch limits_;
   RunFiles files_;
-  const Strips strips_;
-  TimeBlocks profiles_;
-  HistogramBlocks histograms_;
-  Observables last_;
+  FlowMeasurements measurements_;
   Progress progress_;
   Pace pace_;
+  TimeLimit time_limit_;
   std::string precision_so_far_;  // for the line of progress
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
-  double longest_piece_ = 0.0;  // s, of stepping between two looks at the clock
-  double longest_save_ = 0.0;   // s
-  std::int64_t rows_saved_ = 0;
   RunTimes times_;
 };
 
