@@ -1,8 +1,9 @@
 """Fig. 6: the slow and the fast branch of three stiffnesses, seeds together."""
 from results import print_table, save
-from tube import grouped, over_seeds, plus_minus, runs_of, runs_of_all, seeds_text, stay_cells
+from tube import grouped, over_seeds, plus_minus, runs_of, runs_of_all, seeds_text, stay_cells, steady_of
 
 LONG_ENOUGH = 3.0  # s, for a fast run to settle
+SAME = 0.05  # part of a velocity by which runs may differ that approach the same state
 COLORS = {200.0: "C2", 2000.0: "C0", 2e5: "C3"}
 
 
@@ -11,7 +12,7 @@ COLORS = {200.0: "C2", 2000.0: "C0", 2e5: "C3"}
 def slow_row(k_n, e_n, runs):
     stay, velocity = stay_cells(runs)
     return (k_n, e_n, stay, f"{sum(run.lost for run in runs)} of {len(runs)}", velocity,
-            f"{sum(run.state == 'steady' for run in runs if run.stays)}", f"{max(run.brake_failure for run in runs):.1g}")
+            steady_of(run for run in runs if run.stays), f"{max(run.brake_failure for run in runs):.1g}")
 
 
 def fig6(tables, out, plt):
@@ -30,9 +31,9 @@ def draw_fig6(plt, slow, fast):
         for (e_n,), runs in grouped([run for run in slow if run.k_n == k_n and run.stays], "e_n"):
             draw_state(axes, e_n, runs, color, marker="o")
         for state in (state for state in fast if state.k_n == k_n):
-            if state.settled:
-                draw_state(axes, state.e_n, state.settled, color, marker="^", markerfacecolor="none")
-            else:
+            for runs in state.states:
+                draw_state(axes, state.e_n, runs, color, marker="^", markerfacecolor="none")
+            if not state.settled:
                 axes.vlines(state.e_n, *state.between, color=color, linewidth=4)
         axes.set(xlabel="e_N", title=f"k_N = {k_n:g} N/m", yscale="log", xlim=(0.55, 1), ylim=(1, 1000))
     panels[0].set_ylabel("mean axial velocity (m/s)")
@@ -66,15 +67,26 @@ class FastState:
         self.between = (max(below, default=0.0), min(above, default=float("inf")))
 
     @property
+    def states(self):
+        """Of the settled runs those that lasted longest, each list of one state: starts that have not come to the same
+        velocity are of two."""
+        if not self.settled:
+            return []
+        longest = [run for run in self.settled if run.time == max(run.time for run in self.settled)]
+        starts = [of_this for _, of_this in grouped(longest, "start")]
+        means = [over_seeds([run.velocity for run in start])[0] for start in starts]
+        return starts if max(means) > (1 + SAME) * min(means) else [longest]
+
+    @property
     def text(self):
         if self.settled:
-            return seeds_text([run.velocity for run in self.settled])
+            return " and ".join(seeds_text([run.velocity for run in runs]) for runs in self.states)
         low, high = self.between
         return f"above {low:.3g}" if high == float("inf") else f"{low:.3g} to {high:.3g}"
 
 
 def fast_states(tables):
-    runs = runs_of_all(tables, ("fig6_fast", "fig6_above", "fig6_stiff"))
+    runs = runs_of_all(tables, ("fig6_fast", "fig6_stiff"))
     return [FastState(*place, of_this) for place, of_this in sorted(grouped(runs, "k_n", "e_n"))]
 
 
@@ -83,30 +95,25 @@ def end_of(name, runs, digits="3g"):
     return plus_minus(*over_seeds(values)) if len(values) > 1 else f"{values[0]:.{digits}}"
 
 
+def states_of(runs):
+    return ", ".join(dict.fromkeys(run.state.replace("_", " ") for run in runs))
+
+
 def fast_row(k_n, e_n, start, runs):
-    states = ", ".join(dict.fromkeys(run.state.replace("_", " ") for run in runs))
-    return (k_n, e_n, start, runs[0].time, len(runs), end_of("velocity_5", runs), end_of("share_5", runs, "2f"), states,
-            f"{max(run.brake_failure for run in runs):.2g}", f"{min(run.steps_per_contact for run in runs):.2g}")
+    return (k_n, e_n, start, runs[0].time, len(runs), end_of("velocity_5", runs), end_of("share_5", runs, "2f"),
+            states_of(runs), f"{max(run.brake_failure for run in runs):.2g}",
+            f"{min(run.steps_per_contact for run in runs):.2g}")
 
 
 def fig6_fast(tables, out, plt):
     states = fast_states(tables)
-    print_table("Fig. 6, fast branch: the states", ("k_N (N/m)", "e_N", "fast state (m/s)", "settled"),
-                [(s.k_n, s.e_n, s.text, f"{len(s.settled)} of {len(s.runs)}") for s in states])
+    print_table("Fig. 6, fast branch: the states", ("k_N (N/m)", "e_N", "fast state (m/s)", "settled", "steady"),
+                [(s.k_n, s.e_n, s.text, f"{len(s.settled)} of {len(s.runs)}", steady_of(s.settled)) for s in states])
     print_table("Fig. 6, fast branch: the runs; in the last fifth of each",
                 ("k_N (N/m)", "e_N", "start (m/s)", "time (s)", "seeds", "v_y at the end (m/s)", "n_dot dv_y / g", "state",
                  "brake failure", "steps per contact"),
                 [fast_row(s.k_n, s.e_n, start, runs) for s in states for (start,), runs in grouped(s.runs, "start")])
-    print_checks(runs_of(tables / "fig6_checks.csv"))
     save(draw_fast(plt, [run for s in states for run in s.runs]), out / "fig6_fast.svg")
-
-
-def print_checks(runs):
-    print_table("Fig. 6, fast branch: time step and attraction",
-                ("k_N (N/m)", "e_N", "start (m/s)", "steps per collision", "attraction", "time (s)", "v_y at the end (m/s)",
-                 "n_dot dv_y / g", "sigma_vx (m/s)", "steps per contact", "state"),
-                [(run.k_n, run.e_n, run.start, run.steps, run.attraction, run.time, run.velocity_5, f"{run.share_5:.2f}",
-                  f"{run.sigma_vx_5:.2g}", f"{run.steps_per_contact:.2g}", run.state.replace("_", " ")) for run in runs])
 
 
 def draw_fast(plt, runs):

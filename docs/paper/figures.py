@@ -17,6 +17,7 @@ from fig6 import fig6, fig6_fast
 from fig6_balance import fig6_balance
 from fig6_map import fig6_map
 from fig6_short import fig6_short
+from fig6_steps import fig6_steps
 from fig6_thresholds import fig6_thresholds
 from impacts import fig3, fig4_5
 from results import Missing
@@ -33,6 +34,7 @@ def main():
                "fig4_5": lambda: fig4_5(sweeps, out, plt),
                "fig6": lambda: fig6(HERE, out, plt),
                "fig6_fast": lambda: fig6_fast(HERE, out, plt),
+               "fig6_steps": lambda: fig6_steps(HERE, out, plt),
                "fig6_thresholds": lambda: fig6_thresholds(HERE, out, plt),
                "fig6_short": lambda: fig6_short(HERE, out, plt),
                "fig6_map": lambda: fig6_map(HERE, out, plt),

@@ -82,7 +82,7 @@ def row_of(sweep, row):
             "branch": row.get("branch", ""), "start": row.get("start.axial_velocity", ""),
             "leg": row.get("leg", ""), "seed": row["seed"], "grains": grains,
             "steps": row.get("run.steps_per_collision", ""), "attraction": row.get("contact.attraction", ""),
-            "time": summary["time"], "state": summary["state"], "velocity": flow["value"],
+            "time": summary["time"], "time_step": summary["time"] / summary["steps"], "state": summary["state"], "velocity": flow["value"],
             "velocity_error": flow["error"], "independent_samples": summary["independent_samples"],
             "transient_end": summary["transient_end"]}
     for name in ("sigma_vx", "sigma_vy"):

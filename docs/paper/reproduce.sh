@@ -12,11 +12,12 @@ Usage: docs/paper/reproduce.sh FIGURE...
 
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (a minute)
-  fig6_short   tube of 100 mm, one seed, 3 s (a quarter to half an hour on two cores)
-  fig6         tube, slow starts of three stiffnesses, three seeds (half an hour on two cores), and the next one
-  fig6_fast    tube, starts from below and above the fast states; time step, attraction (half an hour)
-  fig6_thresholds  end of the slow branch over spacing, width and length, three seeds; hysteresis, lifetimes (half an hour)
+  fig6         tube, slow starts of three stiffnesses, ten seeds, and the next one (an hour on two cores)
+  fig6_fast    tube, starts from below and above the fast states (half an hour)
+  fig6_steps   the same, and what time step and attraction make of the fast states (an hour)
+  fig6_thresholds  end of the slow branch over spacing, width and length, ten seeds; hysteresis, lifetimes (an hour)
   fig6_map     tube, slow and fast starts over the spacing of the wall grains (ten minutes)
+  fig6_short   tube of 100 mm, one seed, 3 s (five minutes)
   fig6_balance predicted states from single impacts (seconds; reads the tables and runs of the first two)
 
 The program is \$RIESEL, or else $riesel (./setup.sh build).
@@ -44,8 +45,9 @@ reproduce() {
       sweep fig6_short
       cp sweeps/fig6_short/sweep.csv docs/paper/fig6_short.csv
       ;;
-    fig6) campaigns fig6_slow fig6_fast fig6_above fig6_stiff ;;
-    fig6_fast) campaigns fig6_fast fig6_above fig6_stiff fig6_checks ;;
+    fig6) campaigns fig6_slow fig6_fast fig6_stiff ;;
+    fig6_fast) campaigns fig6_fast fig6_stiff ;;
+    fig6_steps) campaigns fig6_fast fig6_stiff fig6_checks fig6_locking ;;
     fig6_thresholds) campaigns fig6_slow fig6_spacing fig6_narrow fig6_length fig6_choices fig6_clipped
       campaigns fig6_hysteresis fig6_lifetimes ;;
     fig6_map) campaigns fig6_map ;;

@@ -8,7 +8,7 @@ from results import rows_of
 WINDOWS = 5  # equal parts of a run, of which the table has means: velocity_1 to velocity_5, and so on
 WORDS = ("point", "branch", "leg", "state", "attraction", "verdict", "commit")
 # 68 % points: errors of the mean of so many seeds, in standard errors.
-STUDENT = {2: 1.84, 3: 1.32, 4: 1.20, 5: 1.14, 6: 1.11, 7: 1.09, 8: 1.08}
+STUDENT = {2: 1.84, 3: 1.32, 4: 1.20, 5: 1.14, 6: 1.11, 7: 1.09, 8: 1.08, 9: 1.07, 10: 1.06}
 
 
 class Run:
@@ -81,7 +81,14 @@ def stay_cells(runs):
     return f"{len(stay)} of {len(runs)}", seeds_text(stay) if stay else ""
 
 
+def steady_of(runs):
+    """How many of them have this verdict."""
+    return f"{sum(run.state == 'steady' for run in runs)}"
+
+
 def plus_minus(value, error):
-    """1.234 ± 0.056: two digits of the error."""
+    """1.234 ± 0.056: two digits of the error; the value alone if they agree in all digits that are kept."""
+    if error == 0:
+        return f"{value:.5g}"
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     return f"{value:.{digits}f} ± {error:.{digits}f}"

@@ -10,16 +10,17 @@ DOCS = SHIPPED.parent / "docs"
 sys.path.insert(0, str(DOCS / "paper"))
 
 from fig6 import fast_states  # noqa: E402
-from fig6_thresholds import Threshold, thresholds  # noqa: E402
+from fig6_thresholds import Threshold, ends_by, thresholds  # noqa: E402
 from tube import Run, grouped, plus_minus, runs_of, seeds_text, stay_cells  # noqa: E402
 
 PAGE, LONG_TABLES = DOCS / "paper.md", DOCS / "paper-tables.md"
 
 # file: number of its points
 POINTS = {
-    "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_slow": 54, "fig6_fast": 36,
-    "fig6_above": 5, "fig6_stiff": 26, "fig6_checks": 18, "fig6_clipped": 15, "fig6_spacing": 31, "fig6_narrow": 63,
-    "fig6_length": 12, "fig6_choices": 39, "fig6_hysteresis": 26, "fig6_lifetimes": 12, "fig6_map": 60, "fig6_curves": 4,
+    "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_slow": 250, "fig6_fast": 42,
+    "fig6_stiff": 16, "fig6_checks": 54, "fig6_locking": 22, "fig6_clipped": 50, "fig6_spacing": 190, "fig6_narrow": 210,
+    "fig6_length": 100, "fig6_choices": 230, "fig6_hysteresis": 78, "fig6_lifetimes": 150, "fig6_map": 180,
+    "fig6_curves": 4,
 }
 
 
@@ -55,7 +56,7 @@ class Paper(CommandTest):
         self.assert_quoted("fig3")
 
     def test_the_numbers_of_fig_6_are_those_of_the_kept_tables(self):
-        for figure in ("fig6", "fig6_fast", "fig6_thresholds", "fig6_short", "fig6_map"):
+        for figure in ("fig6", "fig6_fast", "fig6_steps", "fig6_thresholds", "fig6_short", "fig6_map"):
             with self.subTest(figure):
                 self.assert_quoted(figure)
 
@@ -71,10 +72,10 @@ class Paper(CommandTest):
         self.assert_one_message(done.stderr.replace("figures.py:", "riesel:", 1), "reproduce.sh")
 
 
-def slow_run(e_n, seed, share_5="1.0", **other):
+def slow_run(e_n, seed, **other):
     """A run on the slow branch, as a row of a kept table."""
     return Run({"e_n": str(e_n), "seed": str(seed), "state": "too_short", "share": "1.01", "share_error": "0.02",
-                "share_5": share_5, "brake_failure": "0.001"} | other)
+                "share_5": "1.0", "brake_failure": "0.001"} | other)
 
 
 def runaway(e_n, seed):
@@ -109,14 +110,34 @@ class Thresholds(unittest.TestCase):
         self.assertFalse(late.stays)
         self.assertTrue(slow_run(0.84, 1, share_5="0.9").stays)
 
-    def test_the_end_lies_between_where_all_seeds_are_lost_and_where_all_stay(self):
-        threshold = Threshold([runaway(0.85, 1), runaway(0.85, 2), runaway(0.87, 1), slow_run(0.87, 2),
-                               slow_run(0.9, 1), slow_run(0.9, 2), slow_run(0.95, 1)])
-        self.assertEqual((threshold.text, threshold.seeds), ("0.85 to 0.9", [2, 2]))
+    def test_the_end_is_the_mean_place_where_starts_are_lost(self):
+        end = Threshold([runaway(0.83, 1), runaway(0.83, 2), runaway(0.85, 1), runaway(0.85, 2), runaway(0.87, 1),
+                         slow_run(0.87, 2), slow_run(0.9, 1), slow_run(0.9, 2), slow_run(0.95, 1)])
+        self.assertEqual((end.all_lost, end.none_lost, end.seeds), (0.85, 0.9, [1, 2]))
+        # Half of them between 0.85 and 0.87, half between 0.87 and 0.9.
+        self.assertAlmostEqual(end.value, (0.86 + 0.885) / 2)
+        of_places = (0.01**2 + 0.015**2) / 12
+        of_seeds = 0.025**2 * 0.25
+        self.assertAlmostEqual(end.error, (of_places + of_seeds) ** 0.5)
+        self.assertEqual(end.text, plus_minus(end.value, end.error))
+
+    def test_an_end_within_one_step_may_be_anywhere_in_it(self):
+        end = Threshold([runaway(0.85, seed) for seed in range(10)] + [slow_run(0.86, seed) for seed in range(10)])
+        self.assertAlmostEqual(end.value, 0.855)
+        self.assertAlmostEqual(end.error, 0.01 / 12**0.5)
 
     def test_an_end_that_was_not_found_is_told_as_a_bound(self):
         self.assertEqual(Threshold([runaway(0.97, 1), runaway(0.99, 1)]).text, "above 0.99")
         self.assertEqual(Threshold([slow_run(0.65, 1), slow_run(0.8, 1)]).text, "below 0.65")
+        self.assertEqual(Threshold([runaway(0.85, 1), runaway(0.87, 1), slow_run(0.87, 2)]).text, "above 0.85")
+
+    def test_ends_of_shorter_times_count_what_is_lost_by_then(self):
+        def run(e_n, *shares):
+            return slow_run(e_n, 1, time="10", **{f"share_{i}": str(share) for i, share in enumerate(shares, start=1)})
+        runs = [run(0.85, 0.1, 0, 0, 0, 0), run(0.86, 1, 1, 0.3, 0.1, 0), run(0.87, 1, 1, 1, 1, 1)]
+        ends = dict(ends_by(runs))
+        self.assertEqual((ends[4.0].all_lost, ends[4.0].none_lost), (0.85, 0.86))
+        self.assertEqual((ends[6.0].all_lost, ends[6.0].none_lost), (0.86, 0.87))
 
     def test_seeds_give_a_mean_with_the_error_of_so_few(self):
         self.assertEqual(seeds_text([1.0, 2.0, 3.0]), plus_minus(2.0, 1.32 / 3**0.5))
