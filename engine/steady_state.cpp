@@ -15,6 +15,14 @@ bool is_runaway(const TrendEstimate& trend, double mean, double trend_duration,
   return trend.slope > 0.0 && (gains || falls);
 }
 
+/// Whether the flow falls at the end, after it had been held for most of the run: the trend of the
+/// whole does not tell, as a bend is no line.
+bool breaks_away(std::span<const double> velocities, std::optional<double> free_fall_gain) {
+  if (!free_fall_gain) return false;
+  const TrendEstimate end = estimate_trend(velocities.last(velocities.size() / 5));
+  return is_significant(end) && end.slope >= breakaway_fraction * *free_fall_gain;
+}
+
 // The trend comes first: a fall looks like one long correlation, and would pass for too short.
 SteadyVerdict verdict_on(const MeanEstimate& mean, const TrendEstimate& trend,
                          double trend_duration, bool has_arrived,
@@ -46,7 +54,9 @@ SteadyState assess_steady_state(std::span<const double> velocities,
   const MeanEstimate mean = estimate_mean(velocities.subspan(transient_end));
   const TrendEstimate trend = estimate_trend(velocities.subspan(trend_start));
   const auto trend_duration = static_cast<double>(velocities.size() - trend_start);
-  return {.verdict = verdict_on(mean, trend, trend_duration, has_arrived, free_fall_gain),
+  return {.verdict = breaks_away(velocities, free_fall_gain)
+                         ? SteadyVerdict::accelerating
+                         : verdict_on(mean, trend, trend_duration, has_arrived, free_fall_gain),
           .transient_end = transient_end,
           .mean = mean.mean,
           .error = mean.error,

@@ -36,6 +36,10 @@ struct SteadyState {
 /// part of the mean, or if it is this part of free fall.
 inline constexpr double runaway_fraction = 0.1;
 
+/// So is a significant growth in the last fifth of the series that is this part of free fall,
+/// whatever there was before.
+inline constexpr double breakaway_fraction = 0.5;
+
 /// Judges a series of velocities (positive downstream), sampled at even intervals. `free_fall_gain`
 /// is what a grain in free fall gains per sample interval, g times the interval, in the unit of the
 /// samples. The transient is twice what MSER-5 cuts; a run of which MSER-5 cuts more than two

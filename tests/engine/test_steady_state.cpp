@@ -5,6 +5,7 @@
 
 #include "tests/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -108,6 +109,28 @@ TEST_CASE("at high speed a runaway is told by gravity", "[steady_state]") {
   CHECK(riesel::assess_steady_state(series).verdict == SteadyVerdict::drifting);
   CHECK(riesel::assess_steady_state(series, 3.0 / 2000).verdict == SteadyVerdict::accelerating);
   CHECK(riesel::assess_steady_state(series, 30.0 / 2000).verdict == SteadyVerdict::drifting);
+}
+
+TEST_CASE("a flow that breaks away at the end accelerates, however long it was held",
+          "[steady_state]") {
+  // 3 s at 2 m/s, held until so much of the time has passed, and free fall from there on.
+  const double held = GENERATE(0.5, 0.7, 0.8, 0.84);
+  const double gravity = 10.0, time = 3.0;
+  const auto velocity = [&](double passed) {
+    return 2.0 + gravity * time * std::max(0.0, passed - held);
+  };
+  int accelerating = 0;
+  int held_to_the_end = 0;
+  for (unsigned seed = 0; seed < runs; ++seed) {
+    const auto judge = [&](const std::function<double(double)>& signal) {
+      return riesel::assess_steady_state(noisy(300, 0.05, 0.9, seed, signal), gravity * time / 300)
+          .verdict;
+    };
+    accelerating += judge(velocity) == SteadyVerdict::accelerating;
+    held_to_the_end += judge([](double) { return 2.0; }) != SteadyVerdict::accelerating;
+  }
+  CHECK(accelerating >= 99);
+  CHECK(held_to_the_end == runs);
 }
 
 TEST_CASE("slowing down is a drift, however fast", "[steady_state]") {

@@ -258,6 +258,8 @@ FAULTS = [
     ("a verdict that wants no samples", "engine/steady_state.cpp",
      "if (!has_arrived || mean.independent_samples < min_independent_samples) {",
      "if (!has_arrived) {"),
+    ("a flow that breaks away unnoticed", "engine/steady_state.cpp",
+     "return is_significant(end) && end.slope >= breakaway_fraction * *free_fall_gain;", "return false;"),
     ("a transient cut once only", "engine/steady_state.cpp",
      "const std::size_t transient_end = has_arrived ? 2 * cut : cut;",
      "const std::size_t transient_end = cut;"),
