@@ -24,8 +24,7 @@ def fig6(tables, out, plt):
 
 
 def draw_fig6(plt, slow, fast):
-    """Full: the slow branch, mean of the seeds that stay. Open: the fast states; bars without a symbol: between which
-    velocities one lies."""
+    """Full: the slow branch, mean of the seeds that stay. Open: the fast states."""
     figure, panels = plt.subplots(1, len(COLORS), figsize=(10, 3.4), sharey=True)
     for axes, (k_n, color) in zip(panels, COLORS.items()):
         for (e_n,), runs in grouped([run for run in slow if run.k_n == k_n and run.stays], "e_n"):
@@ -33,13 +32,10 @@ def draw_fig6(plt, slow, fast):
         for state in (state for state in fast if state.k_n == k_n):
             for runs in state.states:
                 draw_state(axes, state.e_n, runs, color, marker="^", markerfacecolor="none")
-            if not state.settled:
-                axes.vlines(state.e_n, *state.between, color=color, linewidth=4)
         axes.set(xlabel="e_N", title=f"k_N = {k_n:g} N/m", yscale="log", xlim=(0.55, 1), ylim=(1, 1000))
     panels[0].set_ylabel("mean axial velocity (m/s)")
     panels[0].plot([], [], "ko", label="slow branch")
     panels[0].plot([], [], "k^", markerfacecolor="none", label="fast branch")
-    panels[0].plot([], [], "k", linewidth=4, label="between which velocities it lies")
     panels[0].legend(fontsize=7)
     return figure
 
@@ -53,18 +49,12 @@ def draw_state(axes, e_n, runs, color, **symbol):
 # --- The fast branch ---
 
 class FastState:
-    """All fast starts at one stiffness and e_N: those that have settled, and between which velocities the state lies by
-    the others, of which the wall carries less than the weight from below and more from above. In a short run the grains
-    hardly leave the velocity of their start, so that it settles nothing."""
+    """All fast starts at one stiffness and e_N. In a short run the grains hardly leave the velocity of their start, so that it
+    settles nothing."""
 
     def __init__(self, k_n, e_n, runs):
         self.k_n, self.e_n, self.runs = k_n, e_n, runs
-        fast = [run for run in runs if run.lost]
-        self.settled = [run for run in fast if run.settled and run.time >= LONG_ENOUGH]
-        starts = [of_this for _, of_this in grouped(fast, "start")]
-        below = [run.velocity_5 for start in starts if all(run.share_5 < 1 for run in start) for run in start]
-        above = [run.velocity_5 for start in starts if all(run.share_5 > 1 for run in start) for run in start]
-        self.between = (max(below, default=0.0), min(above, default=float("inf")))
+        self.settled = [run for run in runs if run.lost and run.settled and run.time >= LONG_ENOUGH]
 
     @property
     def states(self):
@@ -79,10 +69,7 @@ class FastState:
 
     @property
     def text(self):
-        if self.settled:
-            return " and ".join(seeds_text([run.velocity for run in runs]) for runs in self.states)
-        low, high = self.between
-        return f"above {low:.3g}" if high == float("inf") else f"{low:.3g} to {high:.3g}"
+        return " and ".join(seeds_text([run.velocity for run in runs]) for runs in self.states)
 
 
 def fast_states(tables):

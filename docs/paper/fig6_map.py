@@ -9,8 +9,7 @@ def state_cell(runs):
     """The velocity if all seeds have one, else how far their fall has come in the last window."""
     if all(run.settled for run in runs):
         return seeds_text([run.velocity for run in runs])
-    velocity, share = (seeds_text([getattr(run, name) for run in runs]) for name in ("velocity_5", "share_5"))
-    return f"falls: {velocity}, wall {share}"
+    return f"falls: {mean(run.velocity_5 for run in runs):.3g}, wall {mean(run.share_5 for run in runs):.2f}"
 
 
 def fig6_map(tables, out, plt):

@@ -4,6 +4,7 @@ from itertools import pairwise
 from results import print_table, save
 from tube import WINDOWS, grouped, plus_minus, runs_of_all, stay_cells, steady_of
 
+MAP = 50  # mm, length of the tubes of fig6_map, whose e_N lie far apart
 TABLES = ("fig6_slow", "fig6_spacing", "fig6_narrow", "fig6_length", "fig6_choices", "fig6_clipped", "fig6_map")
 
 
@@ -74,7 +75,7 @@ def draw_thresholds(plt, found):
     figure, axes = plt.subplots(figsize=(6, 3.4))
     shifts = {24: -0.008, 96: 0.008}
     for (k_n, width, length, spacing, attraction), end in found:
-        if k_n != 2000 or attraction != "keep" or end.all_lost is None:
+        if k_n != 2000 or attraction != "keep" or length == MAP or end.all_lost is None:
             continue
         axes.errorbar(spacing + shifts.get(length, 0.0), end.value or end.all_lost, end.error or 0.006,
                       lolims=end.value is None, color={10: "C1", 20: "C0"}[width],
