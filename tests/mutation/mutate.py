@@ -84,9 +84,14 @@ def check_texts(sources):
 
 
 def update_copy():
-    """Only files that differ are written: a build of before is used, and forgets a fault that was left in."""
+    """Only files that differ are written: a build of before is used, and forgets a fault that was left in. What is not
+    committed any more goes."""
     files = subprocess.run(["git", "-C", HOME, "archive", "HEAD"], stdout=subprocess.PIPE, check=True)
     with tarfile.open(fileobj=io.BytesIO(files.stdout)) as archive:
+        committed = {COPY / name for name in archive.getnames()}
+        for path in COPY.rglob("*"):
+            if path.is_file() and path not in committed:
+                path.unlink()
         for member in filter(tarfile.TarInfo.isfile, archive):
             path, content = COPY / member.name, archive.extractfile(member).read()
             if not path.exists() or path.read_bytes() != content:
