@@ -1,6 +1,8 @@
 """Fig. 6: the slow and the fast branch of three stiffnesses, seeds together."""
+from statistics import mean
+
 from results import print_table, save
-from tube import grouped, over_seeds, plus_minus, runs_of, runs_of_all, seeds_text, stay_cells, steady_of
+from tube import grouped, mean_text, over_seeds, runs_of, runs_of_all, stay_cells, steady_of
 
 LONG_ENOUGH = 3.0  # s, for a fast run to settle
 SAME = 0.05  # part of a velocity by which runs may differ that approach the same state
@@ -64,12 +66,12 @@ class FastState:
             return []
         longest = [run for run in self.settled if run.time == max(run.time for run in self.settled)]
         starts = [of_this for _, of_this in grouped(longest, "start")]
-        means = [over_seeds([run.velocity for run in start])[0] for start in starts]
+        means = [mean(run.velocity for run in start) for start in starts]
         return starts if max(means) > (1 + SAME) * min(means) else [longest]
 
     @property
     def text(self):
-        return " and ".join(seeds_text([run.velocity for run in runs]) for runs in self.states)
+        return " and ".join(mean_text("velocity", runs) for runs in self.states)
 
 
 def fast_states(tables):
@@ -77,17 +79,12 @@ def fast_states(tables):
     return [FastState(*place, of_this) for place, of_this in sorted(grouped(runs, "k_n", "e_n"))]
 
 
-def end_of(name, runs, digits="3g"):
-    values = [getattr(run, name) for run in runs]
-    return plus_minus(*over_seeds(values)) if len(values) > 1 else f"{values[0]:.{digits}}"
-
-
 def states_of(runs):
     return ", ".join(dict.fromkeys(run.state.replace("_", " ") for run in runs))
 
 
 def fast_row(k_n, e_n, start, runs):
-    return (k_n, e_n, start, runs[0].time, len(runs), end_of("velocity_5", runs), end_of("share_5", runs, "2f"),
+    return (k_n, e_n, start, runs[0].time, len(runs), mean_text("velocity_5", runs), mean_text("share_5", runs),
             states_of(runs), f"{max(run.brake_failure for run in runs):.2g}",
             f"{min(run.steps_per_contact for run in runs):.2g}")
 

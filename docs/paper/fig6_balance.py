@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from impacts import curves_of
 from results import print_table, rows_of, save
-from tube import at_default_spacing, grouped, runs_of, seeds_text
+from tube import at_default_spacing, grouped, mean_text, runs_of
 
 GRAVITY = 10.0  # m/s^2, scenarios/periodic_tube.yaml
 
@@ -69,7 +69,7 @@ class Case:
         return mean(getattr(run, name) for run in self.runs)
 
     def text(self, name):
-        return seeds_text([getattr(run, name) for run in self.runs])
+        return mean_text(name, self.runs)
 
 
 def settled_states(tables):

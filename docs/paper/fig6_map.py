@@ -2,13 +2,13 @@
 from statistics import mean
 
 from results import print_table, save
-from tube import grouped, runs_of, seeds_text
+from tube import grouped, mean_text, runs_of
 
 
 def state_cell(runs):
     """The velocity if all seeds have one, else how far their fall has come in the last window."""
     if all(run.settled for run in runs):
-        return seeds_text([run.velocity for run in runs])
+        return mean_text("velocity", runs)
     return f"falls: {mean(run.velocity_5 for run in runs):.3g}, wall {mean(run.share_5 for run in runs):.2f}"
 
 

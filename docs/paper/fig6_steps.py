@@ -1,21 +1,21 @@
 """Fig. 6: what the time step makes of the fast branch, and the pull of the dashpot."""
-from fig6 import end_of, fast_states, states_of
+from statistics import mean
+
+from fig6 import fast_states, states_of
 from results import print_table, save
-from tube import grouped, over_seeds, runs_of
+from tube import grouped, mean_text, runs_of
 
 
 def fig6_steps(tables, out, plt):
     print_checks(runs_of(tables / "fig6_checks.csv"))
-    settled = [run for state in fast_states(tables) for run in state.settled]
-    print_rhythm("Fig. 6, fast branch: steps for the way from one wall grain to the next, t_col / 50",
-                 grouped(settled, "k_n", "e_n", "start"))
+    print_rhythm([run for state in fast_states(tables) for run in state.settled])
     locking = runs_of(tables / "fig6_locking.csv")
     print_locking(locking)
     save(draw_locking(plt, locking), out / "fig6_steps.svg")
 
 
 def check_row(place, runs):
-    return (*place, end_of("velocity_5", runs), end_of("share_5", runs, "2f"), end_of("sigma_vx_5", runs, "2g"),
+    return (*place, *(mean_text(name, runs) for name in ("velocity_5", "share_5", "sigma_vx_5")),
             f"{min(run.steps_per_contact for run in runs):.2g}", states_of(runs))
 
 
@@ -34,11 +34,15 @@ def steps_per_spacing(run):
     return run.spacing / (run.velocity_wall * run.time_step)
 
 
-def print_rhythm(title, groups):
-    print_table(title, ("k_N (N/m)", "e_N", "start (m/s)", "v_y (m/s)", "v_y at the wall (m/s)", "steps per spacing"),
-                [(*place, *(f"{over_seeds([value(run) for run in runs])[0]:.2f}" for value in
-                            (lambda run: run.velocity, lambda run: run.velocity_wall, steps_per_spacing)))
-                 for place, runs in groups])
+def rhythm_row(place, runs):
+    means = (mean(run.velocity for run in runs), mean(run.velocity_wall for run in runs), mean(map(steps_per_spacing, runs)))
+    return (*place, *(f"{value:.2f}" for value in means))
+
+
+def print_rhythm(runs):
+    print_table("Fig. 6, fast branch: steps for the way from one wall grain to the next, t_col / 50",
+                ("k_N (N/m)", "e_N", "start (m/s)", "v_y (m/s)", "v_y at the wall (m/s)", "steps per spacing"),
+                [rhythm_row(*group) for group in grouped(runs, "k_n", "e_n", "start")])
 
 
 def print_locking(runs):

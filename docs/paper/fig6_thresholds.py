@@ -23,8 +23,8 @@ class Threshold:
         self.none_lost = min((e_n for e_n, _, part in points if part == 0 and e_n > (self.all_lost or 0)), default=None)
         self.value, self.error = None, None
         if self.all_lost is not None and self.none_lost is not None:
-            self.value, self.error = mean_and_error([point for point in points
-                                                     if self.all_lost <= point[0] <= self.none_lost])
+            self.value, self.error = spearman_kaerber(
+                [point for point in points if self.all_lost <= point[0] <= self.none_lost])
 
     @property
     def text(self):
@@ -33,10 +33,10 @@ class Threshold:
         return f"below {self.none_lost:g}" if self.all_lost is None else f"above {self.all_lost:g}"
 
 
-def mean_and_error(points):
-    """Of [(e_N, seeds, part that is lost)], from where all are lost to where none is."""
+def spearman_kaerber(points):
+    """Mean and error of [(e_N, seeds, part that is lost)], from where all are lost to where none is."""
     pairs = list(pairwise(points))
-    weights = [(low[2] - high[2]) for low, high in pairs]
+    weights = [low[2] - high[2] for low, high in pairs]
     value = sum(weight * (low[0] + high[0]) / 2 for weight, (low, high) in zip(weights, pairs))
     of_places = sum((weight * (high[0] - low[0])) ** 2 / 12 for weight, (low, high) in zip(weights, pairs))
     of_seeds = sum(((after[0] - before[0]) / 2) ** 2 * part * (1 - part) / max(1, seeds - 1)
@@ -47,8 +47,8 @@ def mean_and_error(points):
 def thresholds(tables):
     """[((k_n, width, length, spacing, attraction), Threshold)], lengths in mm and rounded."""
     runs = [run for run in runs_of_all(tables, TABLES) if run.branch != "fast"]
-    for run in runs:  # older tables have no column for the attraction
-        run.attraction = getattr(run, "attraction", "") or "keep"
+    for run in runs:
+        run.attraction = run.attraction or "keep"
         run.spacing_mm, run.width_mm, run.length_mm = 1e3 * run.spacing, round(1e3 * run.width), round(1e3 * run.length)
     return [(place, Threshold(of_this))
             for place, of_this in grouped(runs, "k_n", "width_mm", "length_mm", "spacing_mm", "attraction")]

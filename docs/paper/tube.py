@@ -75,10 +75,15 @@ def seeds_text(values):
     return f"{value:.3g}" if np.isnan(error) else plus_minus(value, error)
 
 
+def mean_text(name, runs):
+    """Likewise of a column of these runs."""
+    return seeds_text([getattr(run, name) for run in runs])
+
+
 def stay_cells(runs):
     """How many of them stay on the slow branch, and their velocity."""
-    stay = [run.velocity for run in runs if run.stays]
-    return f"{len(stay)} of {len(runs)}", seeds_text(stay) if stay else ""
+    stay = [run for run in runs if run.stays]
+    return f"{len(stay)} of {len(runs)}", mean_text("velocity", stay) if stay else ""
 
 
 def steady_of(runs):
