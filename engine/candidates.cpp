@@ -242,11 +242,9 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
     const double x = state.box.metres_x(state.grains.x[i]);
     if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width)
       mine.lost = first_of(mine.lost, LostGrain{sorted_at_, state.grains.id[i], false});
-    for (std::size_t w = 0; w < state.walls.size(); ++w) {
-      const double reach = state.grains.radius[i] + state.walls[w].reach();
-      if (std::abs(x - state.walls[w].line) < reach + 0.5 * skin_ + room_for_fall)
+    for (std::size_t w = 0; w < state.walls.size(); ++w)
+      if (state.walls[w].is_near(x, state.grains.radius[i], 0.5 * skin_ + room_for_fall))
         mine.near_walls.push_back({static_cast<std::uint32_t>(i), static_cast<std::int32_t>(w)});
-    }
   }
 }
 

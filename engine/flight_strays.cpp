@@ -52,12 +52,11 @@ void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
   if (step < stray.step) return;
   const State& state = airspace_.state;
   const double x = state.box.metres_x(airspace_.courses.x(stray.slot, step));
-  const double reach = state.grains.radius[stray.slot] + airspace_.tolerance;
-  for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall) {
-    const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
-    if (!slice_.has_near(stray.slot, wall) && std::abs(x - lattice.line) < reach + lattice.reach())
+  const double radius = state.grains.radius[stray.slot];
+  for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall)
+    if (!slice_.has_near(stray.slot, wall)
+        && state.walls[static_cast<std::size_t>(wall)].is_near(x, radius, airspace_.tolerance))
       lose(stray, step);
-  }
 }
 
 }  // namespace riesel

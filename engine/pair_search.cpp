@@ -125,14 +125,15 @@ RIESEL_VECTOR_KERNEL void find_close_pairs(const Cells& cells, SlotRange slots,
   close.resize(found);
 }
 
-/// Those that touch the strip in which the wall is at any time.
+/// Those that touch the strip in which the wall is at any time, or almost do.
 void find_at_walls(Slice& slice, const State& state) {
+  constexpr double rounding = 1e-9;  // of the radius
   slice.wall_hits.clear();
   for (std::size_t place = 0; place < slice.near_walls.size(); ++place) {
     const NearWall& near = slice.near_walls[place];
     const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
-    const double distance = std::abs(state.box.metres_x(state.grains.x[near.slot]) - wall.line);
-    if (distance < state.grains.radius[near.slot] + wall.reach())
+    const double radius = state.grains.radius[near.slot];
+    if (wall.is_near(state.box.metres_x(state.grains.x[near.slot]), radius, rounding * radius))
       slice.wall_hits.push_back(static_cast<std::uint32_t>(place));
   }
 }

@@ -84,6 +84,12 @@ struct WallLattice {
   }
   /// m, from its line to the farthest point that it ever covers.
   double reach() const { return radius + std::abs(motion.amplitude_x); }
+  /// Whether a grain with this radius (m) and its centre at `x` (m) is no farther than `room` (m)
+  /// from where the wall can ever be. It comes of rounded numbers, so that whoever must not miss a
+  /// contact asks with some room.
+  bool is_near(double x, double grain, double room) const {
+    return std::abs(x - line) < grain + reach() + room;
+  }
   /// How many bodies it has that can be touched: a plane is one.
   std::int64_t partners() const { return smooth() ? 1 : count; }
   /// m, of the smaller body where a grain of this radius touches: a plane has no size.
