@@ -3,6 +3,7 @@
 #include "app/check_parts.hpp"
 #include "app/cost.hpp"
 #include "app/plain_words.hpp"
+#include "app/stepping.hpp"
 
 #include <algorithm>
 

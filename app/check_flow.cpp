@@ -35,9 +35,8 @@ void print_critical_velocity(double chord_length, double t_col, double fastest) 
 
 void warn_of_open_walls(const State& state) {
   const WallLattice& wall = state.walls.front();
-  const double gap = wall.spacing(state.box) - 2.0 * wall.radius;
-  const double smallest =
-      2.0 * *std::min_element(state.grains.radius.begin(), state.grains.radius.end());
+  const double gap = wall.gap(state.box);
+  const double smallest = 2.0 * std::ranges::min(state.grains.radius);
   if (smallest < gap)
     warn("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may leave the tube; "
          "choose wall.spacing below {:.3g} m",
@@ -59,7 +58,11 @@ double bytes_to_save(std::size_t grains, double rows) {
 
 /// Only if it is worth a thought. `duration`: s, simulated.
 void print_series(double rows, double duration) {
-  constexpr double few = 1e5, many = 1e6;
+  constexpr double hardly_any = 3, few = 1e5, many = 1e6;
+  if (rows < hardly_any)
+    warn("{:.0f} row{} in the series, which is too little for a mean: choose output.interval "
+         "shorter, or run longer",
+         rows, rows == 1.0 ? "" : "s");
   if (rows < few) return;
   line("series", "{:.3g} rows, {:.1f} MB", rows, bytes_of_series(rows) / 1e6);
   if (rows > many)
@@ -111,12 +114,23 @@ void print_bodies(const State& state) {
   warn_of_open_walls(state);
 }
 
+/// The grain of the settings; of a file, which may have others, one of mean size and mass.
+struct TypicalGrain {
+  double mass, radius;  // kg, m
+};
+TypicalGrain typical_grain(const io::Settings& settings, const Grains& grains) {
+  if (settings.text("start.kind") != "file")
+    return {.mass = settings.number("grains.mass"),
+            .radius = 0.5 * settings.number("grains.diameter")};
+  return {.mass = total_mass(grains) / static_cast<double>(grains.size()),
+          .radius = 0.5 * mean_diameter(grains)};
+}
+
 /// `random`: m/s, root mean square of the random velocities at the start, per component.
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
   const State& state = flow.state;
   const NormalLaw& normal = flow.model.normal;
-  const double mass = settings.number("grains.mass");
-  const double radius = 0.5 * settings.number("grains.diameter");
+  const auto [mass, radius] = typical_grain(settings, state.grains);
   // Grains of a normal distribution are rarely faster than four standard deviations; the common
   // fall brings no two together.
   const double fastest = std::max(4.0 * random, 1e-3);
@@ -140,11 +154,13 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
 
 void print_brake(const io::Settings& settings, const scenarios::Flow& flow, double random,
                  double mean_vy) {
+  constexpr double at_rest =
+      1e-6;  // m/s: such grains sink in nowhere, and how others will is not known
   const WallLattice& wall = flow.state.walls.front();
-  if (wall.smooth()) return;
-  const double t_col =
-      collision_time(flow.model.normal, settings.number("grains.mass"), std::max(random, 1e-3));
-  const double reach = 0.5 * settings.number("grains.diameter") + wall.radius;
+  if (wall.smooth() || random < at_rest) return;
+  const auto [mass, radius] = typical_grain(settings, flow.state.grains);
+  const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
+  const double reach = radius + wall.radius;
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/check_parts.hpp"
 #include "app/cost.hpp"
+#include "app/stepping.hpp"
 #include "engine/closed_forms.hpp"
 
 #include <algorithm>

@@ -79,6 +79,8 @@ ProcessEnd end_of(int status) {
 
 }  // namespace
 
+void heed_ends_of_children() { std::signal(SIGCHLD, SIG_DFL); }
+
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
                            const std::filesystem::path& log)
     : id_(start(arguments, log)) {}

@@ -11,6 +11,10 @@
 
 namespace riesel::app {
 
+/// Whoever ignores the ends of its children (SIGCHLD) hands that on to the programs that it starts,
+/// and those could not learn how theirs end. From now on this one can.
+void heed_ends_of_children();
+
 /// How a process ended.
 struct ProcessEnd {
   int status = 0;  ///< exit status, if no signal ended it

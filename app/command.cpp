@@ -2,6 +2,7 @@
 // exit status.
 #include "app/command.hpp"
 
+#include "app/child_process.hpp"
 #include "app/command_words.hpp"
 #include "app/commands.hpp"
 #include "app/completion.hpp"
@@ -327,6 +328,7 @@ int tell_if_not_printed(int status) {
 /// Reads the command line and does what it says.
 int run_program(int argc, char** argv) {
   app::occupy_closed_streams();
+  app::heed_ends_of_children();
   app::end_on_interrupts();
   std::set_new_handler(give_up_without_memory);
   CommandLine line(argc, argv);

@@ -8,7 +8,6 @@
 #include "engine/strips.hpp"
 
 #include <fmt/core.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <vector>
@@ -74,11 +73,6 @@ double seconds_per_row(const scenarios::Flow& flow) {
     spent = seconds_since(start);
   }
   return spent / rows;
-}
-
-int threads_for_curve(const io::Settings& settings) {
-  const auto wanted = settings.integer_or_auto("run.threads");
-  return wanted ? static_cast<int>(*wanted) : omp_get_max_threads();
 }
 
 CurveCost measured_cost(const scenarios::ImpactCurve& curve, int threads, std::size_t sample) {

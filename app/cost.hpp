@@ -19,9 +19,6 @@ double measured_speed(const io::Settings& settings, const scenarios::Flow& flow,
 /// What measuring a row of the series takes (s), at the start of the flow.
 double seconds_per_row(const scenarios::Flow& flow);
 
-/// The threads that a curve is computed with: the user's number or all.
-int threads_for_curve(const io::Settings& settings);
-
 struct CurveCost {
   double steps;
   double seconds;

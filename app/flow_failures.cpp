@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
 namespace riesel::app {
 
 void fail_if_too_fast(const State& state) {
@@ -16,6 +19,20 @@ void fail_if_too_fast(const State& state) {
       fastest.id, fastest.speed, when(state), largest));
 }
 
+namespace {
+
+std::string cause_of_leaving(const State& state) {
+  const double smallest = 2.0 * std::ranges::min(state.grains.radius);
+  for (const WallLattice& wall : state.walls)
+    if (smallest < wall.gap(state.box))
+      return fmt::format("grains of {:.3g} m fit between the wall grains, {:.3g} m apart; choose "
+                         "wall.spacing below {:.3g} m",
+                         smallest, wall.gap(state.box), smallest + 2.0 * wall.radius);
+  return "the contacts are too soft for these velocities; raise contact.stiffness";
+}
+
+}  // namespace
+
 void fail_if_through_a_wall(const State& state, const Observables& seen) {
   const auto grain = seen.outside > 0.0 ? grain_outside(state) : std::nullopt;
   if (!grain) return;
@@ -23,10 +40,8 @@ void fail_if_through_a_wall(const State& state, const Observables& seen) {
       seen.outside == 1.0
           ? fmt::format("grain {} has", *grain)
           : fmt::format("{:.0f} grains, grain {} among them, have", seen.outside, *grain);
-  throw RunFailure(fmt::format(
-      "{} gone through a wall {}: the contacts are too soft for these velocities; raise "
-      "contact.stiffness",
-      who, when(state)));
+  throw RunFailure(
+      fmt::format("{} gone through a wall {}: {}", who, when(state), cause_of_leaving(state)));
 }
 
 }  // namespace riesel::app

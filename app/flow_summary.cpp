@@ -108,12 +108,15 @@ constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
 Evidence evidence(const CumulativeSeries& series, const State& state, const Energies& energies,
                   double v_crit, std::size_t warnings) {
   const bool enough = series.total("wall_contacts_ended") >= enough_contacts;
+  // Then none of the braking failed, also if there is none: at smooth walls without friction.
+  const bool none_failed = enough && series.total("wall_contacts_cut_short") == 0.0;
   const auto of_walls = [&](const char* part, const char* whole) {
     return enough ? series.ratio(part, whole).value : unknown;
   };
   return {
       .max_overlap_ratio = largest_overlap(state).ratio,
-      .brake_failure_fraction = of_walls("wall_braking_cut_short", "wall_braking"),
+      .brake_failure_fraction =
+          none_failed ? 0.0 : of_walls("wall_braking_cut_short", "wall_braking"),
       .passages_per_visit = of_walls("wall_contacts_cut_short", "wall_visits"),
       .wall_speed_ratio = of_walls("wall_entry_slip", "wall_contacts_ended") / v_crit,
       .pulling_fraction = of_walls("wall_pulling_time", "wall_contact_time"),
@@ -140,6 +143,7 @@ Judged judged_by(const State& state, double interval) {
       });
   if (state.gravity.y == 0.0 && agitated)
     return {.series = "granular_temperature", .free_fall_gain = {}};
+  if (state.gravity.y == 0.0) return {.series = "mean_vy", .free_fall_gain = {}};
   return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
 }
 

@@ -7,11 +7,13 @@
 #include "io/sweep_table.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace riesel::app {
 
@@ -25,13 +27,12 @@ std::string text_of(const io::Cell& cell) {
 
 /// "contact.restitution=0.9 seed=1 slow forward"
 std::string coordinates_of(const io::ManifestPoint& point, const io::Manifest& manifest) {
-  std::string text;
+  std::vector<std::string> words;
   for (std::size_t i = 0; i < manifest.varied.size(); ++i)
-    text += fmt::format("{}={} ", manifest.varied[i].key, text_of(point.values[i]));
+    words.push_back(fmt::format("{}={}", manifest.varied[i].key, text_of(point.values[i])));
   for (const std::string* label : {&point.branch, &point.leg})
-    if (!label->empty()) text += *label + " ";
-  text.pop_back();
-  return text;
+    if (!label->empty()) words.push_back(*label);
+  return fmt::format("{}", fmt::join(words, " "));
 }
 
 bool is_done(const io::ManifestPoint& point) { return point.status == to_string(RunStatus::done); }

@@ -35,16 +35,18 @@ void require_finished_run(const fs::path& directory) {
                         + ": holds no run and no sweep; give the directory of one (see 'riesel "
                           "run' and 'riesel sweep')");
   if (fs::exists(directory / io::summary_name)) return;
-  if (fs::exists(directory / post_mortem_name))
-    throw UnusableInput(
-        directory.string() + ": its run failed; its last state is in "
-        + (directory / post_mortem_name).string()
-        + ", from which another run can start: start: {kind: continued, from: ...}");
-  throw UnusableInput(
-      directory.string() + ": its run has not come to its end; "
-      + (io::DirectoryLock::is_held(directory)
-             ? "wait until it has"
-             : "go on with it by 'riesel resume " + io::in_quotes(directory.string()) + "'"));
+  const std::string way_on =
+      io::DirectoryLock::is_held(directory)
+          ? "wait until it has"
+          : "go on with it by 'riesel resume " + io::in_quotes(directory.string()) + "'";
+  const std::string no_end = directory.string() + ": its run has not come to its end; ";
+  if (!fs::exists(directory / post_mortem_name)) throw UnusableInput(no_end + way_on);
+  // It may have been resumed since, and stopped before its next end.
+  throw UnusableInput(no_end + "it failed, and the state of then is in "
+                      + (directory / post_mortem_name).string()
+                      + ", from which another run can start (start: {kind: continued, from: ...}); "
+                        "if it has been resumed since, "
+                      + way_on);
 }
 
 Report report_of(const io::FlowSummary& summary, const std::string& effective_settings,

@@ -6,6 +6,7 @@
 #include "app/exit_status.hpp"
 #include "app/print_summary.hpp"
 #include "app/run_directory.hpp"
+#include "app/stepping.hpp"
 #include "app/verbosity.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"

@@ -110,8 +110,8 @@ std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   for (const std::string& option : options.for_sbatch) more += "#SBATCH " + option + "\n";
   const fs::path directory = fs::absolute(sweep).lexically_normal();
   return fmt::format(fmt::runtime(script_form), fmt::arg("writer", written_by()),
-                     fmt::arg("name", name_of(sweep)), fmt::arg("array", ranges_of(open)),
-                     fmt::arg("threads", options.threads),
+                     fmt::arg("name", io::in_quotes(name_of(sweep))),
+                     fmt::arg("array", ranges_of(open)), fmt::arg("threads", options.threads),
                      fmt::arg("log", io::in_quotes((directory / "slurm" / "%a.txt").string())),
                      fmt::arg("more", more),
                      fmt::arg("riesel", io::in_quotes(fs::read_symlink("/proc/self/exe").string())),

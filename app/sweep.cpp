@@ -17,6 +17,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <stdexcept>
+#include <string>
 
 namespace riesel::app {
 
@@ -63,13 +66,30 @@ void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep, bool retry
 }
 
 /// What failed counts as stopped from now on: tasks go on with that. If they were told to try again
-/// what has failed, they would do so each time they are queued.
-void forget_failures(const io::Manifest& manifest, const fs::path& sweep) {
+/// what has failed, they would do so each time they are queued. The records as they were, by
+/// directory.
+std::map<fs::path, io::RunRecord> forget_failures(const io::Manifest& manifest,
+                                                  const fs::path& sweep) {
+  std::map<fs::path, io::RunRecord> forgotten;
   for (const io::ManifestPoint& point : manifest.points) {
     const fs::path directory = point_directory(sweep, point.name);
     if (standing_of(directory).status != RunStatus::failed) continue;
-    const int attempts = io::read_run_record(directory).attempts;
-    io::write_run_record(directory, {.attempts = attempts, .failure = ""});
+    const io::RunRecord record = io::read_run_record(directory);
+    io::write_run_record(directory, {.attempts = record.attempts, .failure = ""});
+    forgotten.emplace(directory, record);
+  }
+  return forgotten;
+}
+
+/// Tasks may begin at once, so failures are forgotten before; but not if there is no job.
+std::string submit(const io::Manifest& manifest, const fs::path& sweep, bool retry_failed) {
+  std::map<fs::path, io::RunRecord> forgotten;
+  if (retry_failed) forgotten = forget_failures(manifest, sweep);
+  try {
+    return submit_to_slurm(sweep / slurm_script_name);
+  } catch (const std::runtime_error&) {
+    for (const auto& [directory, record] : forgotten) io::write_run_record(directory, record);
+    throw;
   }
 }
 
@@ -95,9 +115,8 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   }
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
-  if (options.retry_failed) forget_failures(manifest, sweep);
   fmt::print("{}: submitted as job {}; see 'riesel status {}'\n", sweep.string(),
-             submit_to_slurm(sweep / slurm_script_name), io::in_quotes(sweep.string()));
+             submit(manifest, sweep, options.retry_failed), io::in_quotes(sweep.string()));
   return exit_done;
 }
 

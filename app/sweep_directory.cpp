@@ -87,10 +87,11 @@ bool can_resume(const fs::path& point) {
 void clear(const fs::path& point) {
   const io::DirectoryLock lock(point);
   if (fs::exists(point / io::summary_name)) return;
-  const fs::path checkpoint = point / io::checkpoint_name;
-  for (const fs::path& file : {checkpoint, io::previous_generation(checkpoint),
-                               point / io::run_file_name, point / io::effective_settings_name,
-                               point / io::trajectory_name, point / io::trajectory_index_name})
+  const fs::path checkpoint = point / io::checkpoint_name, post_mortem = point / post_mortem_name;
+  for (const fs::path& file : {checkpoint, io::previous_generation(checkpoint), post_mortem,
+                               io::previous_generation(post_mortem), point / io::run_file_name,
+                               point / io::effective_settings_name, point / io::trajectory_name,
+                               point / io::trajectory_index_name})
     fs::remove(file);
 }
 

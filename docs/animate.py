@@ -21,7 +21,7 @@ def animate(trajectory: Path, film: Path, frames_per_second: float) -> None:
         grains, walls = file["particles/grains"], file["particles/walls"]
         positions, velocities = grains["position/value"], grains["velocity/value"]
         times = grains["position/time"][:]
-        walls_move = "value" in walls["position"]
+        walls_move = isinstance(walls["position"], h5py.Group)
         wall_positions = walls["position/value"][:] if walls_move else walls["position"][:][None]
         width, length = grains["box/edges"][:2]
         beyond = [0.0, -wall_positions[..., 0].min(initial=0.0), wall_positions[..., 0].max(initial=0.0) - width]

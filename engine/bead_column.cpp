@@ -81,12 +81,13 @@ ColumnResult result(const ColumnSetup& setup, const State& state, bool over) {
     squares += v * v;
   }
   const ContactTally &pairs = state.tally.grains, &plate = state.tally.walls;
+  const Observables now = observe(state);
   return {.restitution = std::sqrt(squares / setup.beads) / setup.velocity,
           .rebound = sum / setup.beads / setup.velocity,
           .contacts = static_cast<double>(pairs.begun + plate.begun),
           .contact_time = pairs.duration.value() + plate.duration.value(),
-          .max_overlap = std::max(pairs.max_overlap, plate.max_overlap),
-          .energy_error = energy_error_ratio(state, observe(state).energies),
+          .max_overlap = now.max_overlap,
+          .energy_error = energy_error_ratio(state, now.energies),
           .over = over,
           .steps = state.step};
 }

@@ -17,7 +17,8 @@ namespace {
 /// flight.
 constexpr std::int64_t steps_between_looks = 16;
 
-/// An impact is given up after so many collision times, plus the time to cross so many wall grains.
+/// An impact is given up after so many collision times, plus the time to cross so many wall grains
+/// and to get to the wall.
 constexpr double patience_in_collisions = 2000.0;
 constexpr double patience_in_reaches = 50.0;
 
@@ -46,12 +47,21 @@ State start(const ImpactSetup& setup, const Impact& impact) {
   return state;
 }
 
+double speed_of(const Impact& impact) { return std::hypot(impact.v_x, impact.v_y); }
+
 /// Whether the grain can never touch the wall again.
 bool gone(const ImpactSetup& setup, const State& state, const Grain& grain) {
   if (!state.contacts.empty()) return false;
   if (!setup.single_wall_grain()) return grain.x > setup.reach() && grain.vx > 0.0;
   const double y = state.box.metres_y(state.grains.y[0]);  // relative to the wall grain
   return grain.x * grain.vx + y * grain.vy > 0.0;
+}
+
+/// s, in free flight until the grain can touch the wall, or has come to its line if it starts that
+/// close.
+double time_to_wall(const ImpactSetup& setup, const Impact& impact) {
+  if (setup.single_wall_grain()) return std::hypot(impact.x, impact.y) / speed_of(impact);
+  return impact.v_x > 0.0 ? impact.x / impact.v_x : 0.0;
 }
 
 }  // namespace
@@ -64,10 +74,10 @@ double just_upstream(const ImpactSetup& setup, double x) {
 }
 
 ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
-  const double speed = std::hypot(impact.v_x, impact.v_y);
-  require(speed > 0.0, "an impact needs a velocity");
-  const double patience =
-      patience_in_collisions * setup.collision_time + patience_in_reaches * setup.reach() / speed;
+  require(speed_of(impact) > 0.0, "an impact needs a velocity");
+  const double patience = time_to_wall(setup, impact)
+                          + patience_in_collisions * setup.collision_time
+                          + patience_in_reaches * setup.reach() / speed_of(impact);
   Simulation simulation(start(setup, impact), setup.model, 1);
   ImpactEnd end = ImpactEnd::stuck;
   while (simulation.state().time() < patience) {
@@ -86,15 +96,16 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
   const Grain grain = grain_at(state, 0);
   const ContactTally& tally = state.tally.walls;
   const BrakeTally& brakes = state.tally.brakes;
+  const Observables now = observe(state);
   return {.dv_x = grain.vx + impact.v_x,
           .dv_y = impact.v_y - grain.vy,
           .contacts = static_cast<double>(tally.begun),
           .contact_time = tally.duration.value(),
-          .max_overlap = tally.max_overlap,
+          .max_overlap = now.max_overlap,
           .cut_short = static_cast<double>(brakes.cut_short),
           .braking = brakes.braking.value(),
           .braking_cut_short = brakes.braking_cut_short.value(),
-          .energy_error = energy_error_ratio(state, observe(state).energies),
+          .energy_error = energy_error_ratio(state, now.energies),
           .end = end,
           .steps = state.step};
 }

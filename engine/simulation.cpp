@@ -68,15 +68,10 @@ Askew sound(const Askew& askew) {
   return askew;
 }
 
-/// OpenMP may grant fewer threads than asked for, and every slice needs one.
 int team_size(int wanted) {
   require(wanted > 0, "a simulation needs at least one thread");
   if (wanted == 1) return 1;
-  int granted = 1;
-#pragma omp parallel num_threads(wanted)
-#pragma omp single
-  granted = omp_get_num_threads();
-  return granted;
+  return granted_members(wanted);
 }
 
 /// What to try first. In units of what plain stepping takes for a grain without contacts, flights

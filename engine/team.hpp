@@ -9,6 +9,18 @@
 
 namespace riesel {
 
+/// How many threads the system grants to a team that wants so many. From then on it grants the
+/// calling thread no fewer because the machine has other work (OMP_DYNAMIC): there is a slice for
+/// each.
+inline int granted_members(int wanted) {
+  omp_set_dynamic(0);
+  int granted = 1;
+#pragma omp parallel num_threads(wanted)
+#pragma omp single
+  granted = omp_get_num_threads();
+  return granted;
+}
+
 /// Calls work(member) in each thread of a team of so many, whose members wait for each other at
 /// TeamBarriers alone. Throws RunFailure, and does nothing, if the system grants fewer. What `work`
 /// throws in a team of several ends the program, as the others would wait for ever.

@@ -97,6 +97,8 @@ struct WallLattice {
   double spacing(const Box& box) const {  ///< m; 0 where it is smooth
     return smooth() ? 0.0 : box.length / static_cast<double>(count);
   }
+  /// m, between two neighbours; negative where they overlap, 0 where it is smooth.
+  double gap(const Box& box) const { return spacing(box) - 2.0 * radius; }
 
   /// Grains of a wall that are no more places apart, also across the seam, have bits of their own.
   static constexpr std::int64_t most_told_apart = 31;

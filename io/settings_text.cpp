@@ -13,30 +13,9 @@
 namespace riesel::io {
 namespace {
 
-unsigned byte_at(std::string_view text, std::size_t i) {
-  return static_cast<unsigned char>(text[i]);
-}
-
 [[noreturn]] void refuse_size(const std::string& source) {
   throw SettingsError({source}, "", fmt::format("is larger than {} bytes", largest_settings_text),
                       "a settings file is a page of YAML; check that this is the right file");
-}
-
-/// The length of the UTF-8 character that begins at `i`; 0 if none does (RFC 3629, section 4).
-std::size_t character_length(std::string_view text, std::size_t i) {
-  const unsigned lead = byte_at(text, i);
-  if (lead < 0x80U) return 1;
-  if (lead < 0xC2U || lead > 0xF4U) return 0;
-  const std::size_t length = lead < 0xE0U ? 2 : lead < 0xF0U ? 3 : 4;
-  if (text.size() - i < length) return 0;
-
-  // The second byte is narrower after these leads: overlong forms, surrogates, beyond U+10FFFF.
-  const unsigned second = byte_at(text, i + 1);
-  const unsigned lowest = lead == 0xE0U ? 0xA0U : lead == 0xF0U ? 0x90U : 0x80U;
-  const unsigned highest = lead == 0xEDU ? 0x9FU : lead == 0xF4U ? 0x8FU : 0xBFU;
-  if (second < lowest || second > highest) return 0;
-  const auto rest = text.substr(i + 2, length - 2);
-  return std::ranges::all_of(rest, continues_character) ? length : 0;
 }
 
 void refuse_bad_characters(const std::string& text, const std::string& source) {
@@ -46,7 +25,7 @@ void refuse_bad_characters(const std::string& text, const std::string& source) {
       throw SettingsError(PlaceFinder(text, source).at(i), "", "is not UTF-8",
                           "save the file as UTF-8");
     }
-    const unsigned byte = byte_at(text, i);
+    const auto byte = static_cast<unsigned char>(text[i]);
     if ((byte < 0x20U && byte != '\n' && byte != '\t') || byte == 0x7FU) {
       throw SettingsError(PlaceFinder(text, source).at(i), "",
                           fmt::format("control character 0x{:02X}", byte),

@@ -3,6 +3,7 @@
 #include "io/settings_names.hpp"
 #include "io/settings_quantity.hpp"
 #include "io/settings_yaml.hpp"
+#include "io/utf8.hpp"
 
 #include <fmt/format.h>
 
@@ -63,7 +64,10 @@ std::string read_path(const Setting& row, const YamlNode& node) {
   namespace fs = std::filesystem;
   const bool from_file = node.place.line > 0;
   const auto home = from_file ? fs::path(node.place.source).parent_path() : fs::path();
-  return fs::absolute(home / read_text(row, node)).lexically_normal().string();
+  const std::string path = fs::absolute(home / read_text(row, node)).lexically_normal().string();
+  if (!is_utf8(path))  // nor would the files be in which it is recorded
+    refuse_value(row, node, "its whole path, " + path + ", is not UTF-8: rename that directory");
+  return path;
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ namespace {
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
+/// Of steps and of contacts: more than any run can come to, and far from where counters overflow.
+constexpr std::int64_t most_of_anything = std::int64_t{1} << 61;
+
 bool is_index(std::int64_t index, std::size_t size) {
   return index >= 0 && static_cast<std::uint64_t>(index) < size;
 }
@@ -33,6 +36,7 @@ std::string flaw_of_scalars(const State& state) {
     return "the energy, momentum or moment at the start is not finite";
   }
   if (state.step < 0) return "the number of steps is negative";
+  if (state.step > most_of_anything) return "the number of steps is absurd";
   return {};
 }
 
@@ -125,12 +129,9 @@ std::string flaw_of_visits(const State& state) {
   return {};
 }
 
-/// More than any run can come to, and far from where counters overflow.
-constexpr std::int64_t most_contacts = std::int64_t{1} << 61;
-
 std::string flaw_of_tally(const ContactTally& tally) {
   if (tally.begun < 0 || tally.ended < 0) return "a count of contacts is negative";
-  if (std::max(tally.begun, tally.ended) > most_contacts) return "a count of contacts is absurd";
+  if (std::max(tally.begun, tally.ended) > most_of_anything) return "a count of contacts is absurd";
   if (!std::isfinite(tally.max_overlap)) return "the greatest overlap is not finite";
   if (tally.max_overlap > 0.0 && !tally.deepest) return "nobody had the greatest overlap";
   return {};

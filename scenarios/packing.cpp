@@ -40,14 +40,15 @@ struct Lattice {
 /// The lattice with room for n grains whose sites are farthest apart. `radius` (m) keeps the outer
 /// columns off the walls.
 Lattice widest_lattice(const State& empty, std::size_t n, double radius) {
-  const double wall = empty.walls.front().radius;
-  const double width = empty.box.width - 2.0 * (wall + radius);
+  const auto [left, right] = std::ranges::minmax(empty.walls, {}, &WallLattice::line);
+  const double width = empty.box.width - ((left.radius + radius) + (right.radius + radius));
+  const double middle = 0.5 * empty.box.width + 0.5 * (left.radius - right.radius);
   Lattice best{};
   for (std::size_t columns = 1; columns <= n; ++columns) {
     const std::size_t rows = (n + columns - 1) / columns;
     const Lattice lattice{.columns = columns,
                           .rows = rows,
-                          .x_first = columns == 1 ? 0.5 * empty.box.width : wall + radius,
+                          .x_first = columns == 1 ? middle : left.radius + radius,
                           .x_spacing =
                               columns == 1 ? 0.0 : width / static_cast<double>(columns - 1),
                           .y_spacing = empty.box.length / static_cast<double>(rows)};
@@ -75,14 +76,13 @@ std::vector<Place> occupied_sites(const Lattice& lattice, std::size_t n, std::ui
 }
 
 /// Lets soft grains push each other apart. Their radii are a little too large, so that what
-/// overlaps a little in the end does not overlap in truth. Stepped in one way on all machines: when
-/// a grain is found lost that is pressed far out of the tube depends on that.
+/// overlaps a little in the end does not overlap in truth. Stepped in one way on all machines, by
+/// one thread: when a grain is found lost that is pressed far out of the tube depends on that.
 class Relaxation {
 public:
   Relaxation(const State& empty, const std::vector<Place>& places, const std::vector<double>& radii)
       : radii_(radii),
-        simulation_(start(empty, places, radii), model(), useful_threads(radii.size()),
-                    Stepping::plain, all_together) {}
+        simulation_(start(empty, places, radii), model(), 1, Stepping::plain, all_together) {}
 
   void push_for_a_while() { simulation_.advance(steps_per_round); }
 

@@ -19,8 +19,8 @@ struct Place {
   double x, y;  ///< m
 };
 
-/// Places for grains of the given radii (m) in a box with two corrugated walls whose lattices stand
-/// in `empty` (a state without grains). Nothing if they do not fit.
+/// Places for grains of the given radii (m) between the two walls of `empty`, a state without
+/// grains. Nothing if they do not fit.
 std::optional<std::vector<Place>> pack(const State& empty, const std::vector<double>& radii,
                                        std::uint64_t seed);
 

@@ -155,14 +155,22 @@ void reject_crowded_wall(const io::Settings& settings, double reach, double spac
 }
 
 void reject_fast_walls(const io::Settings& settings, const State& state) {
+  constexpr double fewest_steps = 20.0;  // of a period: with fewer a wall shakes otherwise than set
+  const double largest = largest_speed(state.box, state.time_step, 1);
   for (const WallLattice& wall : state.walls) {
     const double shaken = wall.motion.fastest_oscillation(),
                  steady = std::abs(wall.motion.velocity);
-    const double largest = largest_speed(state.box, state.time_step, 1);
-    if (steady + shaken < largest) continue;
-    settings.reject(shaken > steady ? frequency_key : "cell.velocity",
-                    "moves a wall too fast for this time step",
-                    fmt::format("choose a velocity of the wall below {:.3g} m/s", largest));
+    if (steady + shaken >= largest)
+      settings.reject(shaken > steady ? frequency_key : "cell.velocity",
+                      "moves a wall too fast for this time step",
+                      fmt::format("choose a velocity of the wall below {:.3g} m/s", largest));
+    const double periods = wall.motion.frequency * state.time_step;  // in a step
+    if (shaken > 0.0 && periods * fewest_steps > 1.0)
+      settings.reject(frequency_key,
+                      fmt::format("has {:.2g} time steps in a period, which takes at least {:g}",
+                                  1.0 / periods, fewest_steps),
+                      fmt::format("choose at most {:.3g} 1/s, or more run.steps_per_collision",
+                                  1.0 / (fewest_steps * state.time_step)));
   }
 }
 

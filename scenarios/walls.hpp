@@ -35,7 +35,8 @@ void reject_narrow_gap(const io::Settings& settings, double largest, const State
 /// the engine tells apart; `reach` (m) is the largest sum of the two radii.
 void reject_crowded_wall(const io::Settings& settings, double reach, double spacing);
 
-/// Rejects walls faster than largest_speed(), as grains.
+/// Rejects walls faster than largest_speed(), as grains, and shaking that time steps do not
+/// resolve.
 void reject_fast_walls(const io::Settings& settings, const State& state);
 
 }  // namespace riesel::scenarios

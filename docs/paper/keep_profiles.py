@@ -34,11 +34,11 @@ def strips_of(run, sweeps):
 
 def main():
     runs = settled_states(HERE)
+    rows = [row for run in runs for row in strips_of(run, Path("sweeps"))]  # before the kept table goes
     with open(HERE / "fig6_profiles.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("point", "x", "sigma_vx", "sigma_vx_error", "area_fraction"))
-        for run in runs:
-            writer.writerows(strips_of(run, Path("sweeps")))
+        writer.writerows(rows)
     print(f"{HERE / 'fig6_profiles.csv'}: {len(runs)} runs")
 
 

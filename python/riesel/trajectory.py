@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, overload
 
+import h5py
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,7 +44,7 @@ class Trajectory(Sequence[Frame]):
             self.radius: NDArray[np.float64] = grains["radius"][()]  #: m
             self.mass: NDArray[np.float64] = grains["mass"][()]  #: kg
             walls = file["particles/walls"]
-            self.walls_move: bool = "value" in walls["position"]
+            self.walls_move: bool = isinstance(walls["position"], h5py.Group)
             self.wall_radius: NDArray[np.float64] = walls["radius"][()]  #: m
 
     def __len__(self) -> int:

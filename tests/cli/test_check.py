@@ -153,6 +153,32 @@ class Check(CommandTest):
             self.assertEqual("fit between the wall grains" in text, is_due, text)
         self.assert_warned(text, "wall.spacing")
 
+    def test_a_run_that_loses_grains_between_wall_grains_tells_so(self):
+        self.write("open.yaml", MILD_TUBE)
+        result = self.riesel("run", "open.yaml", "--out", "out", "--set", "wall.spacing=5 mm",
+                             "--set", "run.duration=1 s")
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assertIn("fit between the wall grains", result.stderr)
+        self.assertIn("choose wall.spacing below", result.stderr)
+
+    def test_of_a_series_of_few_rows(self):
+        self.assert_warned(self.check(MILD_TUBE, "--set", "output.interval=1 s"), "in the series", "output.interval")
+
+    def test_at_rest_no_velocity_is_critical(self):
+        text = self.check(MILD_TUBE, "--set", "start.axial_velocity=1 mm/s", "--set", "start.random_velocity=0")
+        self.assertNotIn("v_crit", text)
+
+    def test_of_a_file_it_tells_of_its_grains(self):
+        """400 times the mass: contacts last 20 times as long."""
+        heavy = "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm), mass (mg)\n3, 3, 1, 0, 1, 400\n5, 5, -1, 0, 1, 400\n"
+        self.write("heavy.csv", heavy)
+        elastic = MILD_TUBE.replace("restitution: 0.9", "damping: 0 1/s")
+        of_heavy = elastic.replace("grains: {area_fraction: 0.3, polydispersity: 0}",
+                                   "start: {kind: file, from: heavy.csv}")
+        light, of_file = (plain_number(self.check(text), r"grain and grain +t_col = (\S+) s")
+                          for text in (elastic, of_heavy))
+        self.assertAlmostEqual(of_file / light, 20.0, delta=0.5)
+
     def test_of_grains_so_soft_that_they_are_lost_at_once(self):
         """A run of them fails; the check tells so and does not."""
         text = self.check(SMALL_TUBE.replace("2000 N/m", "2 N/m"))

@@ -1,5 +1,7 @@
 """A start from a file of grains, and sizes from a file, through the command."""
 
+import os
+
 from riesel_command import CommandTest, plain_number
 
 SETTINGS = """
@@ -47,6 +49,14 @@ class GrainFile(CommandTest):
         self.write("here/grains.csv", GRAINS + "2.1, 0.5, 0, 0, 1\n")
         result = self.riesel("run", "here/tube.yaml", "--out", "out")
         self.assert_refused(result, "grains.csv:145:1: x: overlaps the grain in line 2")
+        self.assertFalse((self.home / "out").exists())
+
+    def test_a_path_that_cannot_be_recorded_is_refused(self):
+        self.home = self.home / os.fsdecode(b"latin-\xe9")
+        self.home.mkdir()
+        self.write("grains.csv", GRAINS)
+        self.write("tube.yaml", SETTINGS)
+        self.assert_refused(self.riesel("run", "tube.yaml", "--out", "out"), "start.from", "is not UTF-8")
         self.assertFalse((self.home / "out").exists())
 
     def test_sizes_come_from_a_file(self):

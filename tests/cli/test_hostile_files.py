@@ -41,7 +41,7 @@ class HostileFiles(CommandTest):
 
     def write_bytes(self, name, content):
         path = self.home / name
-        path.parent.mkdir(exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
         return path
 
@@ -112,6 +112,17 @@ class HostileFiles(CommandTest):
                 self.assert_one_message(result.stderr, str(run))
                 (run / name).unlink()
         self.assertEqual(bytes_of_files(victim), before)
+
+    def test_a_sweep_that_varies_nothing(self):
+        point = {"name": "0123456789abcdef", "parent": "", "branch": "", "leg": "", "settings": {}, "expected_seconds": 1.0,
+                 "most_threads": 1, "status": "failed", "attempts": 1, "reason": "bad luck"}
+        manifest = {"format": "riesel sweep", "format_version": 1, "varied": [], "points": [point]}
+        self.write_bytes("sweep/manifest.json", json.dumps(manifest).encode())
+        self.write_bytes("sweep/points/0123456789abcdef/attempts.json",
+                         json.dumps({"attempts": 1, "failure": "bad luck"}).encode())
+        result = self.limited("status", "sweep")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("bad luck", result.stdout)
 
     def move_elsewhere(self, path):
         """Leaves a link. Returns where it leads."""

@@ -357,6 +357,9 @@ class Refused(Report):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
         (out / "summary.json").unlink()
         self.assert_no_report("out", "has not come to its end", "riesel resume out")
+        (out / "post_mortem.h5").touch()
+        self.assert_no_report("out", "it failed", "out/post_mortem.h5", "if it has been resumed since",
+                              "riesel resume out")
 
     def test_files_that_are_damaged_or_not_of_one_run(self):
         short = self.run_small_tube("short", "--set", "run.duration=0.1 ms")

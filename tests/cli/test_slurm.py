@@ -58,6 +58,12 @@ class Script(SweepTest):
         checked = subprocess.run(["bash", "-n"], input=script, text=True, check=False)
         self.assertEqual(checked.returncode, 0)
 
+    def test_a_directory_may_have_any_name(self):
+        self.write("my sweep.yaml", FOUR)
+        result = self.riesel("sweep", "my sweep.yaml", "--slurm", "--dry-run", PATH="/nowhere")
+        self.assert_done(result)
+        self.assertEqual(lines_of(result.stdout, "#SBATCH --job-name=.*"), ["#SBATCH --job-name='my sweep'"])
+
     def test_only_long_tasks_are_signalled(self):
         """The signal may come two minutes early, so that short ones would get nowhere."""
         signalled = r"#SBATCH --signal=B:USR1@60"
@@ -130,6 +136,13 @@ class Submission(SweepTest):
             self.assertEqual(self.riesel("sweep-task", "out", 1, "--of", 3).returncode, FAILED)
         self.assert_done(self.riesel("collect", "out"))
         self.assertEqual([row["attempts"] for row in self.rows()], ["1", "2", "1"])
+
+    def test_what_failed_stays_failed_if_slurm_refuses(self):
+        self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
+        before = self.riesel("status", "out").stdout
+        self.stand_in("sbatch", "exit 1")
+        self.assert_failed(self.submit("--retry-failed"), "sbatch has not taken the job")
+        self.assertEqual(self.riesel("status", "out").stdout, before)
 
 
 @unittest.skipIf(slurm_cluster.why_not(), slurm_cluster.why_not())

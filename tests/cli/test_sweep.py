@@ -4,10 +4,11 @@ happens on the way."""
 import csv
 import json
 import re
+import signal
 
 import h5py
 
-from riesel_command import (BAD_INPUT, FAILED, SHIPPED, SMALL_TUBE, CommandTest,
+from riesel_command import (BAD_INPUT, FAILED, PATIENCE, SHIPPED, SMALL_TUBE, CommandTest,
                             bytes_of_files)
 
 GRID = """\
@@ -123,6 +124,14 @@ class Grid(SweepTest):
         self.assertEqual(self.hashes("one"), self.hashes("other"))
         self.assertNotEqual([row["point"] for row in self.rows("one")],
                             [row["point"] for row in self.rows("other")])
+
+    def test_whoever_starts_it_may_ignore_the_ends_of_children(self):
+        self.write("sweep.yaml", GRID)
+        process = self.start("sweep", "sweep.yaml", "--out", "out",
+                             preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual({point["status"] for point in self.points()}, {"done"})
 
     def test_what_is_done_is_not_done_again(self):
         out = self.sweep_to_end(GRID)

@@ -80,6 +80,20 @@ class Verdicts(Validity):
         self.assertIsNone(validity["brake_failure_fraction"])
         self.assertRegex(text, r"(?m)^  suspect +brake_failure_fraction: not known")
 
+    def test_walls_that_cannot_brake_do_not_fail_to(self):
+        """A gas between smooth walls without friction, one of which shakes across."""
+        summary, _ = self.tube("gas", wall__surface="smooth", contact__friction=0, gravity=0,
+                               contact__stiffness="20 kN/m", start__axial_velocity=0,
+                               wall__shake_amplitude="0.2 mm", wall__shake_frequency=200,
+                               wall__shake_angle="90 degrees", grains__area_fraction=0.2, run__duration="0.3 s")
+        self.assertEqual(summary["validity"]["brake_failure_fraction"], 0.0)
+        self.assertEqual(summary["validity"]["verdict"], "valid", summary["validity"])
+
+    def test_a_flow_and_its_mirror_image_have_one_state(self):
+        states = [self.tube(f"speed{speed}", gravity=0, start__axial_velocity=speed,
+                            run__duration="60 ms")[0]["state"] for speed in (12, -12)]
+        self.assertEqual(states[0], states[1])
+
     def test_the_verdict_stands_in_the_run_file(self):
         summary, _ = self.tube("run", run__duration="20 ms")
         with h5py.File(self.home / "run/run.h5", "r") as file:

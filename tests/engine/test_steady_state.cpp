@@ -103,6 +103,19 @@ TEST_CASE("free fall accelerates", "[steady_state]") {
   CHECK(verdicts(free_fall)[SteadyVerdict::accelerating] >= 97);
 }
 
+TEST_CASE("without gravity a flow accelerates in its own direction", "[steady_state]") {
+  for (const double direction : {1.0, -1.0}) {
+    const auto judge = [&](double gain) {
+      return riesel::assess_steady_state(
+                 noisy(1000, 0.01, 0.5, 3, [=](double s) { return direction * (12.0 + gain * s); }))
+          .verdict;
+    };
+    CHECK(judge(4.0) == SteadyVerdict::accelerating);
+    CHECK(judge(0.4) == SteadyVerdict::drifting);
+    CHECK(judge(-4.0) == SteadyVerdict::drifting);
+  }
+}
+
 TEST_CASE("at high speed a runaway is told by gravity", "[steady_state]") {
   // From 40 to 41 m/s: a small part of the mean, but a third of what free fall would have gained.
   const Series series = noisy(2000, 0.02, 0.9, 1, [](double s) { return 40.0 + s; });

@@ -155,7 +155,7 @@ inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
                              .start = least}}};
   state.gravity.y = -0.0;
   state.time_step = 1e-6 / 3.0;
-  state.step = most;
+  state.step = most / 4;  // more is refused
   auto& grains = state.grains;
   grains.inertia = inertia;
   grains.resize(n);

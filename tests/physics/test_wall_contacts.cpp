@@ -95,6 +95,19 @@ TEST_CASE("the time for which a contact pulls is worked out well enough") {
   CHECK(std::abs(pulling_time(g.contact, model, mass) - g.pulling) < 0.012 * duration);
 }
 
+TEST_CASE("a grain that comes from afar has not stuck before it arrives") {
+  const double height = GENERATE(10e-3, 20e-3, 40e-3);  // m
+  const ImpactSetup setup = wall_array(paper_model(), wall_collision_time());
+  const ImpactResult result = follow(
+      setup, {.x = height,
+              .y = 0.0,
+              .v_x = 0.1,
+              .v_y = 20.0,
+              .time_step = resolving_time_step(setup.collision_time, impact_height, 20.0, 50.0)});
+  CHECK(result.end == ImpactEnd::away);
+  CHECK(result.contacts >= 1.0);
+}
+
 TEST_CASE("an impact on the wall array is one visit") {
   // Until the grain is away for good, by the scenario's own rule; then nothing comes any more.
   const double v_x = GENERATE(0.1, 0.3, 0.5);

@@ -87,6 +87,13 @@ TEST_CASE("there are as many layers as set, above the bottom, and nothing touche
   CHECK(after(start, state.time_step).tally.grains.begun == 0);
 }
 
+TEST_CASE("a chute of one layer can be shaken") {
+  const std::vector<std::string> shaken = {"chute.layers=1", "wall.shake_amplitude=1 mm",
+                                           "wall.shake_frequency=20 Hz",
+                                           "wall.shake_angle=90 degrees"};
+  CHECK(chute(shaken).state.grains.size() == chute({"chute.layers=1"}).state.grains.size());
+}
+
 TEST_CASE("what does not fit into a chute is refused") {
   check_mentions(complaint(chute_yaml, {"chute.layers=40"}),
                  {"chute.height", "too low", "fewer layers"});

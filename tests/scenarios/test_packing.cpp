@@ -1,4 +1,5 @@
 // The start of the tube: grains that touch nothing, as many and of such sizes as set.
+#include "scenarios/packing.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
 #include <algorithm>
@@ -108,6 +109,24 @@ TEST_CASE("at the start no two grains overlap and none is in a wall, at any fill
   INFO("the number of grains is not the nearest to the area fraction");
   CHECK_THAT(area_of_grains(state),
              WithinAbs(wanted, 0.5 * std::numbers::pi * largest * largest * 1.05));
+}
+
+TEST_CASE("grains find places between two walls that are not alike") {
+  State state;
+  state.box = {.width = 20e-3, .length = 20e-3};
+  const bool large_first = GENERATE(false, true);
+  const double left = large_first ? 0.75e-3 : 0.33e-3, right = large_first ? 0.33e-3 : 0.75e-3;
+  state.walls = {{.line = 0.0, .radius = left, .count = 20},
+                 {.line = 20e-3, .radius = right, .count = 13}};
+  const std::vector<double> radii(static_cast<std::size_t>(GENERATE(100, 330)), 0.5e-3);
+  const auto places = scenarios::pack(state, radii, 1);
+  REQUIRE(places);
+  for (const scenarios::Place& place : *places)
+    add_grain(state,
+              {.x = place.x, .y = place.y, .vx = 0.0, .vy = 0.0, .radius = 0.5e-3, .mass = 1e-6});
+  CHECK(least_gap_between_grains(state) > -rounding);
+  CHECK(least_gap_to_walls(state) > -rounding);
+  CHECK(all_between_walls(state));
 }
 
 TEST_CASE("grains of very unequal size do not overlap at the start") {

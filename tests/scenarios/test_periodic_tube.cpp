@@ -70,10 +70,21 @@ TEST_CASE("without random velocity all grains start with the same one, upwards t
 }
 
 TEST_CASE("a single grain starts with the axial velocity") {
-  const State state = tube({"grains.area_fraction=0.001"}).state;
-  REQUIRE(state.grains.size() == 1);
-  CHECK_THAT(grain_at(state, 0).vx, WithinAbs(0.0, 1e-9));
-  CHECK_THAT(grain_at(state, 0).vy, WithinAbs(1.0, 1e-9));
+  for (int seed = 1; seed <= 40; ++seed) {
+    const State state = tube({"grains.area_fraction=0.001", "seed=" + std::to_string(seed)}).state;
+    REQUIRE(state.grains.size() == 1);
+    CHECK_THAT(grain_at(state, 0).vx, WithinAbs(0.0, 1e-9));
+    CHECK_THAT(grain_at(state, 0).vy, WithinAbs(1.0, 1e-9));
+  }
+}
+
+TEST_CASE("a time step so short that gravity is rounded is refused") {
+  const auto steps = [](const char* number) {
+    return complaint(tube_yaml, {std::string("run.steps_per_collision=") + number});
+  };
+  CHECK(steps("20000") == "accepted");
+  check_mentions(steps("2000000"), {"run.steps_per_collision", "gravity", "choose fewer steps"});
+  CHECK(complaint(tube_yaml, {"run.steps_per_collision=2000000", "gravity=0"}) == "accepted");
 }
 
 TEST_CASE("the same seed gives the same state, another seed another one") {

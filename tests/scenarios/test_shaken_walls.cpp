@@ -66,6 +66,16 @@ TEST_CASE("a shaking of which half is given is refused") {
   CHECK(complaint(tube_yaml, shaken({"wall.shake_amplitude=0"})) == "accepted");
 }
 
+TEST_CASE("shaking that time steps do not resolve is refused") {
+  const double dt = tube({}).state.time_step;
+  const auto steps_per_period = [&](double steps) {
+    return complaint(tube_yaml, {"wall.shake_amplitude=1 um",
+                                 "wall.shake_frequency=" + std::to_string(1.0 / (steps * dt))});
+  };
+  CHECK(steps_per_period(21.0) == "accepted");
+  check_mentions(steps_per_period(2.0), {"wall.shake_frequency", "2 time steps in a period"});
+}
+
 TEST_CASE("a tube that lies has no gravity along it") {
   const State state = tube({"tube.tilt=90 degrees"}).state;
   CHECK(state.gravity.y == 0.0);
