@@ -2,7 +2,8 @@
 //
 // The program starts with the clone for the machine it runs on. All clones give the same bits: the
 // loops are over integers, their floating-point numbers come of +, -, *, / and sqrt alone, or these
-// only choose candidates that are looked at exactly afterwards.
+// only choose candidates that are looked at exactly afterwards. What a contact law calls besides,
+// such as std::pow, is the same function for all clones.
 //
 // Integers and doubles become each other by the instructions of AVX-512 where there are some, and
 // by additions elsewhere: a loop that does so is written once, as a template, see

@@ -22,9 +22,10 @@ namespace riesel::io {
 
 enum class Previous { discard, keep };
 
-/// Replaces `path` by a file with this content; on return it is on the disk. If anything fails, the
-/// old file is still there, NAME.tmp is not, and a FileError is thrown. Of two who write in the
-/// same directory at the same time the later one waits for the other.
+/// Replaces `path` by a file with this content; on return it is on the disk. If anything fails, a
+/// FileError is thrown and NAME.tmp is gone; the old file is still there, or, if it was step 4 or 5
+/// that failed, the new one. Of two who write in the same directory at the same time the later one
+/// waits for the other.
 void write_durably(const std::filesystem::path& path, std::string_view content,
                    Previous previous = Previous::discard);
 

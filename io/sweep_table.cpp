@@ -23,6 +23,11 @@ void flatten(const Json& json, const std::string& prefix,
       flatten(value, prefix + name + ".", values);
     } else if (!value.is_array()) {
       values.emplace_back(prefix + name, cell_of(value));
+    } else {
+      for (const auto& item : value)  // of lists, what has a name: findings
+        if (item.is_object() && item.contains("name") && item.contains("value"))
+          values.emplace_back(fmt::format("{}{}.{}", prefix, name, item["name"].get<std::string>()),
+                              cell_of(item["value"]));
     }
   }
 }

@@ -3,7 +3,8 @@
 //
 // A trajectory is too large to be built in memory like run.h5, and HDF5's library cannot append
 // such that a kill at any moment leaves a whole file. So the outline of the file (hdf5_outline.hpp)
-// stands in one of two places, and frames are written where no outline points to:
+// stands in one of two places, and frames are written where no outline points to, or, after a
+// resume, over those that come again with the same bits:
 //
 //   head     512 bytes: HDF5's superblock, and what is needed to go on
 //   arrays   what belongs to no frame: radii, masses, ids, walls
@@ -40,8 +41,8 @@ public:
                                const std::string& settings);
 
   /// Goes on with the file of a run that is resumed: of its frames those remain that were due up to
-  /// the step of `state`. Until the next commit the file on the disk stays as it is. Throws
-  /// FileError; in particular if it has fewer, is damaged, or is of another run.
+  /// the step of `state`. Until the next commit the file on the disk holds the frames that it holds
+  /// now: those that come again are written over themselves. Throws FileError; in particular if it has fewer, is damaged, or is of another run.
   static TrajectoryFile reopen(const std::filesystem::path& path, std::uint64_t run,
                                const State& state, std::int64_t steps_per_frame,
                                const std::string& settings);

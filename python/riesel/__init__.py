@@ -10,10 +10,10 @@ written, and nothing is read before it is asked for.
 """
 
 from .run import Estimate, FinalState, Finding, Histogram, Run, Validity
-from .sweep import Point, Sweep
+from .sweep import Mean, Point, Sweep
 from .table import NotThere, Table
 from .trajectory import Frame, Trajectory
 from .tree import Tree
 
-__all__ = ["Estimate", "FinalState", "Finding", "Frame", "Histogram", "NotThere", "Point", "Run",
+__all__ = ["Estimate", "FinalState", "Finding", "Frame", "Histogram", "Mean", "NotThere", "Point", "Run",
            "Sweep", "Table", "Trajectory", "Tree", "Validity"]

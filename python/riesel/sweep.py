@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import pathlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+import numpy as np
 
 from .run import Run
 from .table import NotThere, Table, opened, part, table_of
@@ -33,6 +36,22 @@ class Point:
     def run(self) -> Run:
         """The run itself."""
         return Run(self.directory)
+
+
+@dataclass(frozen=True)
+class Mean:
+    """Of a result over the runs of a sweep that differ in one setting alone, the seed for instance."""
+
+    settings: Mapping[str, float | str | None]  #: the others that vary, in SI units
+    branch: str  #: or ""
+    leg: str  #: or ""
+    value: float
+    error: float  #: standard error, by the scatter of the runs; NaN of a single one
+    runs: int  #: that have such a result
+    steady: int  #: how many of them are steady flows
+
+    def __str__(self) -> str:
+        return f"{self.value:.4g} +- {self.error:.2g} ({self.runs} runs, {self.steady} steady)"
 
 
 class Sweep:
@@ -66,8 +85,37 @@ class Sweep:
         with opened(self.directory / "sweep.h5", remedy) as file:
             return table_of(part(file, "points", remedy))
 
+    def means(self, column: str, over: str = "seed") -> list[Mean]:
+        """The means of a column of `table` over the points that differ in the setting `over` alone, in
+        the order of the sweep file. Whether runs that are not steady may count is for you to say."""
+        if over not in self.varied:
+            raise NotThere(f"{self.directory}: does not vary {over}; choose one of {', '.join(self.varied)}")
+        if column not in self.table:
+            raise NotThere(f"{self.directory}: no run has a {column}; 'list(sweep.table)' tells what they have")
+        groups: dict[tuple[Any, ...], dict[str, tuple[float, bool]]] = {}
+        firsts: dict[tuple[Any, ...], Point] = {}
+        states = self.table.get("state", np.full(len(self.points), ""))
+        for point, value, state in zip(self.points, self.table[column], states):
+            others = tuple(item for item in point.settings.items() if item[0] != over)
+            key = (others, point.branch, point.leg)
+            firsts.setdefault(key, point)
+            results = groups.setdefault(key, {})
+            if np.isfinite(value):
+                results[point.name] = (float(value), state == "steady")
+        return [_mean_of(list(results.values()), firsts[key], over) for key, results in groups.items()]
+
     def _point(self, entry: Mapping[str, Any]) -> Point:
         return Point(directory=self.directory / "points" / entry["name"], name=entry["name"],
                      settings=entry["settings"], branch=entry["branch"], leg=entry["leg"],
                      parent=entry["parent"], status=entry["status"], attempts=entry["attempts"],
                      reason=entry["reason"])
+
+
+def _mean_of(results: list[tuple[float, bool]], first: Point, over: str) -> Mean:
+    values = np.array([value for value, _ in results])
+    n = len(values)
+    return Mean(settings={key: value for key, value in first.settings.items() if key != over},
+                branch=first.branch, leg=first.leg,
+                value=float(values.mean()) if n > 0 else math.nan,
+                error=float(values.std(ddof=1)) / math.sqrt(n) if n > 1 else math.nan,
+                runs=n, steady=sum(steady for _, steady in results))

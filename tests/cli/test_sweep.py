@@ -175,6 +175,9 @@ class Grid(SweepTest):
             self.assertEqual(row["state"], summary["state"])
             self.assertEqual(table["state"][i].decode(), summary["state"])
             self.assertEqual(set(flat(summary)) - set(row), set())
+            for finding in summary["validity"]["findings"]:
+                cell = row[f"validity.findings.{finding['name']}"]
+                self.assertEqual(float(cell) if cell else None, finding["value"])
 
     def test_impacts_are_swept_too_and_share_the_cores(self):
         for points, threads in ((1, "4"), (2, "2"), (4, "1")):
@@ -203,7 +206,10 @@ def flat(value, prefix=""):
     for name, part in value.items():
         if isinstance(part, dict):
             yield from flat(part, prefix + name + ".")
-        elif not isinstance(part, list):
+        elif isinstance(part, list):  # what has a name in it
+            yield from (f"{prefix}{name}.{item['name']}" for item in part
+                        if isinstance(item, dict) and {"name", "value"} <= set(item))
+        else:
             yield prefix + name
 
 

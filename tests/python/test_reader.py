@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import statistics
 
 import h5py
 import numpy as np
@@ -221,6 +222,32 @@ class NotThere(CommandTest):
 
 
 class OfSweep(CommandTest):
+
+    def test_means_over_seeds(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        self.write("sweep.yaml", SWEEP + "seeds: 3\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
+        sweep = riesel.Sweep(self.home / "out")
+        column = "mean_axial_velocity.value"
+        means = sweep.means(column)
+        self.assertEqual([(mean.settings["contact.restitution"], mean.branch) for mean in means],
+                         [(0.7, "slow"), (0.7, "fast"), (0.9, "slow"), (0.9, "fast")])
+        for mean in means:
+            values = [point.run.summary[column] for point in sweep.points
+                      if (point.settings["contact.restitution"], point.branch)
+                      == (mean.settings["contact.restitution"], mean.branch)]
+            self.assertNotIn("seed", mean.settings)
+            self.assertEqual((mean.runs, mean.steady), (3, 0))
+            self.assertAlmostEqual(mean.value, statistics.mean(values), places=12)
+            self.assertAlmostEqual(mean.error, statistics.stdev(values) / 3 ** 0.5, places=12)
+        (single,) = {mean.runs for mean in sweep.means(column, over="contact.restitution")}
+        self.assertEqual(single, 2)
+        (self.home / "out/points" / sweep.points[0].name / "summary.json").unlink()
+        self.assert_done(self.riesel("collect", "out"))
+        self.assertEqual([mean.runs for mean in riesel.Sweep(self.home / "out").means(column)], [2, 3, 3, 3])
+        for wrong in ((column, "gravity"), ("no.such", "seed")):
+            with self.assertRaises(riesel.NotThere):
+                sweep.means(*wrong)
 
     def test_points_and_table(self):
         self.write("tube.yaml", SMALL_TUBE)
