@@ -54,7 +54,7 @@ private:
 }
 
 pid_t start(std::vector<std::string> arguments, const std::filesystem::path& log) {
-  arguments.insert(arguments.begin(), "riesel");
+  arguments.insert(arguments.begin(), program_invocation_short_name);
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);

@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -278,7 +279,8 @@ private:
   }
 
   const app::Arguments arguments_;
-  CLI::App program_{"riesel: molecular dynamics of rapid granular flow", "riesel"};
+  CLI::App program_{"riesel: molecular dynamics of rapid granular flow",
+                    program_invocation_short_name};
   app::RunOptions run_;
   app::ResumeOptions resume_;
   app::CheckOptions check_;

@@ -1,9 +1,9 @@
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
+#include "app/plain_words.hpp"
 #include "io/durable_file.hpp"
 #include "io/settings_names.hpp"
 #include "io/settings_starter.hpp"
-#include "io/shell_words.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -38,8 +38,8 @@ int new_file(const NewFileOptions& options) {
     throw UnusableInput(file.string() + ": exists already; choose another name");
   io::write_durably(file, io::starter_file(scenarios::settings_tables().at(scenario.name),
                                            scenario.name, scenario.summary));
-  fmt::print("{0}: written; look at it, then 'riesel check {1}' and 'riesel run {1}'\n",
-             file.string(), io::in_quotes(file.string()));
+  fmt::print("{}: written; look at it, then '{}' and '{}'\n", file.string(), call_of("check", file),
+             call_of("run", file));
   return exit_done;
 }
 

@@ -1,14 +1,21 @@
 #include "app/plain_words.hpp"
 
 #include "engine/time_series.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <map>
 
 namespace riesel::app {
+
+std::string call_of(std::string_view subcommand, const std::filesystem::path& path) {
+  return fmt::format("{} {} {}", program_invocation_short_name, subcommand,
+                     io::in_quotes(path.string()));
+}
 
 std::string explanation_of_state(const io::FlowSummary& s) {
   const char* of_what = s.judged_by == "granular_temperature" ? " of the granular temperature" : "";

@@ -1,13 +1,19 @@
-// Verdicts in plain words, for the screen and for the report.
+// Verdicts, and ways on, in plain words, for the screen and for the report.
 #pragma once
 
 #include "engine/validity.hpp"
 #include "io/summary.hpp"
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace riesel::app {
+
+/// "riesel resume runs/e09", for a shell: by the name under which this program runs, as programs
+/// of others have the same command.
+std::string call_of(std::string_view subcommand, const std::filesystem::path& path);
 
 /// What the state of the flow means and, where it is too short, what is missing.
 std::string explanation_of_state(const io::FlowSummary& summary);

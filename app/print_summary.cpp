@@ -2,7 +2,6 @@
 
 #include "app/plain_words.hpp"
 #include "app/terminal.hpp"
-#include "io/shell_words.hpp"
 
 #include <fmt/core.h>
 
@@ -49,8 +48,7 @@ void print_state(const io::FlowSummary& s, const std::filesystem::path& director
              coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
              explanation_of_state(s));
   if (asks_for_more(s))
-    fmt::print("  {:<22}riesel resume {} --set {}='{:.2g} s'\n", "go on by",
-               io::in_quotes(directory.string()),
+    fmt::print("  {:<22}{} --set {}='{:.2g} s'\n", "go on by", call_of("resume", directory),
                s.ended_by == "duration" ? "run.duration" : "run.until.at_most",
                sufficient_duration(s));
 }

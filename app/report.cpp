@@ -1,6 +1,7 @@
 // riesel report: the directory of a run that is over, or of a sweep, becomes a page with figures.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
+#include "app/plain_words.hpp"
 #include "app/report_column.hpp"
 #include "app/report_flow.hpp"
 #include "app/report_impacts.hpp"
@@ -10,7 +11,6 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/settings_text.hpp"
-#include "io/shell_words.hpp"
 #include "io/summary_reader.hpp"
 
 #include <fmt/core.h>
@@ -35,10 +35,9 @@ void require_finished_run(const fs::path& directory) {
                         + ": holds no run and no sweep; give the directory of one (see 'riesel "
                           "run' and 'riesel sweep')");
   if (fs::exists(directory / io::summary_name)) return;
-  const std::string way_on =
-      io::DirectoryLock::is_held(directory)
-          ? "wait until it has"
-          : "go on with it by 'riesel resume " + io::in_quotes(directory.string()) + "'";
+  const std::string way_on = io::DirectoryLock::is_held(directory)
+                                 ? "wait until it has"
+                                 : "go on with it by '" + call_of("resume", directory) + "'";
   const std::string no_end = directory.string() + ": its run has not come to its end; ";
   if (!fs::exists(directory / post_mortem_name)) throw UnusableInput(no_end + way_on);
   // It may have been resumed since, and stopped before its next end.
@@ -113,9 +112,8 @@ Report report_of_sweep(const fs::path& directory) {
   for (const io::ManifestPoint& point : record.manifest.points)
     record.results.push_back(result_of(point, directory));
   if (std::ranges::none_of(record.results, [](const auto& r) { return r.summary.has_value(); }))
-    throw UnusableInput(directory.string() + ": has no point with a result; see 'riesel status "
-                        + io::in_quotes(directory.string())
-                        + "', and run 'riesel sweep' to its end");
+    throw UnusableInput(directory.string() + ": has no point with a result; see '"
+                        + call_of("status", directory) + "', and run the sweep to its end");
   return make_report(record);
 }
 

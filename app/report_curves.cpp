@@ -16,7 +16,8 @@ constexpr double room_for_arrows = 0.06;  // of the axis
 using Legend = std::vector<std::pair<std::string, io::Look>>;
 
 std::string description_of(const std::string& what, const std::string& title) {
-  return title.empty() ? what : what + ": " + title;
+  if (title.empty()) return what;
+  return (what.ends_with('.') ? what.substr(0, what.size() - 1) : what) + ": " + title;
 }
 
 template <class Curve>

@@ -1,12 +1,12 @@
 #include "app/run_directory.hpp"
 
 #include "app/commands.hpp"
+#include "app/plain_words.hpp"
 #include "io/build_info.hpp"
 #include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
-#include "io/shell_words.hpp"
 #include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
 
@@ -47,8 +47,8 @@ void reject_directory_in_use(const fs::path& path) {
     throw UnusableInput(
         path.string()
         + ": holds a run already; choose another directory with --out, or go on with that "
-          "run by 'riesel resume "
-        + io::in_quotes(path.string()) + "'");
+          "run by '"
+        + call_of("resume", path) + "'");
 }
 
 }  // namespace

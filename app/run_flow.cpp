@@ -8,6 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/limit_watch.hpp"
 #include "app/pace.hpp"
+#include "app/plain_words.hpp"
 #include "app/print_profile.hpp"
 #include "app/print_summary.hpp"
 #include "app/progress.hpp"
@@ -25,7 +26,6 @@
 #include "engine/tube_profiles.hpp"
 #include "io/durable_file.hpp"
 #include "io/provenance.hpp"
-#include "io/shell_words.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_limits.hpp"
 
@@ -102,8 +102,8 @@ public:
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
       return fail(failure,
-                  fmt::format("; 'riesel resume {}' goes on from there with another limit",
-                              io::in_quotes(files_.directory().file(post_mortem_name).string())));
+                  fmt::format("; '{}' goes on from there with another limit",
+                              call_of("resume", files_.directory().file(post_mortem_name))));
     } catch (const RunFailure& failure) {
       return fail(failure, "");
     }
@@ -322,9 +322,9 @@ private:
 
   int tell_interruption() const {
     const bool by_signal = interrupting_signal() != 0;
-    tell("{} at t = {:.6g} s; 'riesel resume {}' goes on from there\n",
+    tell("{} at t = {:.6g} s; '{}' goes on from there\n",
          by_signal ? "interrupted" : "out of time (--max-walltime)", simulation_.state().time(),
-         io::in_quotes(files_.directory().path().string()));
+         call_of("resume", files_.directory().path()));
     return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
   }
 

@@ -1,6 +1,7 @@
 // riesel sweep: many runs from one file.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
+#include "app/plain_words.hpp"
 #include "app/print_sweep.hpp"
 #include "app/sweep_collect.hpp"
 #include "app/sweep_directory.hpp"
@@ -11,7 +12,6 @@
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
-#include "io/shell_words.hpp"
 
 #include <fmt/core.h>
 
@@ -115,8 +115,8 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   }
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
-  fmt::print("{}: submitted as job {}; see 'riesel status {}'\n", sweep.string(),
-             submit(manifest, sweep, options.retry_failed), io::in_quotes(sweep.string()));
+  fmt::print("{}: submitted as job {}; see '{}'\n", sweep.string(),
+             submit(manifest, sweep, options.retry_failed), call_of("status", sweep));
   return exit_done;
 }
 

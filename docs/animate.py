@@ -46,4 +46,6 @@ if __name__ == "__main__":
     parser.add_argument("film", type=Path)
     parser.add_argument("--fps", type=float, default=25.0, help="pictures per second [25]")
     options = parser.parse_args()
+    if not FFMpegWriter.isAvailable():
+        parser.error("ffmpeg is missing; install it")
     animate(options.run / "trajectory.h5", options.film, options.fps)

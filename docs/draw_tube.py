@@ -80,4 +80,6 @@ def draw(run_file: Path, picture: Path) -> None:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
     draw(Path(sys.argv[1]) / "run.h5", Path(sys.argv[2]))

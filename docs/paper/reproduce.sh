@@ -11,7 +11,7 @@ usage() {
 Usage: docs/paper/reproduce.sh FIGURE...
 
   fig3         single wall grain: stiffness, time step, contact law (seconds)
-  fig4_5       row of wall grains (a minute)
+  fig4_5       row of wall grains (some seconds)
   fig6         tube, slow starts of three stiffnesses, ten seeds, and the next one (an hour on two cores)
   fig6_fast    tube, starts from below and above the fast states (half an hour)
   fig6_steps   the same, and what time step and attraction make of the fast states (an hour)
