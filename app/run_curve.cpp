@@ -1,5 +1,6 @@
 #include "app/run_curve.hpp"
 
+#include "app/curve_lines.hpp"
 #include "app/run_problems.hpp"
 
 #include <algorithm>
@@ -71,6 +72,7 @@ int run_curve(const io::Settings& settings, const scenarios::ImpactCurve& curve,
     for (const auto& point : curve.points)
       summary.curve.push_back(average(
           curve.setup, point, std::span(results).subspan(point.first_impact, point.impacts)));
+    summary.lines = lines_of(summary.curve);
     return summary;
   };
   return run_problems(

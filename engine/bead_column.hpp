@@ -31,7 +31,7 @@ struct ColumnResult {
   double restitution;   ///< square root of the energy after over that before
   double rebound;       ///< velocity of the centre of mass after over that before, upwards
   double contacts;      ///< number of overlaps begun
-  double contact_time;  ///< s, sum of their durations
+  double contact_time;  ///< s, sum of the durations of those that have ended
   double max_overlap;   ///< m
   double energy_error;  ///< see energy_error_ratio()
   bool over;  ///< contacts have ended and no two bodies approach (more than hardly); else given up

@@ -42,7 +42,7 @@ struct ImpactResult {
   double dv_x;          ///< m/s, v_x after, away from the wall, plus v_x before, towards it
   double dv_y;          ///< m/s, loss of axial velocity
   double contacts;      ///< number of overlaps begun
-  double contact_time;  ///< s, sum of their durations
+  double contact_time;  ///< s, sum of the durations of those that have ended
   double max_overlap;   ///< m
   double cut_short;     ///< number of contacts cut short, see brake.hpp
   /// kg m/s, impulse against y of the contacts that brake, and of those among them cut short.

@@ -38,8 +38,8 @@ public:
     return std::bit_cast<double>((first_quarter + bin) << bits_below_a_quarter);
   }
 
-  /// The lower edge of the bin that holds the value below which this part of all lies; 0 if there
-  /// are none.
+  /// The lower edge of the bin that holds the value below which this part of all lies, 0 <= part <
+  /// 1; 0 if there are none.
   double quantile(double part) const {
     const double wanted = part * static_cast<double>(total());
     double below = 0.0;

@@ -1,5 +1,7 @@
 #include "engine/rigid_column.hpp"
 
+#include "engine/require.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -66,6 +68,7 @@ private:
 }  // namespace
 
 RigidColumn rigid_column(int beads, double restitution_of_beads, double restitution_at_plate) {
+  require(beads > 0, "a column needs beads");
   // A column that does not collapse has some N^2 collisions, ten times as many next to the
   // threshold.
   const std::int64_t most_collisions = 100 * static_cast<std::int64_t>(beads) * beads;

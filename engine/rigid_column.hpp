@@ -21,7 +21,8 @@ struct RigidColumn {
   bool collapsed;
 };
 
-/// `beads` >= 1 of equal mass, which fall with one velocity and equal gaps between them.
+/// `beads` of equal mass, which fall with one velocity and equal gaps between them. Throws
+/// std::invalid_argument if there are none.
 RigidColumn rigid_column(int beads, double restitution_of_beads, double restitution_at_plate);
 
 }  // namespace riesel

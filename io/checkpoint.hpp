@@ -39,7 +39,7 @@ inline constexpr auto checkpoint_name = "checkpoint.h5";
 /// Replaces the checkpoint at `path`, and keeps the one before as NAME.previous (see
 /// write_durably). Grains are stored in the order of their ids. Takes the memory of the state once
 /// more. Throws FileError; in particular if no run could go on from the state: a good checkpoint is
-/// not replaced by one that read_checkpoint() would refuse.
+/// not replaced by one that read_checkpoint() would refuse. Hdf5Error if memory for it lacks.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 /// Reads a checkpoint and checks all of it. Grains are in the order of their ids. Throws FileError

@@ -90,8 +90,9 @@ public:
                    const std::vector<std::vector<double>>& rows);
 
   /// Puts all that was written so far on the disk. What was not flushed is lost when the RunFile
-  /// goes. Call it before a checkpoint that counts these rows. Throws FileError; the file on the
-  /// disk is then that of the flush before, and the next flush may succeed.
+  /// goes. Call it before a checkpoint that counts these rows. Throws FileError, or Hdf5Error if
+  /// memory lacks; the file on the disk is then that of the flush before (or, if only the last
+  /// steps of write_durably() failed, the new one), and the next flush may succeed.
   void flush();
 
 private:

@@ -122,9 +122,18 @@ struct CurvePoint {
   Validity verdict = Validity::valid;
 };
 
+/// What the points of one v_x come to.
+struct CurveLine {
+  double v_x = 0.0;                                     ///< m/s
+  double largest_dv_y = unknown, largest_at = unknown;  ///< m/s, of points where the brake works
+  double brake_fails_at = unknown;   ///< m/s, v_y from which half of the braking fails
+  double two_contacts_at = unknown;  ///< m/s, v_y from which an impact has two contacts in the mean
+};
+
 struct CurveSummary {
   RunSummary run;
   std::vector<CurvePoint> curve;
+  std::vector<CurveLine> lines = {};  ///< not read back
 };
 
 /// One drop of a column of beads.

@@ -47,11 +47,16 @@ WallMotion shaking(const io::Settings& settings, const Box& box) {
   return motion;
 }
 
-/// The walls and the grains do not fit: the key that was given of the two, or that of the walls.
-std::string to_blame(const io::Settings& settings, const std::string& key_of_walls) {
+/// The walls and the grains do not fit: the key that was given of the two. If both were, that of
+/// the walls, but if a single grain is as large as the room (m), that of the grains.
+std::string to_blame(const io::Settings& settings, const std::string& key_of_walls, double largest,
+                     double room) {
   constexpr auto diameter = "grains.diameter";
-  return settings.given(diameter) && !settings.given(key_of_walls) ? diameter : key_of_walls;
+  const bool by_grains = !settings.given(key_of_walls) || largest >= room;
+  return settings.given(diameter) && by_grains ? diameter : key_of_walls;
 }
+
+constexpr auto unit_hint = "is a unit forgotten, as in '1 mm'?";
 
 }  // namespace
 
@@ -119,12 +124,12 @@ void reject_short_period(const io::Settings& settings, double largest, const Sta
                          const std::string& key_of_length) {
   const double length = empty.box.length;
   if (length < 4.0 * largest * (1.0 - 1e-12))
-    settings.reject(to_blame(settings, key_of_length),
+    settings.reject(to_blame(settings, key_of_length, largest, length),
                     fmt::format("the periodic {} is too short for grains of this size",
                                 io::section_of(key_of_length)),
                     fmt::format("choose smaller grains, or for {} at least four diameters, "
-                                "{:.6g} m",
-                                key_of_length, 4.0 * largest));
+                                "{:.6g} m; {}",
+                                key_of_length, 4.0 * largest, unit_hint));
   if (const double most = 0.5 * length - largest; 2.0 * empty.walls.front().radius > most)
     settings.reject(
         "wall.grain_diameter",
@@ -139,11 +144,11 @@ void reject_narrow_gap(const io::Settings& settings, double largest, const State
                        const std::string& key_of_width) {
   const double needed = largest + 2.0 * empty.walls.front().radius;
   if (empty.box.width < needed)
-    settings.reject(
-        to_blame(settings, key_of_width),
-        fmt::format("the {} is too narrow for the grains between the wall grains",
-                    io::section_of(key_of_width)),
-        fmt::format("choose smaller grains, or {} above {:.6g} m", key_of_width, needed));
+    settings.reject(to_blame(settings, key_of_width, largest, empty.box.width),
+                    fmt::format("the {} is too narrow for the grains between the wall grains",
+                                io::section_of(key_of_width)),
+                    fmt::format("choose smaller grains, or {} above {:.6g} m; {}", key_of_width,
+                                needed, unit_hint));
 }
 
 void reject_crowded_wall(const io::Settings& settings, double reach, double spacing) {

@@ -21,13 +21,33 @@ class Impacts:
 
     def test_the_summary_has_the_names_of_the_contract_and_finite_values(self):
         summary = self.summary(self.run_shipped("out"))
-        self.assertEqual(set(summary), COMMON_NAMES | {"curve"})
+        self.assertEqual(set(summary), COMMON_NAMES | {"curve", "lines"})
         self.assertEqual(set(summary["performance"]), PERFORMANCE_NAMES)
         for point in summary["curve"]:
             self.assertEqual(set(point), POINT_NAMES)
         self.assert_finite(summary)
         self.assertEqual(summary["scenario"], self.scenario)
         self.assertGreater(summary["steps"], 0)
+
+    def test_a_line_is_what_its_points_come_to(self):
+        summary = self.summary(self.run_shipped("out"))
+        self.assertEqual([line["v_x"] for line in summary["lines"].values()], self.normal_velocities)
+        for name, line in summary["lines"].items():
+            self.assertEqual(float(name), line["v_x"])
+            points = [point for point in summary["curve"] if point["v_x"] == line["v_x"]]
+            braking = [point for point in points if not (point["brake_failure_fraction"] or 0) >= 0.5]
+            best = max(braking, key=lambda point: point["dv_y"])
+            self.assertEqual((line["largest_dv_y"], line["largest_at"]), (best["dv_y"], best["v_y"]))
+            for column, level, crossing in (("brake_failure_fraction", 0.5, line["brake_fails_at"]),
+                                            ("contacts", 2.0, line["two_contacts_at"])):
+                above = [point[column] is not None and point[column] >= level for point in points]
+                if not any(above):
+                    self.assertIsNone(crossing, column)
+                    continue
+                first = above.index(True)
+                low, high = points[first - 1], points[first]
+                part = (crossing - low["v_y"]) / (high["v_y"] - low["v_y"])
+                self.assertAlmostEqual(low[column] + part * (high[column] - low[column]), level, places=9)
 
     def test_the_curve_is_in_the_order_of_the_velocities(self):
         curve = self.summary(self.run_shipped("out"))["curve"]

@@ -147,6 +147,8 @@ TEST_CASE("a tube that is too narrow for its grains is refused, with the width i
   // The key that was given is blamed.
   check_mentions(complaint(tube_yaml, {"grains.diameter=1 m", "tube.width=", "tube.length="}),
                  {"grains.diameter: the periodic tube is too short", "smaller grains"});
+  check_mentions(complaint(tube_yaml, {"grains.diameter=1"}),
+                 {"grains.diameter: the periodic tube is too short", "is a unit forgotten"});
 }
 
 TEST_CASE("a tube that is too short for its grains is refused, with the length it takes") {
