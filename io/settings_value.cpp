@@ -64,7 +64,7 @@ std::string read_path(const Setting& row, const YamlNode& node) {
   namespace fs = std::filesystem;
   const bool from_file = node.place.line > 0;
   const auto home = from_file ? fs::path(node.place.source).parent_path() : fs::path();
-  const std::string path = fs::absolute(home / read_text(row, node)).lexically_normal().string();
+  std::string path = fs::absolute(home / read_text(row, node)).lexically_normal().string();
   if (!is_utf8(path))  // nor would the files be in which it is recorded
     refuse_value(row, node, "its whole path, " + path + ", is not UTF-8: rename that directory");
   return path;

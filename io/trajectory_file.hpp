@@ -42,7 +42,8 @@ public:
 
   /// Goes on with the file of a run that is resumed: of its frames those remain that were due up to
   /// the step of `state`. Until the next commit the file on the disk holds the frames that it holds
-  /// now: those that come again are written over themselves. Throws FileError; in particular if it has fewer, is damaged, or is of another run.
+  /// now: those that come again are written over themselves. Throws FileError; in particular if it
+  /// has fewer, is damaged, or is of another run.
   static TrajectoryFile reopen(const std::filesystem::path& path, std::uint64_t run,
                                const State& state, std::int64_t steps_per_frame,
                                const std::string& settings);
