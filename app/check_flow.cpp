@@ -2,6 +2,7 @@
 
 #include "app/check_parts.hpp"
 #include "app/cost.hpp"
+#include "app/flow_failures.hpp"
 #include "app/schedule.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
@@ -34,13 +35,8 @@ void print_critical_velocity(double chord_length, double t_col, double fastest) 
 }
 
 void warn_of_open_walls(const State& state) {
-  const WallLattice& wall = state.walls.front();
-  const double gap = wall.gap(state.box);
   const double smallest = 2.0 * std::ranges::min(state.grains.radius);
-  if (smallest < gap)
-    warn("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may leave the tube; "
-         "choose wall.spacing below {:.3g} m",
-         smallest, gap, smallest + 2.0 * wall.radius);
+  if (const auto way = way_through_a_wall(state, smallest)) warn("{}", *way);
 }
 
 /// Bytes in run.h5.
@@ -114,14 +110,11 @@ void print_bodies(const State& state) {
   warn_of_open_walls(state);
 }
 
-/// The grain of the settings; of a file, which may have others, one of mean size and mass.
+/// One of mean size and mass, as in the summary of a run.
 struct TypicalGrain {
   double mass, radius;  // kg, m
 };
-TypicalGrain typical_grain(const io::Settings& settings, const Grains& grains) {
-  if (settings.text("start.kind") != "file")
-    return {.mass = settings.number("grains.mass"),
-            .radius = 0.5 * settings.number("grains.diameter")};
+TypicalGrain typical_grain(const Grains& grains) {
   return {.mass = total_mass(grains) / static_cast<double>(grains.size()),
           .radius = 0.5 * mean_diameter(grains)};
 }
@@ -130,7 +123,7 @@ TypicalGrain typical_grain(const io::Settings& settings, const Grains& grains) {
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
   const State& state = flow.state;
   const NormalLaw& normal = flow.model.normal;
-  const auto [mass, radius] = typical_grain(settings, state.grains);
+  const auto [mass, radius] = typical_grain(state.grains);
   // Grains of a normal distribution are rarely faster than four standard deviations; the common
   // fall brings no two together.
   const double fastest = std::max(4.0 * random, 1e-3);
@@ -152,13 +145,12 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
 }
 
-void print_brake(const io::Settings& settings, const scenarios::Flow& flow, double random,
-                 double mean_vy) {
+void print_brake(const scenarios::Flow& flow, double random, double mean_vy) {
   constexpr double at_rest =
       1e-6;  // m/s: such grains sink in nowhere, and how others will is not known
   const WallLattice& wall = flow.state.walls.front();
   if (wall.smooth() || random < at_rest) return;
-  const auto [mass, radius] = typical_grain(settings, flow.state.grains);
+  const auto [mass, radius] = typical_grain(flow.state.grains);
   const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
   const double reach = radius + wall.radius;
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
@@ -191,7 +183,7 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const double random = std::sqrt(start.granular_temperature);
   print_bodies(flow.state);
   print_contacts(settings, flow, random);
-  print_brake(settings, flow, random, start.mean_vy);
+  print_brake(flow, random, start.mean_vy);
   print_cost(settings, flow);
 }
 

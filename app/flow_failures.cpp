@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
+#include <cstdint>
 
 namespace riesel::app {
 
@@ -19,16 +19,22 @@ void fail_if_too_fast(const State& state) {
       fastest.id, fastest.speed, when(state), largest));
 }
 
+std::optional<std::string> way_through_a_wall(const State& state, double diameter) {
+  for (const WallLattice& wall : state.walls)
+    if (diameter < wall.gap(state.box))
+      return fmt::format("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may "
+                         "leave the tube; choose wall.spacing below {:.3g} m",
+                         diameter, wall.gap(state.box), diameter + 2.0 * wall.radius);
+  return std::nullopt;
+}
+
 namespace {
 
-std::string cause_of_leaving(const State& state) {
-  const double smallest = 2.0 * std::ranges::min(state.grains.radius);
-  for (const WallLattice& wall : state.walls)
-    if (smallest < wall.gap(state.box))
-      return fmt::format("grains of {:.3g} m fit between the wall grains, {:.3g} m apart; choose "
-                         "wall.spacing below {:.3g} m",
-                         smallest, wall.gap(state.box), smallest + 2.0 * wall.radius);
-  return "the contacts are too soft for these velocities; raise contact.stiffness";
+std::string cause_of_leaving(const State& state, std::int64_t id) {
+  const auto slot = std::ranges::find(state.grains.id, id) - state.grains.id.begin();
+  const double diameter = 2.0 * state.grains.radius[static_cast<std::size_t>(slot)];
+  return way_through_a_wall(state, diameter)
+      .value_or("the contacts are too soft for these velocities; raise contact.stiffness");
 }
 
 }  // namespace
@@ -40,8 +46,8 @@ void fail_if_through_a_wall(const State& state, const Observables& seen) {
       seen.outside == 1.0
           ? fmt::format("grain {} has", *grain)
           : fmt::format("{:.0f} grains, grain {} among them, have", seen.outside, *grain);
-  throw RunFailure(
-      fmt::format("{} gone through a wall {}: {}", who, when(state), cause_of_leaving(state)));
+  throw RunFailure(fmt::format("{} gone through a wall {}: {}", who, when(state),
+                               cause_of_leaving(state, *grain)));
 }
 
 }  // namespace riesel::app

@@ -4,7 +4,14 @@
 #include "engine/observables.hpp"
 #include "engine/state.hpp"
 
+#include <optional>
+#include <string>
+
 namespace riesel::app {
+
+/// Says, with the remedy, that a grain of this diameter (m) fits between the grains of a wall, if
+/// it does.
+std::optional<std::string> way_through_a_wall(const State& state, double diameter);
 
 /// Throws RunFailure, with grain, time and remedy, if grains move so fast that nothing can be told
 /// of them, nor of how they went on (largest_speed).

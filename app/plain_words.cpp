@@ -13,7 +13,7 @@
 namespace riesel::app {
 
 std::string call_of(std::string_view subcommand, const std::filesystem::path& path) {
-  return fmt::format("{} {} {}", program_invocation_short_name, subcommand,
+  return fmt::format("{} {} {}", io::in_quotes(program_invocation_short_name), subcommand,
                      io::in_quotes(path.string()));
 }
 

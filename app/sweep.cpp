@@ -81,8 +81,9 @@ std::map<fs::path, io::RunRecord> forget_failures(const io::Manifest& manifest,
   return forgotten;
 }
 
-/// Tasks may begin at once, so failures are forgotten before; but not if there is no job.
-std::string submit(const io::Manifest& manifest, const fs::path& sweep, bool retry_failed) {
+/// Tasks may begin at once, so failures are forgotten before; but not if there is no job. Returns
+/// its number.
+std::string submitted_job(const io::Manifest& manifest, const fs::path& sweep, bool retry_failed) {
   std::map<fs::path, io::RunRecord> forgotten;
   if (retry_failed) forgotten = forget_failures(manifest, sweep);
   try {
@@ -115,8 +116,8 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   }
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
-  fmt::print("{}: submitted as job {}; see '{}'\n", sweep.string(),
-             submit(manifest, sweep, options.retry_failed), call_of("status", sweep));
+  const std::string job = submitted_job(manifest, sweep, options.retry_failed);
+  fmt::print("{}: submitted as job {}; see '{}'\n", sweep.string(), job, call_of("status", sweep));
   return exit_done;
 }
 

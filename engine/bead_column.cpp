@@ -81,7 +81,7 @@ ColumnResult result(const ColumnSetup& setup, const State& state, bool over) {
     squares += v * v;
   }
   const ContactTally &pairs = state.tally.grains, &plate = state.tally.walls;
-  const Observables now = observe(state);
+  const Observables now = observe(state);  // with contacts that last
   return {.restitution = std::sqrt(squares / setup.beads) / setup.velocity,
           .rebound = sum / setup.beads / setup.velocity,
           .contacts = static_cast<double>(pairs.begun + plate.begun),

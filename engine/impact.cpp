@@ -57,8 +57,7 @@ bool gone(const ImpactSetup& setup, const State& state, const Grain& grain) {
   return grain.x * grain.vx + y * grain.vy > 0.0;
 }
 
-/// s, in free flight until the grain can touch the wall, or has come to its line if it starts that
-/// close.
+/// s, that the grain takes to the wall's line in free flight: it touches the wall before.
 double time_to_wall(const ImpactSetup& setup, const Impact& impact) {
   if (setup.single_wall_grain()) return std::hypot(impact.x, impact.y) / speed_of(impact);
   return impact.v_x > 0.0 ? impact.x / impact.v_x : 0.0;
@@ -96,7 +95,7 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
   const Grain grain = grain_at(state, 0);
   const ContactTally& tally = state.tally.walls;
   const BrakeTally& brakes = state.tally.brakes;
-  const Observables now = observe(state);
+  const Observables now = observe(state);  // with contacts that last
   return {.dv_x = grain.vx + impact.v_x,
           .dv_y = impact.v_y - grain.vy,
           .contacts = static_cast<double>(tally.begun),

@@ -71,7 +71,7 @@ Askew sound(const Askew& askew) {
 int team_size(int wanted) {
   require(wanted > 0, "a simulation needs at least one thread");
   if (wanted == 1) return 1;
-  return granted_members(wanted);
+  return fix_members(wanted);
 }
 
 /// What to try first. In units of what plain stepping takes for a grain without contacts, flights

@@ -9,10 +9,10 @@
 
 namespace riesel {
 
-/// How many threads the system grants to a team that wants so many. From then on it grants the
-/// calling thread no fewer because the machine has other work (OMP_DYNAMIC): there is a slice for
-/// each.
-inline int granted_members(int wanted) {
+/// Returns how many threads the system grants to a team that wants so many. From then on it grants
+/// the calling thread no fewer because the machine has other work (OMP_DYNAMIC): there is a slice
+/// for each.
+inline int fix_members(int wanted) {
   omp_set_dynamic(0);
   int granted = 1;
 #pragma omp parallel num_threads(wanted)

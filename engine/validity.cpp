@@ -88,6 +88,13 @@ Validity judge(const Criterion& c, double value) {
   return beyond(c.suspect) ? Validity::suspect : Validity::valid;
 }
 
+/// Braking is what is done against +y.
+std::string_view remedy_of_ignorance(const Criterion& c) {
+  return c.value == &Evidence::brake_failure_fraction
+             ? "run longer, and without gravity let the flow go along +y"
+             : "run longer";
+}
+
 Finding finding_of(const Criterion& c, double value, Validity verdict) {
   return {.name = c.name,
           .value = value,
@@ -96,7 +103,7 @@ Finding finding_of(const Criterion& c, double value, Validity verdict) {
           .low_is_bad = c.low_is_bad,
           .verdict = verdict,
           .meaning = std::isnan(value) ? "not known" : c.meaning,
-          .remedy = std::isnan(value) ? "run longer" : c.remedy};
+          .remedy = std::isnan(value) ? remedy_of_ignorance(c) : c.remedy};
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ struct WallLattice {
   /// Whether a grain with this radius (m) and its centre at `x` (m) is no farther than `room` (m)
   /// from where the wall can ever be. It comes of rounded numbers, so that whoever must not miss a
   /// contact asks with some room.
-  bool is_near(double x, double grain, double room) const {
-    return std::abs(x - line) < grain + reach() + room;
+  bool is_near(double x, double grain_radius, double room) const {
+    return std::abs(x - line) < grain_radius + reach() + room;
   }
   /// How many bodies it has that can be touched: a plane is one.
   std::int64_t partners() const { return smooth() ? 1 : count; }

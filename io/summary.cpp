@@ -145,12 +145,13 @@ std::string to_json(const CurveSummary& s) {
                      {"brake_failure_fraction", p.brake_failure_fraction},
                      {"verdict", name(p.verdict)}});
   json["curve"] = curve;
+  json["lines"] = Json::array();
   for (const CurveLine& line : s.lines)
-    json["lines"][fmt::format("{}", line.v_x)] = {{"v_x", line.v_x},
-                                                  {"largest_dv_y", line.largest_dv_y},
-                                                  {"largest_at", line.largest_at},
-                                                  {"brake_fails_at", line.brake_fails_at},
-                                                  {"two_contacts_at", line.two_contacts_at}};
+    json["lines"].push_back({{"v_x", line.v_x},
+                             {"largest_dv_y", line.largest_dv_y},
+                             {"largest_at", line.largest_at},
+                             {"brake_fails_at", line.brake_fails_at},
+                             {"two_contacts_at", line.two_contacts_at}});
   return text_of(json);
 }
 

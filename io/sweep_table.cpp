@@ -23,11 +23,13 @@ void flatten(const Json& json, const std::string& prefix,
       flatten(value, prefix + name + ".", values);
     } else if (!value.is_array()) {
       values.emplace_back(prefix + name, cell_of(value));
-    } else {
-      for (const auto& item : value)  // of lists, what has a name: findings
-        if (item.is_object() && item.contains("name") && item.contains("value"))
-          values.emplace_back(fmt::format("{}{}.{}", prefix, name, item["name"].get<std::string>()),
-                              cell_of(item["value"]));
+    } else if (name == "findings") {
+      for (const auto& finding : value)
+        values.emplace_back(prefix + name + "." + finding.at("name").get<std::string>(),
+                            cell_of(finding.at("value")));
+    } else if (name == "lines") {
+      for (const auto& line : value)
+        flatten(line, fmt::format("{}{}.{}.", prefix, name, line.at("v_x").get<double>()), values);
     }
   }
 }

@@ -120,10 +120,10 @@ void reject_strong_gravity(const io::Settings& settings, std::size_t grains, con
                   largest));
 }
 
-/// Velocities change by whole quanta in a step: where it is very short, by a gravity of other size
-/// than is set.
+/// Velocities change by whole quanta in a step: where it is very short, or gravity very small, by a
+/// gravity of other size than is set.
 void reject_rounded_gravity(const io::Settings& settings, const State& state) {
-  constexpr double tolerated = 1e-4;  // of gravity
+  constexpr double tolerated = 1e-3;  // of gravity
   const Box& box = state.box;
   const Fall fall = fall_per_step(state);
   const double per_step2 = 1.0 / (state.time_step * state.time_step);
@@ -131,12 +131,13 @@ void reject_rounded_gravity(const io::Settings& settings, const State& state) {
                                   box.metres_y(fall.y) * per_step2 - state.gravity.y);
   const double gravity = std::hypot(state.gravity.x, state.gravity.y);
   if (error <= tolerated * gravity) return;
-  settings.reject(
-      "run.steps_per_collision",
-      fmt::format("makes the time step, {:.3g} s, so short that gravity would be off by "
-                  "{:.2g} % as it is rounded",
-                  state.time_step, 100.0 * error / gravity),
-      "choose fewer steps, softer or heavier grains, or a smaller system");
+  constexpr auto steps_key = "run.steps_per_collision";
+  settings.reject(settings.given(steps_key) ? steps_key : "gravity",
+                  fmt::format("with a time step of {:.3g} s gravity would be off by {:.2g} %, as "
+                              "what it adds in a step is rounded",
+                              state.time_step, 100.0 * error / gravity),
+                  "choose gravity 0 or a stronger one, fewer run.steps_per_collision, softer or "
+                  "heavier grains, or a smaller system");
 }
 
 void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,

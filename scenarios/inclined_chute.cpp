@@ -84,7 +84,7 @@ std::vector<Grain> place_grains(const io::Settings& settings, const SizeDistribu
   covered.box.width =
       area / (loose * empty.box.length) + sizes.largest() + 2.0 * empty.walls.front().radius;
   reject_low_chute(settings, covered.box.width, empty);
-  covered.walls.push_back(empty.walls.front());
+  covered.walls.push_back(empty.walls.front());  // whatever its motion: nothing moves yet
   covered.walls.back().line = covered.box.width;
   std::vector<Grain> grains =
       packed_grains(settings, radii_of_area(settings, sizes, area), covered);

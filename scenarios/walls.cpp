@@ -56,7 +56,10 @@ std::string to_blame(const io::Settings& settings, const std::string& key_of_wal
   return settings.given(diameter) && by_grains ? diameter : key_of_walls;
 }
 
-constexpr auto unit_hint = "is a unit forgotten, as in '1 mm'?";
+/// Where a single grain is as large as the room (m).
+const char* hint(double largest, double room) {
+  return largest >= room ? "; is a unit forgotten, as in '1 mm'?" : "";
+}
 
 }  // namespace
 
@@ -128,9 +131,10 @@ void reject_short_period(const io::Settings& settings, double largest, const Sta
                     fmt::format("the periodic {} is too short for grains of this size",
                                 io::section_of(key_of_length)),
                     fmt::format("choose smaller grains, or for {} at least four diameters, "
-                                "{:.6g} m; {}",
-                                key_of_length, 4.0 * largest, unit_hint));
-  if (const double most = 0.5 * length - largest; 2.0 * empty.walls.front().radius > most)
+                                "{:.6g} m{}",
+                                key_of_length, 4.0 * largest, hint(largest, length)));
+  const double most = 0.5 * length - largest;
+  if (2.0 * std::ranges::max(empty.walls, {}, &WallLattice::radius).radius > most)
     settings.reject(
         "wall.grain_diameter",
         fmt::format("too large for a periodic {} of this length", io::section_of(key_of_length)),
@@ -142,13 +146,13 @@ void reject_short_period(const io::Settings& settings, double largest, const Sta
 
 void reject_narrow_gap(const io::Settings& settings, double largest, const State& empty,
                        const std::string& key_of_width) {
-  const double needed = largest + 2.0 * empty.walls.front().radius;
+  const double needed = largest + (empty.walls.front().radius + empty.walls.back().radius);
   if (empty.box.width < needed)
     settings.reject(to_blame(settings, key_of_width, largest, empty.box.width),
                     fmt::format("the {} is too narrow for the grains between the wall grains",
                                 io::section_of(key_of_width)),
-                    fmt::format("choose smaller grains, or {} above {:.6g} m; {}", key_of_width,
-                                needed, unit_hint));
+                    fmt::format("choose smaller grains, or {} above {:.6g} m{}", key_of_width,
+                                needed, hint(largest, empty.box.width)));
 }
 
 void reject_crowded_wall(const io::Settings& settings, double reach, double spacing) {
@@ -172,10 +176,10 @@ void reject_fast_walls(const io::Settings& settings, const State& state) {
     const double periods = wall.motion.frequency * state.time_step;  // in a step
     if (shaken > 0.0 && periods * fewest_steps > 1.0)
       settings.reject(frequency_key,
-                      fmt::format("has {:.2g} time steps in a period, which takes at least {:g}",
+                      fmt::format("has {:.3g} time steps in a period, which takes at least {:g}",
                                   1.0 / periods, fewest_steps),
                       fmt::format("choose at most {:.3g} 1/s, or more run.steps_per_collision",
-                                  1.0 / (fewest_steps * state.time_step)));
+                                  0.99 / (fewest_steps * state.time_step)));
   }
 }
 

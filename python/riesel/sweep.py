@@ -48,7 +48,7 @@ class Mean:
     value: float
     error: float  #: standard error, by the scatter of the runs; NaN of a single one
     runs: int  #: that have such a result
-    steady: int  #: how many of them are steady flows
+    steady: int  #: how many of them are steady flows; of impacts none is
 
     def __str__(self) -> str:
         return f"{self.value:.4g} +- {self.error:.2g} ({self.runs} runs, {self.steady} steady)"
@@ -90,19 +90,21 @@ class Sweep:
         the order of the sweep file. Whether runs that are not steady may count is for you to say."""
         if over not in self.varied:
             raise NotThere(f"{self.directory}: does not vary {over}; choose one of {', '.join(self.varied)}")
-        if column not in self.table:
-            raise NotThere(f"{self.directory}: no run has a {column}; 'list(sweep.table)' tells what they have")
-        groups: dict[tuple[Any, ...], dict[str, tuple[float, bool]]] = {}
-        firsts: dict[tuple[Any, ...], Point] = {}
-        states = self.table.get("state", np.full(len(self.points), ""))
-        for point, value, state in zip(self.points, self.table[column], states):
+        table = self.table
+        if column not in table or table[column].dtype.kind != "f":
+            raise NotThere(f"{self.directory}: no run has a number {column}; 'list(sweep.table)' tells what they have")
+        states = table.get("state", np.full(len(table[column]), ""))
+        result_of = {name: (float(value), state == "steady")
+                     for name, value, state in zip(table["point"], table[column], states)}
+        groups: dict[tuple[Any, ...], list[Point]] = {}
+        for point in self.points:
+            if point.name not in result_of:
+                raise NotThere(f"{self.directory}: its table lacks a point; make it anew by 'riesel collect "
+                               f"{self.directory}'")
             others = tuple(item for item in point.settings.items() if item[0] != over)
-            key = (others, point.branch, point.leg)
-            firsts.setdefault(key, point)
-            results = groups.setdefault(key, {})
-            if np.isfinite(value):
-                results[point.name] = (float(value), state == "steady")
-        return [_mean_of(list(results.values()), firsts[key], over) for key, results in groups.items()]
+            groups.setdefault((others, point.branch, point.leg), []).append(point)
+        return [_mean_of([result_of[name] for name in {point.name: None for point in group}], group[0], over)
+                for group in groups.values()]
 
     def _point(self, entry: Mapping[str, Any]) -> Point:
         return Point(directory=self.directory / "points" / entry["name"], name=entry["name"],
@@ -112,10 +114,11 @@ class Sweep:
 
 
 def _mean_of(results: list[tuple[float, bool]], first: Point, over: str) -> Mean:
-    values = np.array([value for value, _ in results])
+    there = [(value, steady) for value, steady in results if math.isfinite(value)]
+    values = np.array([value for value, _ in there])
     n = len(values)
     return Mean(settings={key: value for key, value in first.settings.items() if key != over},
                 branch=first.branch, leg=first.leg,
                 value=float(values.mean()) if n > 0 else math.nan,
                 error=float(values.std(ddof=1)) / math.sqrt(n) if n > 1 else math.nan,
-                runs=n, steady=sum(steady for _, steady in results))
+                runs=n, steady=sum(steady for _, steady in there))

@@ -31,9 +31,8 @@ class Impacts:
 
     def test_a_line_is_what_its_points_come_to(self):
         summary = self.summary(self.run_shipped("out"))
-        self.assertEqual([line["v_x"] for line in summary["lines"].values()], self.normal_velocities)
-        for name, line in summary["lines"].items():
-            self.assertEqual(float(name), line["v_x"])
+        self.assertEqual([line["v_x"] for line in summary["lines"]], self.normal_velocities)
+        for line in summary["lines"]:
             points = [point for point in summary["curve"] if point["v_x"] == line["v_x"]]
             braking = [point for point in points if not (point["brake_failure_fraction"] or 0) >= 0.5]
             best = max(braking, key=lambda point: point["dv_y"])
@@ -45,6 +44,7 @@ class Impacts:
                     self.assertIsNone(crossing, column)
                     continue
                 first = above.index(True)
+                self.assertGreater(first, 0)
                 low, high = points[first - 1], points[first]
                 part = (crossing - low["v_y"]) / (high["v_y"] - low["v_y"])
                 self.assertAlmostEqual(low[column] + part * (high[column] - low[column]), level, places=9)
@@ -79,6 +79,23 @@ class Impacts:
         self.assert_same_result(one, again)
         self.assertEqual((one / "effective.yaml").read_bytes(),
                          (again / "effective.yaml").read_bytes())
+
+
+class Lines(CommandTest):
+
+    def lines(self, velocities):
+        out = self.run_to_end(SHIPPED / "wall_array.yaml", f"from-{velocities[0]}", "--set", "impact.normal_velocity=0.1",
+                              "--set", f"impact.axial_velocity={velocities}")
+        line, = self.summary(out)["lines"]
+        return line
+
+    def test_what_the_curve_does_not_show_is_null(self):
+        """Where the brake has failed from the beginning, and where it never does."""
+        failed = self.lines([10, 20, 30])
+        self.assertEqual([failed[name] for name in ("largest_dv_y", "largest_at", "brake_fails_at")], [None] * 3)
+        works = self.lines([0.5, 1, 2])
+        self.assertEqual((works["brake_fails_at"], works["two_contacts_at"]), (None, None))
+        self.assertIn(works["largest_at"], (0.5, 1, 2))
 
 
 class SingleWallGrain(Impacts, CommandTest):

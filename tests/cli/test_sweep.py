@@ -206,9 +206,10 @@ def flat(value, prefix=""):
     for name, part in value.items():
         if isinstance(part, dict):
             yield from flat(part, prefix + name + ".")
-        elif isinstance(part, list):  # what has a name in it
-            yield from (f"{prefix}{name}.{item['name']}" for item in part
-                        if isinstance(item, dict) and {"name", "value"} <= set(item))
+        elif name == "findings":
+            yield from (f"{prefix}{name}.{finding['name']}" for finding in part)
+        elif isinstance(part, list):
+            continue
         else:
             yield prefix + name
 

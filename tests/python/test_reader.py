@@ -245,9 +245,19 @@ class OfSweep(CommandTest):
         (self.home / "out/points" / sweep.points[0].name / "summary.json").unlink()
         self.assert_done(self.riesel("collect", "out"))
         self.assertEqual([mean.runs for mean in riesel.Sweep(self.home / "out").means(column)], [2, 3, 3, 3])
-        for wrong in ((column, "gravity"), ("no.such", "seed")):
+        for wrong in ((column, "gravity"), ("no.such", "seed"), ("state", "seed")):
             with self.assertRaises(riesel.NotThere):
                 sweep.means(*wrong)
+        # A point more in the plan, and the table of before.
+        before = sweep.means(column)
+        self.write("sweep.yaml", (SWEEP + "seeds: 3\n").replace("[0.7, 0.9]", "[0.6, 0.7, 0.9]"))
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--prepare", "--out", "out"))
+        with self.assertRaisesRegex(riesel.NotThere, "riesel collect"):
+            riesel.Sweep(self.home / "out").means(column)
+        self.assert_done(self.riesel("collect", "out"))
+        after = riesel.Sweep(self.home / "out").means(column)
+        self.assertEqual([mean.runs for mean in after], [0, 0, 2, 3, 3, 3])
+        self.assertEqual([mean.value for mean in after[3:]], [mean.value for mean in before[1:]])
 
     def test_points_and_table(self):
         self.write("tube.yaml", SMALL_TUBE)

@@ -83,7 +83,10 @@ TEST_CASE("a time step so short that gravity is rounded is refused") {
     return complaint(tube_yaml, {std::string("run.steps_per_collision=") + number});
   };
   CHECK(steps("20000") == "accepted");
-  check_mentions(steps("2000000"), {"run.steps_per_collision", "gravity", "choose fewer steps"});
+  check_mentions(steps("2000000"), {"run.steps_per_collision: ", "gravity would be off"});
+  CHECK(complaint(tube_yaml, {"gravity=1e-6"}) == "accepted");
+  check_mentions(complaint(tube_yaml, {"gravity=1e-9"}),
+                 {"gravity: ", "would be off", "gravity 0 or a stronger one"});
   CHECK(complaint(tube_yaml, {"run.steps_per_collision=2000000", "gravity=0"}) == "accepted");
 }
 
