@@ -110,20 +110,13 @@ void print_bodies(const State& state) {
   warn_of_open_walls(state);
 }
 
-/// One of mean size and mass, as in the summary of a run.
-struct TypicalGrain {
-  double mass, radius;  // kg, m
-};
-TypicalGrain typical_grain(const Grains& grains) {
-  return {.mass = total_mass(grains) / static_cast<double>(grains.size()),
-          .radius = 0.5 * mean_diameter(grains)};
-}
-
-/// `random`: m/s, root mean square of the random velocities at the start, per component.
+/// Of a grain of mean mass and size, as in the summary of a run. `random`: m/s, root mean square of
+/// the random velocities at the start, per component.
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
   const State& state = flow.state;
   const NormalLaw& normal = flow.model.normal;
-  const auto [mass, radius] = typical_grain(state.grains);
+  const double mass = mean_mass(state.grains);
+  const double radius = 0.5 * mean_diameter(state.grains);
   // Grains of a normal distribution are rarely faster than four standard deviations; the common
   // fall brings no two together.
   const double fastest = std::max(4.0 * random, 1e-3);
@@ -146,13 +139,12 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
 }
 
 void print_brake(const scenarios::Flow& flow, double random, double mean_vy) {
-  constexpr double at_rest =
-      1e-6;  // m/s: such grains sink in nowhere, and how others will is not known
+  constexpr double at_rest = 1e-6;  // m/s: how fast grains will be is not known then
   const WallLattice& wall = flow.state.walls.front();
   if (wall.smooth() || random < at_rest) return;
-  const auto [mass, radius] = typical_grain(flow.state.grains);
-  const double t_col = collision_time(flow.model.normal, mass, std::max(random, 1e-3));
-  const double reach = radius + wall.radius;
+  const double t_col =
+      collision_time(flow.model.normal, mean_mass(flow.state.grains), std::max(random, 1e-3));
+  const double reach = 0.5 * mean_diameter(flow.state.grains) + wall.radius;
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
 }
 

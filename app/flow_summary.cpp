@@ -24,7 +24,7 @@ namespace {
 /// contact can push it away, chord over t_col.
 void tell_typical_contacts(const State& state, const ContactModel& model, double sigma_vx,
                            io::FlowSummary::Validity& validity) {
-  const double mass = total_mass(state.grains) / static_cast<double>(state.grains.size());
+  const double mass = mean_mass(state.grains);
   const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
   const WallLattice& wall = state.walls.front();
   const double reach = 0.5 * mean_diameter(state.grains) + wall.radius;
@@ -141,10 +141,9 @@ Judged judged_by(const State& state, double interval) {
       state.gravity.x != 0.0 || std::ranges::any_of(state.walls, [](const WallLattice& wall) {
         return wall.motion.velocity != 0.0 || wall.motion.oscillates();
       });
-  if (state.gravity.y == 0.0 && agitated)
-    return {.series = "granular_temperature", .free_fall_gain = {}};
-  if (state.gravity.y == 0.0) return {.series = "mean_vy", .free_fall_gain = {}};
-  return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
+  if (state.gravity.y != 0.0)
+    return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
+  return {.series = agitated ? "granular_temperature" : "mean_vy", .free_fall_gain = {}};
 }
 
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,

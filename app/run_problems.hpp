@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/clock.hpp"
-#include "app/cost.hpp"
 #include "app/exit_status.hpp"
 #include "app/print_summary.hpp"
 #include "app/run_directory.hpp"

@@ -138,6 +138,10 @@ double mean_diameter(const Grains& grains) {
   return 2.0 * radii.value() / static_cast<double>(grains.size());
 }
 
+double mean_mass(const Grains& grains) {
+  return total_mass(grains) / static_cast<double>(grains.size());
+}
+
 double total_mass(const Grains& grains) {
   ExactSum sum;
   for (const double mass : grains.mass) sum.add(mass);

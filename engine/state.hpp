@@ -154,6 +154,8 @@ Grain grain_at(const State& state, std::size_t slot);
 double mean_diameter(const Grains& grains);
 /// kg; likewise.
 double total_mass(const Grains& grains);
+/// kg
+double mean_mass(const Grains& grains);
 
 /// The moment, for messages: "at t = 0.0125 s (step 1234)".
 std::string when(std::int64_t step, double time_step);
