@@ -45,10 +45,21 @@ std::string version_text() {
 constexpr int most_jobs = 1024;
 constexpr std::size_t most_tasks = 10'000'000;
 
-void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
-  command.add_option("--set", overrides, "Change a setting: key.path=value; may be repeated")
+CLI::Option* add_set(CLI::App& command, std::vector<std::string>& overrides,
+                     const std::string& what) {
+  return command.add_option("--set", overrides, what + "; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
+}
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  add_set(command, overrides, "Change a setting: key.path=value");
+}
+
+/// To go on with the runs of a sweep.
+CLI::Option* add_changes(CLI::App& command, std::vector<std::string>& overrides) {
+  return add_set(command, overrides,
+                 "Go on with what is done, too, such as run.duration='4 s': key.path=value");
 }
 
 void add_threads(CLI::App& command, std::vector<std::string>& overrides) {
@@ -162,7 +173,8 @@ private:
   void add_sweep() {
     CLI::App* sweep = program_.add_subcommand(
         "sweep", "Run all points of a sweep file that are not done, side by side");
-    CLI::Option* file = sweep->add_option("FILE", sweep_.file, "Sweep in YAML");
+    CLI::Option* file = sweep->add_option(
+        "FILE", sweep_.file, "Sweep in YAML, or the directory of a sweep, to go on with it");
     sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]");
     CLI::Option* jobs =
         sweep->add_option("--jobs", sweep_.jobs, "Runs side by side [as many as cores]")
@@ -176,8 +188,9 @@ private:
         *sweep, sweep_.max_walltime,
         "Stop with checkpoints before this time on the clock, such as '23.5 h', is over; with "
         "--slurm: the time of each task, which is queued again then");
+    CLI::Option* changes = add_changes(*sweep, sweep_.overrides);
     add_slurm(*sweep)->excludes(jobs)->excludes(prepare);
-    prepare->excludes(jobs)->excludes(retry)->excludes(walltime);
+    prepare->excludes(changes)->excludes(jobs)->excludes(retry)->excludes(walltime);
     set_command(*sweep, *file, [this] { return app::sweep(sweep_); });
   }
 
@@ -211,6 +224,7 @@ private:
     add_max_walltime(*task, task_.max_walltime,
                      "Stop with checkpoints before this time on the clock is over");
     task->add_flag("--retry-failed", task_.retry_failed, "Run it again if it failed");
+    add_changes(*task, task_.overrides);
     set_command(*task, *index, [this] { return app::sweep_task(task_); });
   }
 

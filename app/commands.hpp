@@ -60,8 +60,9 @@ struct CheckOptions {
 int check(const CheckOptions& options);
 
 struct SweepOptions {
-  std::filesystem::path file;                      ///< the sweep file
+  std::filesystem::path file;                      ///< the sweep file, or the directory of a sweep
   std::optional<std::filesystem::path> directory;  ///< where the results go
+  std::vector<std::string> overrides;              ///< "key=value", to go on with, see Prolongation
   std::optional<int> jobs;                         ///< runs side by side [as many as cores]
   bool dry_run = false;                            ///< only tell what would be run
   bool prepare_only = false;                       ///< write the plan, run nothing
@@ -80,6 +81,7 @@ struct SweepTaskOptions {
   std::optional<int> threads;          ///< [as many as cores, if that many are of use]
   std::optional<double> max_walltime;  ///< s on the clock, to stop before; from the program's start
   bool retry_failed = false;
+  std::vector<std::string> overrides;  ///< "key=value", to go on with, see Prolongation
 };
 
 int sweep_task(const SweepTaskOptions& options);

@@ -1,38 +1,20 @@
 #include "app/commands.hpp"
+#include "app/plain_words.hpp"
+#include "app/resumed_settings.hpp"
 #include "app/run_flow.hpp"
 #include "app/terminal.hpp"
 #include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
-#include "io/settings_given.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 
-#include <set>
-
 namespace riesel::app {
 
 namespace {
-
-/// What may change without making it another run: keys and sections.
-bool may_change(const std::string& key) {
-  static const std::set<std::string> names = {"run.duration", "run.until",
-                                              "run.threads",  "run.stepping",
-                                              "limits",       "output.checkpoint_interval"};
-  return names.contains(key) || names.contains(io::section_of(key));
-}
-
-void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
-  for (const io::YamlEntry& setting : io::parse_overrides(overrides)) {
-    if (!may_change(setting.key))
-      throw io::SettingsError(setting.key_place, setting.key, "cannot change when a run is resumed",
-                              "only run.duration, run.until, run.threads, run.stepping, limits and "
-                              "output.checkpoint_interval can; for anything else start a new run");
-  }
-}
 
 void reject_what_is_no_run(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path))
@@ -46,8 +28,8 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
                                ? ", or go on from " + post_mortem.string() + " with another limit"
                                : ""));
   if (std::filesystem::exists(path / io::manifest_name))
-    throw UnusableInput(path.string()
-                        + ": holds a sweep; go on with it by 'riesel sweep' and its file");
+    throw UnusableInput(path.string() + ": holds a sweep; go on with it by '"
+                        + call_of("sweep", path) + "'");
   if (std::filesystem::is_regular_file(path) && path.extension() == ".yaml")
     throw UnusableInput(path.string() + ": is no checkpoint; give the directory of a run, or its "
                         + io::checkpoint_name);

@@ -63,7 +63,7 @@ constexpr auto script_form = R"(#!/bin/bash
 #SBATCH --open-mode=append
 #SBATCH --requeue
 {more}
-{riesel} sweep-task {sweep} "$SLURM_ARRAY_TASK_ID" --of {tasks} --threads {threads}{walltime} &
+{riesel} sweep-task {sweep} "$SLURM_ARRAY_TASK_ID" --of {tasks} --threads {threads}{options} &
 task=$!
 trap 'late=1; kill -TERM $task' USR1  # the time is almost over: the runs write their checkpoints
 trap 'kill -TERM $task' TERM          # cancelled, or another job comes first
@@ -93,20 +93,21 @@ std::optional<std::size_t> most_tasks_of_slurm() {
 }
 
 std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
-                         const SlurmOptions& options, std::optional<double> time,
-                         std::size_t most) {
+                         const std::vector<std::string>& overrides, const SlurmOptions& options,
+                         std::optional<double> time, std::size_t most) {
   const std::size_t tasks = std::min({most_parts(manifest), most, options.tasks.value_or(most)});
   const auto open = open_parts(manifest, tasks);
   if (open.empty()) return {};
   // It comes up to two minutes before the end: of short tasks, which look after themselves, too
   // soon.
   constexpr double time_worth_a_signal = 600.0;  // s
-  std::string more, walltime;
+  std::string more, for_tasks;
   if (!time || *time >= time_worth_a_signal) more += "#SBATCH --signal=B:USR1@60\n";
   if (time) {
     more += fmt::format("#SBATCH --time={:.0f}\n", std::ceil(*time / 60.0));
-    walltime = fmt::format(" --max-walltime {}", io::in_quotes(fmt::format("{} s", *time)));
+    for_tasks += " --max-walltime " + io::in_quotes(fmt::format("{} s", *time));
   }
+  for (const std::string& setting : overrides) for_tasks += " --set " + io::in_quotes(setting);
   for (const std::string& option : options.for_sbatch) more += "#SBATCH " + option + "\n";
   const fs::path directory = fs::absolute(sweep).lexically_normal();
   return fmt::format(fmt::runtime(script_form), fmt::arg("writer", written_by()),
@@ -116,7 +117,7 @@ std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
                      fmt::arg("more", more),
                      fmt::arg("riesel", io::in_quotes(fs::read_symlink("/proc/self/exe").string())),
                      fmt::arg("sweep", io::in_quotes(directory.string())), fmt::arg("tasks", tasks),
-                     fmt::arg("walltime", walltime));
+                     fmt::arg("options", for_tasks));
 }
 
 std::string submit_to_slurm(const fs::path& script_file) {

@@ -23,9 +23,11 @@ struct SlurmOptions {
 std::optional<std::size_t> most_tasks_of_slurm();
 
 /// The script for sbatch. The array has those tasks that have something to do: empty if none has.
-/// `time`: s, of each task, until it is queued again; `most`: tasks that an array can have.
+/// `overrides`: "key=value", for each task; `time`: s, of each task, until it is queued again;
+/// `most`: tasks that an array can have.
 std::string slurm_script(const io::Manifest& manifest, const std::filesystem::path& sweep,
-                         const SlurmOptions& options, std::optional<double> time, std::size_t most);
+                         const std::vector<std::string>& overrides, const SlurmOptions& options,
+                         std::optional<double> time, std::size_t most);
 
 inline constexpr auto slurm_script_name = "slurm.sh";
 

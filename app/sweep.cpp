@@ -1,8 +1,9 @@
-// riesel sweep: many runs from one file.
+// riesel sweep: many runs from one file; or a sweep that was begun, which goes on.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
 #include "app/plain_words.hpp"
 #include "app/print_sweep.hpp"
+#include "app/prolongation.hpp"
 #include "app/sweep_collect.hpp"
 #include "app/sweep_directory.hpp"
 #include "app/sweep_plan.hpp"
@@ -57,8 +58,9 @@ constexpr std::size_t usual_most_tasks = 1000;
 
 /// As they stand in the directories. Slurm's tasks leave out what has failed, unless it is to be
 /// tried again.
-void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep, bool retry_failed) {
-  refresh(manifest, sweep);
+void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
+                       const Prolongation& prolongation, bool retry_failed) {
+  prolongation.refresh(manifest, sweep);
   if (!retry_failed) return;
   for (io::ManifestPoint& point : manifest.points)
     if (point.status == to_string(RunStatus::failed))
@@ -98,7 +100,7 @@ int show_slurm_script(const io::Manifest& manifest, const fs::path& sweep,
                       const SweepOptions& options) {
   const std::size_t most = most_tasks_of_slurm().value_or(usual_most_tasks);
   const std::string script =
-      slurm_script(manifest, sweep, options.slurm, options.max_walltime, most);
+      slurm_script(manifest, sweep, options.overrides, options.slurm, options.max_walltime, most);
   fmt::print("{}", script.empty() ? "# nothing is left to be done\n" : script);
   return exit_done;
 }
@@ -109,7 +111,7 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
     throw UnusableInput("--slurm: scontrol does not answer; call this on a machine with Slurm, or "
                         "see --prepare for other batch systems");
   const std::string script =
-      slurm_script(manifest, sweep, options.slurm, options.max_walltime, *most);
+      slurm_script(manifest, sweep, options.overrides, options.slurm, options.max_walltime, *most);
   if (script.empty()) {
     print_status(manifest, sweep);
     return exit_done;
@@ -121,30 +123,49 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   return exit_done;
 }
 
+/// The plan of a sweep that was begun: nothing of it need be written.
+SweepPlan plan_in(const fs::path& sweep) {
+  return {.manifest = manifest_in(sweep), .settings = {}, .sweep_file = {}};
+}
+
+void reject_options_in_vain(const SweepOptions& options, bool begun) {
+  if (begun && options.directory)
+    throw UnusableInput("--out: the sweep in " + options.file.string()
+                        + " goes on where it is; leave the option out");
+  if (!begun && !options.overrides.empty())
+    throw UnusableInput(
+        "--set: goes on with the runs of a sweep that was begun; give its directory "
+        "instead of the file, or write the setting into the file, below 'set:'");
+}
+
 }  // namespace
 
 int sweep(const SweepOptions& options) {
-  const fs::path directory = options.directory.value_or("sweeps" / options.file.stem());
-  SweepPlan plan = plan_sweep(options.file);
+  const bool begun = fs::is_directory(options.file);
+  reject_options_in_vain(options, begun);
+  const fs::path directory =
+      begun ? options.file : options.directory.value_or("sweeps" / options.file.stem());
+  SweepPlan plan = begun ? plan_in(directory) : plan_sweep(options.file);
+  const Prolongation prolongation(plan.manifest, directory, options.overrides);
   const int jobs = options.jobs.value_or(cores());
   if (options.dry_run) {
     if (options.to_slurm) {
-      refresh_for_slurm(plan.manifest, directory, options.retry_failed);
+      refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
       return show_slurm_script(plan.manifest, directory, options);
     }
-    refresh(plan.manifest, directory);
+    prolongation.refresh(plan.manifest, directory);
     print_plan(plan.manifest, directory, jobs);
     return exit_done;
   }
   const io::DirectoryLock locked = lock(directory);
-  write_plan(plan, directory);
+  if (!begun) write_plan(plan, directory);
   if (options.prepare_only) {
     fmt::print("{}: {} points are ready for 'riesel sweep-task'\n", directory.string(),
                plan.manifest.points.size());
     return exit_done;
   }
   if (options.to_slurm) {
-    refresh_for_slurm(plan.manifest, directory, options.retry_failed);
+    refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
     return submit(plan.manifest, directory, options);
   }
   const auto write_manifest = [&](const io::Manifest& manifest) {
@@ -156,6 +177,7 @@ int sweep(const SweepOptions& options) {
                                  .cores = cores(),
                                  .retry_failed = options.retry_failed,
                                  .max_walltime = options.max_walltime,
+                                 .prolongation = prolongation,
                                  .on_change = write_manifest});
   write_table(plan.manifest, directory);
   print_status(plan.manifest, directory);

@@ -109,13 +109,17 @@ private:
     job->directory = point_directory(sweep_, point.name);
     if (const auto parent = by_name_.find(point.parent); parent != by_name_.end())
       job->parent = parent->second;
-    job->seconds = point.expected_seconds;
+    job->seconds = point.expected_seconds * options_.prolongation.way_of(job->directory).part;
     job->most_threads = point.most_threads;
-    job->status = standing_of(job->directory).status;
+    job->status = status_of(*job);
     if (job->status == RunStatus::failed && options_.retry_failed)
       job->status = RunStatus::interrupted;
     by_name_.emplace(job->name, job.get());
     jobs_.push_back(std::move(job));
+  }
+
+  RunStatus status_of(const Job& job) const {
+    return options_.prolongation.standing_of(job.directory).status;
   }
 
   void order_by_urgency() {
@@ -153,7 +157,7 @@ private:
   }
 
   /// Another process has the directory; when it lets go, the point may be done or not.
-  static void look_at_others_work(Job& job) { job.status = standing_of(job.directory).status; }
+  void look_at_others_work(Job& job) const { job.status = status_of(job); }
 
   /// An equal share of the cores for all that can run now.
   int threads_for(const Job& job) const {
@@ -165,7 +169,7 @@ private:
 
   void start(Job& job) {
     const int threads = threads_for(job);
-    job.status = standing_of(job.directory).status;
+    job.status = status_of(job);
     if (job.status == RunStatus::running || job.status == RunStatus::done) return;
     ++job.starts;
     const bool goes_on = can_resume(job.directory);
@@ -180,6 +184,8 @@ private:
       arguments = {"run", settings.string(), "--out", directory};
     }
     arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
+    for (const std::string& setting : options_.prolongation.way_of(job.directory).overrides)
+      arguments.insert(arguments.end(), {"--set", setting});
     const auto log = job.directory / log_name;
     job.log_begin = fs::exists(log) ? fs::file_size(log) : 0;
     job.process = std::make_unique<ChildProcess>(arguments, log);
@@ -189,7 +195,7 @@ private:
   }
 
   /// Whether what an earlier run has left is gone; not if another process has begun one meanwhile.
-  static bool cleared(Job& job) {
+  bool cleared(Job& job) const {
     try {
       clear(job.directory);
       return true;
@@ -205,7 +211,7 @@ private:
     if (!end) return;
     job.process.reset();
     --running_;
-    job.status = standing_of(job.directory).status;
+    job.status = status_of(job);
     const bool taken_by_another = job.status == RunStatus::running;
     if (job.status == RunStatus::done || taken_by_another) return;
     if (was_stopped(*end)) {

@@ -6,7 +6,7 @@
 // the directories of the points, so that the runner itself can die at any moment.
 #pragma once
 
-#include "app/sweep_directory.hpp"
+#include "app/prolongation.hpp"
 #include "io/sweep_manifest.hpp"
 
 #include <filesystem>
@@ -25,6 +25,7 @@ struct SweepRunOptions {
   int cores = 1;                            ///< shared by them
   bool retry_failed = false;                ///< start again what failed
   std::optional<double> max_walltime = {};  ///< s, since the program's start, to stop before
+  Prolongation prolongation = {};           ///< of what is done, too
   /// Called now and then, and at the end, with the snapshot in the manifest up to date.
   std::function<void(const io::Manifest&)> on_change = [](const io::Manifest&) {};
 };

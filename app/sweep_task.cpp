@@ -49,7 +49,8 @@ int sweep_task(const SweepTaskOptions& options) {
                                 {.jobs = 1,
                                  .cores = options.threads.value_or(cores()),
                                  .retry_failed = options.retry_failed,
-                                 .max_walltime = options.max_walltime});
+                                 .max_walltime = options.max_walltime,
+                                 .prolongation = {manifest, options.directory, options.overrides}});
   for (const std::string& name : names) {
     const RunStanding standing = standing_of(point_directory(options.directory, name));
     fmt::print("point {}: {}{}{}\n", name, to_string(standing.status),

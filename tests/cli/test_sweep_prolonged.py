@@ -1,0 +1,202 @@
+"""Going on with the runs of a sweep that are done: what they come to is what they would have come to
+if they had been planned like this."""
+
+import shutil
+import signal
+import time
+import unittest
+
+from riesel_command import FAILED, bytes_of_files
+from test_sweep import CHAIN, ONE_FAILS, SweepTest
+
+TWO = """\
+base: tube.yaml
+set: {run.duration: 2 ms}
+axes: {contact.restitution: [0.7, 0.9]}
+"""
+# The first point is planned to go further than the others.
+UNEQUAL = """\
+base: tube.yaml
+axes:
+  - contact.restitution: [0.7, 0.8, 0.9]
+    run.duration: [6 ms, 3 ms, 2 ms]
+"""
+LONG_ENOUGH_TO_INTERRUPT = "4 s"
+
+
+class Prolonged(SweepTest):
+
+    def go_on(self, *changes, out="out", options=()):
+        return self.riesel("sweep", out, *[f"--set={change}" for change in changes], *options)
+
+    def whole(self, restitution, *changes):
+        """The run as it would have been if nobody had stopped it before."""
+        return self.run_to_end("tube.yaml", f"whole/{restitution}",
+                               f"--set=contact.restitution={restitution}",
+                               *[f"--set={change}" for change in changes])
+
+    def directory_of(self, restitution):
+        row = next(row for row in self.rows() if row["contact.restitution"] == restitution)
+        return self.home / "out/points" / row["point"]
+
+    def assert_is_whole(self, restitution, duration):
+        self.assert_same_result(self.directory_of(restitution),
+                                self.whole(restitution, f"run.duration={duration}"))
+
+    def test_what_is_done_goes_on_to_the_same_bits(self):
+        self.sweep_to_end(TWO)
+        names = [row["point"] for row in self.rows()]
+        self.assert_done(self.go_on("run.duration=5 ms"))
+        self.assertEqual([row["point"] for row in self.rows()], names)
+        for restitution in ("0.7", "0.9"):
+            self.assert_is_whole(restitution, "5 ms")
+
+    def test_what_has_not_begun_begins_like_that(self):
+        self.sweep_to_end(TWO.replace("[0.7, 0.9]", "[0.7]"))
+        self.assert_done(self.sweep(TWO, "out", "--prepare"))
+        self.assert_done(self.go_on("run.duration=5 ms"))
+        for restitution in ("0.7", "0.9"):
+            self.assert_is_whole(restitution, "5 ms")
+
+    def test_what_has_come_further_stays(self):
+        self.sweep_to_end(UNEQUAL)
+        before = bytes_of_files(self.directory_of("0.7"))
+        self.assert_done(self.go_on("run.duration=4 ms"))
+        self.assertEqual(bytes_of_files(self.directory_of("0.7")), before)
+        for restitution in ("0.8", "0.9"):
+            self.assert_is_whole(restitution, "4 ms")
+
+    def test_what_has_gone_on_is_not_run_again(self):
+        self.sweep_to_end(TWO)
+        self.assert_done(self.go_on("run.duration=5 ms"))
+        before = bytes_of_files(self.home / "out/points")
+        self.assert_done(self.go_on("run.duration=5 ms"))
+        self.assert_done(self.sweep(TWO, "out"))
+        self.assertEqual(bytes_of_files(self.home / "out/points"), before)
+
+    def test_to_a_precision(self):
+        changes = ["run.duration=", "run.until.relative_error=0.01 %", "run.until.at_most=6 ms"]
+        self.sweep_to_end(TWO)
+        for _ in range(2):  # the second time there is no duration to be taken out
+            self.assert_done(self.go_on(*changes))
+        self.assertEqual(self.summary(self.directory_of("0.7"))["ended_by"], "at_most")
+        self.assert_same_result(self.directory_of("0.7"), self.whole("0.7", *changes))
+
+    def test_the_directory_alone_goes_on_with_what_is_left(self):
+        self.assert_done(self.sweep(TWO, "out", "--prepare"))
+        self.assert_done(self.riesel("sweep", "out"))
+        for restitution in ("0.7", "0.9"):
+            self.assert_is_whole(restitution, "2 ms")
+
+    def test_by_tasks(self):
+        self.sweep_to_end(TWO)
+        for part in (0, 1):
+            self.assert_done(self.riesel("sweep-task", "out", part, "--of", 2, "--threads", 1,
+                                         "--set", "run.duration=5 ms"))
+        self.assert_done(self.riesel("collect", "out"))
+        for restitution in ("0.7", "0.9"):
+            self.assert_is_whole(restitution, "5 ms")
+
+    def test_a_script_for_slurm_hands_it_on(self):
+        self.sweep_to_end(UNEQUAL)
+        self.assertEqual(self.script_for("run.duration=2 ms"), "# nothing is left to be done\n")
+        script = self.script_for("run.duration=4 ms")
+        self.assertIn("#SBATCH --array=1-2\n", script)
+        self.assertIn(" --set 'run.duration=4 ms'", script)
+
+    def script_for(self, change):
+        result = self.riesel("sweep", "out", "--slurm", "--dry-run", "--set", change, PATH="/nowhere")
+        self.assert_done(result)
+        return result.stdout
+
+    def test_a_dry_run_tells_what_would_go_on(self):
+        self.sweep_to_end(UNEQUAL)
+        before = bytes_of_files(self.home)
+        result = self.go_on("run.duration=4 ms", options=["--dry-run"])
+        self.assert_done(result)
+        self.assertEqual((result.stdout.count(" done "), result.stdout.count(" interrupted ")),
+                         (1, 2), result.stdout)
+        self.assertEqual(bytes_of_files(self.home), before)
+
+    def test_failures_stay_failures(self):
+        self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
+        self.assertEqual(self.go_on("run.duration=6 ms").returncode, FAILED)
+        self.assertEqual(sorted(row["status"] for row in self.rows()), ["done", "done", "failed"])
+
+    def test_interrupted_it_goes_on_by_the_same_command_and_by_the_sweep_file(self):
+        self.sweep_to_end(TWO)
+        change = f"run.duration={LONG_ENOUGH_TO_INTERRUPT}"
+        process = self.start("sweep", "out", "--set", change)
+        deadline = time.monotonic() + 100.0
+        while list(self.home.glob("out/points/*/summary.json")) and time.monotonic() < deadline:
+            time.sleep(0.005)
+        time.sleep(0.3)  # which is no matter: the runs catch signals from their beginning
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=100.0)
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
+        shutil.copytree(self.home / "out", self.home / "other")
+        for command in ([self.go_on, change], [self.sweep, TWO, "other"]):
+            act, *arguments = command
+            self.assert_done(act(*arguments))
+        self.assertEqual(self.hashes("out"), self.hashes("other"))
+        self.assert_is_whole("0.9", LONG_ENOUGH_TO_INTERRUPT)
+
+
+class Refused(SweepTest):
+
+    def assert_refused_without_a_trace(self, arguments, *mentions):
+        before = bytes_of_files(self.home)
+        self.assert_refused(self.riesel("sweep", *arguments), *mentions)
+        self.assertEqual(bytes_of_files(self.home), before)
+
+    def test_what_would_be_other_runs(self):
+        self.sweep_to_end(TWO)
+        for change, mentions in {
+                "contact.friction=0.1": ("contact.friction", "new run"),
+                "run.threads=2": ("run.threads", "--jobs"),
+                "run.duration=5 mm": ("run.duration", "mm"),
+                "run.duration=-1 s": ("run.duration",),
+                "run.duratoin=5 ms": ("run.duratoin",),
+                "run.until.at_most=5 s": ("run.until",)}.items():
+            with self.subTest(change):
+                self.assert_refused_without_a_trace(["out", "--set", change], *mentions)
+
+    def test_runs_that_others_started_from(self):
+        self.sweep_to_end(CHAIN)
+        self.assert_refused_without_a_trace(["out", "--set", "run.duration=5 ms"],
+                                            "start from each other")
+
+    def test_runs_without_a_length(self):
+        self.write("grain.yaml", "scenario: single_wall_grain\n"
+                                 "impact: {axial_velocity: [1 m/s, 2 m/s]}\n"
+                                 "contact: {stiffness: 2000 N/m, restitution: 0.9}\n")
+        self.sweep_to_end("base: grain.yaml\naxes: {contact.restitution: [0.7, 0.9]}\n")
+        self.assert_refused_without_a_trace(["out", "--set", "output.checkpoint_interval=5 s"],
+                                            "single_wall_grain")
+
+    def test_a_sweep_file_has_its_own_settings(self):
+        self.write("sweep.yaml", TWO)
+        self.assert_refused_without_a_trace(["sweep.yaml", "--set", "run.duration=5 ms"], "--set",
+                                            "directory")
+
+    def test_a_sweep_goes_on_where_it_is(self):
+        self.sweep_to_end(TWO)
+        self.assert_refused_without_a_trace(["out", "--out", "elsewhere"], "--out")
+
+    def test_a_directory_without_a_sweep(self):
+        self.run_to_end("tube.yaml", "run")
+        self.assert_refused_without_a_trace(["run"], "run")
+
+    def test_damaged_settings_of_a_point(self):
+        self.sweep_to_end(TWO)
+        point = next(iter(sorted(self.home.glob("out/points/*"))))
+        (point / "effective.yaml").write_text("scenario: [", encoding="utf-8")
+        self.assert_refused_without_a_trace(["out", "--set", "run.duration=5 ms"], str(point.name))
+
+    def test_resume_tells_the_way(self):
+        self.sweep_to_end(TWO)
+        self.assert_refused(self.riesel("resume", "out"), "sweep out")
+
+
+if __name__ == "__main__":
+    unittest.main()
