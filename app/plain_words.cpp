@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace riesel::app {
 
@@ -78,26 +79,48 @@ std::string count_of_verdicts(const io::ColumnSummary& summary) {
   return verdicts_of(summary.column);
 }
 
-std::vector<std::string> where_unphysical(const io::CurveSummary& summary) {
+namespace {
+
+/// What a finding of points says that is beyond its threshold, or, of what brakes nothing, not
+/// known. `cause` is empty in summaries of versions that did not tell it.
+std::string explanation_of_points(Validity verdict, const std::string& cause, bool known) {
+  const auto finding = finding_named(cause, HUGE_VAL);
+  if (!finding) return "of what has not been noted";
+  if (!known) return cause + " is not known: nothing brakes there, or all impacts go through the wall";
+  return fmt::format("{} above {:.3g}: {}; {}", cause,
+                     verdict == Validity::unphysical ? finding->unphysical : finding->suspect,
+                     finding->meaning, finding->remedy);
+}
+
+}  // namespace
+
+std::vector<CurveReason> reasons_of(const io::CurveSummary& summary) {
   struct Count {
-    int points = 0, unphysical = 0;
+    int points = 0;
     double first = HUGE_VAL;  // m/s
   };
-  std::map<double, Count> count_of;
+  using CountOf = std::map<double, Count>;  // by v_x
+  std::map<double, int> points_at;
+  std::map<std::tuple<Validity, std::string, bool>, CountOf> found;
   for (const io::CurvePoint& point : summary.curve) {
-    Count& count = count_of[point.v_x];
+    ++points_at[point.v_x];
+    if (point.verdict == Validity::valid) continue;
+    const bool known =
+        point.cause != "brake_failure_fraction" || !std::isnan(point.brake_failure_fraction);
+    Count& count = found[{point.verdict, point.cause, known}][point.v_x];
     ++count.points;
-    if (point.verdict != Validity::unphysical) continue;
-    ++count.unphysical;
     count.first = std::min(count.first, point.v_y);
   }
-  std::vector<std::string> texts;
-  for (const auto& [v_x, count] : count_of)
-    if (count.unphysical > 0)
-      texts.push_back(
+  std::vector<CurveReason> reasons;
+  for (const auto& [what, count_of] : found) {
+    const auto& [verdict, cause, known] = what;
+    reasons.push_back({verdict, explanation_of_points(verdict, cause, known), {}});
+    for (const auto& [v_x, count] : count_of)
+      reasons.back().places.push_back(
           fmt::format("at v_x = {:.4g} m/s {} of {} points, the first at v_y = {:.4g} m/s", v_x,
-                      count.unphysical, count.points, count.first));
-  return texts;
+                      count.points, points_at[v_x], count.first));
+  }
+  return reasons;
 }
 
 std::string description_of(const RigidColumn& rigid) {

@@ -34,8 +34,15 @@ std::string explanation(const Finding& finding);
 std::string count_of_verdicts(const io::CurveSummary& summary);
 std::string count_of_verdicts(const io::ColumnSummary& summary);
 
-/// For each v_x that has such: how many of its points are unphysical, and from which v_y.
-std::vector<std::string> where_unphysical(const io::CurveSummary& summary);
+/// Why points of a curve are not valid.
+struct CurveReason {
+  Validity verdict;
+  std::string text;                 ///< the finding, what it means and what helps
+  std::vector<std::string> places;  ///< for each v_x how many points, and from which v_y
+};
+
+/// Of each verdict and cause that there are, the worst verdict last.
+std::vector<CurveReason> reasons_of(const io::CurveSummary& summary);
 
 /// What hard beads would do.
 std::string description_of(const RigidColumn& rigid);

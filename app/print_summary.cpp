@@ -29,8 +29,10 @@ void print_balance(const io::FlowSummary::Balance& b) {
 }
 
 void print_braking(const io::FlowSummary::BrakingForce& f) {
-  fmt::print("  {:<22}left {}, right {}, weight {:.4g} N\n", "braking by the walls",
-             text_of(f.left, "N"), text_of(f.right, "N"), f.weight);
+  const std::string right =
+      f.has_right_wall() ? fmt::format(", right {}", text_of(f.right, "N")) : "";
+  fmt::print("  {:<22}left {}{}, weight {:.4g} N\n", "braking by the walls", text_of(f.left, "N"),
+             right, f.weight);
 }
 
 void print_visits(const io::FlowSummary::WallVisits& v) {
@@ -109,8 +111,10 @@ void print_summary(const io::CurveSummary& s, const std::filesystem::path& direc
   if (stuck > 0)
     fmt::print("  {:<22}{} impacts, left out of the means\n", "stuck at the wall", stuck);
   fmt::print("  {:<22}{}\n", "validity", count_of_verdicts(s));
-  for (const std::string& text : where_unphysical(s))
-    fmt::print("  {:<22}{}\n", "unphysical", text);
+  for (const CurveReason& reason : reasons_of(s)) {
+    fmt::print("  {:<22}{}\n", name(reason.verdict), reason.text);
+    for (const std::string& place : reason.places) fmt::print("  {:<22}  {}\n", "", place);
+  }
   print_common(s.run, directory);
 }
 

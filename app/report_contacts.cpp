@@ -126,23 +126,29 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
 io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary) {
   constexpr std::size_t parts = 50;
   const io::Series& time = run.series_of("time");
-  const double half = 0.5 * summary.braking_force.weight;
-  const auto left = force_of(time, run.series_of("left_wall_impulse_y"), parts);
-  const auto right = force_of(time, run.series_of("right_wall_impulse_y"), parts);
+  std::vector<std::string> walls = {"left"};
+  if (summary.braking_force.has_right_wall()) walls.emplace_back("right");
+  const double share = summary.braking_force.weight / static_cast<double>(walls.size());
+  std::vector<std::array<std::vector<double>, 2>> forces;
   std::vector<double> extent = {0.0};
-  for (const auto* forces : {&left[1], &right[1]})
-    extent.insert(extent.end(), forces->begin(), forces->end());
-  if (std::isfinite(half)) extent.push_back(half);
+  for (const std::string& wall : walls) {
+    forces.push_back(force_of(time, run.series_of(wall + "_wall_impulse_y"), parts));
+    extent.insert(extent.end(), forces.back()[1].begin(), forces.back()[1].end());
+  }
+  if (std::isfinite(share)) extent.push_back(share);
 
   io::Plot plot(figure_width, 250.0, "Braking force of each wall",
                 {.label = "time (s)", .range = io::range_of(time.values)},
                 {.label = "braking force (N)", .range = io::range_of(extent)});
   mark_transient(summary.transient_end, plot);
-  const std::vector<std::pair<std::string, io::Look>> legend = {{"left wall", io::look_of(0)},
-                                                                {"right wall", io::look_of(1)}};
-  plot.curve(left[0], left[1], {.stroke = legend[0].second.colour, .stroke_width = 1.5});
-  plot.curve(right[0], right[1], {.stroke = legend[1].second.colour, .stroke_width = 1.5});
-  if (std::isfinite(half)) plot.level(plot.x().range, half, {.stroke = ink::grey, .dashes = "5 4"});
+  std::vector<std::pair<std::string, io::Look>> legend;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    legend.emplace_back(walls[i] + " wall", io::look_of(i));
+    plot.curve(forces[i][0], forces[i][1],
+               {.stroke = legend[i].second.colour, .stroke_width = 1.5});
+  }
+  if (std::isfinite(share))
+    plot.level(plot.x().range, share, {.stroke = ink::grey, .dashes = "5 4"});
   plot.legend("", legend, false);
   return plot.svg();
 }

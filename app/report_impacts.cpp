@@ -22,10 +22,9 @@ void tell_result(const io::CurveSummary& summary, io::HtmlPage& page) {
       fmt::format("{} points, each the mean over its starting places.", summary.curve.size()));
   page.paragraph("Validity of the points: " + count_of_verdicts(summary) + ".",
                  class_of(worst_of(summary)));
-  const auto limits = where_unphysical(summary);
-  if (!limits.empty()) {
-    page.paragraph("Unphysical are:");
-    page.list(limits);
+  for (const CurveReason& reason : reasons_of(summary)) {
+    page.paragraph(fmt::format("{}: {}.", name(reason.verdict), reason.text));
+    page.list(reason.places);
   }
   int passed = 0, stuck = 0;
   for (const io::CurvePoint& point : summary.curve) {

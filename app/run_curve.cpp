@@ -37,8 +37,10 @@ io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::P
     *value /= away;                                           // not a number where no impact counts
   mean.brake_failure_fraction = braking_cut_short / braking;  // nor where nothing brakes
   const double smaller_radius = std::min(setup.grain_radius, setup.wall_grain_radius);
-  mean.verdict =
+  const Finding worst =
       judge_impacts(largest_overlap / smaller_radius, mean.brake_failure_fraction, energy_error);
+  mean.verdict = worst.verdict;
+  if (worst.verdict != Validity::valid) mean.cause = worst.name;
   return mean;
 }
 

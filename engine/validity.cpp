@@ -135,11 +135,16 @@ std::optional<Finding> finding_named(std::string_view name, double value) {
   return std::nullopt;
 }
 
-Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
-                       double energy_error_ratio) {
-  return std::max({judge(overlap_criterion, max_overlap_ratio),
-                   judge(brake_criterion, brake_failure_fraction),
-                   judge(energy_criterion, energy_error_ratio)});
+Finding judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
+                      double energy_error_ratio) {
+  const auto finding = [](const Criterion& c, double value) {
+    return finding_of(c, value, judge(c, value));
+  };
+  // Of those that are equally bad the first: what is not resolved tells nothing of the others.
+  return std::max({finding(energy_criterion, energy_error_ratio),
+                   finding(brake_criterion, brake_failure_fraction),
+                   finding(overlap_criterion, max_overlap_ratio)},
+                  [](const Finding& a, const Finding& b) { return a.verdict < b.verdict; });
 }
 
 Validity judge_drop(double max_overlap_ratio, double detachment, double energy_error_ratio) {

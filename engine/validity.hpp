@@ -63,9 +63,10 @@ ValidityVerdict judge(const Evidence& evidence);
 /// The finding of this name, judged by its value alone; nothing if there is none.
 std::optional<Finding> finding_named(std::string_view name, double value);
 
-/// What single impacts can be judged by: the worst of these findings.
-Validity judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
-                       double energy_error_ratio);
+/// What single impacts can be judged by: the worst of these findings; of several the error of the
+/// energy, or else the failure of the brake.
+Finding judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
+                      double energy_error_ratio);
 
 /// What a drop of a column of beads can be judged by: the worst of the overlap, the size of
 /// detachment(), which is NaN for a drop that was given up, and the error of the energy.

@@ -143,7 +143,8 @@ std::string to_json(const CurveSummary& s) {
                      {"stuck", p.stuck},
                      {"cut_short", p.cut_short},
                      {"brake_failure_fraction", p.brake_failure_fraction},
-                     {"verdict", name(p.verdict)}});
+                     {"verdict", name(p.verdict)},
+                     {"cause", p.cause}});
   json["curve"] = curve;
   json["lines"] = Json::array();
   for (const CurveLine& line : s.lines)

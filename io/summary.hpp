@@ -10,6 +10,7 @@
 #include "engine/wall_visits.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -79,6 +80,8 @@ struct FlowSummary {
   struct BrakingForce {
     Measured left{unknown, unknown}, right{unknown, unknown};  ///< N
     double weight = unknown;                                   ///< N, of all grains
+    /// A chute has a bottom only, which is its left wall: of the right one nothing is known.
+    bool has_right_wall() const { return std::isnan(left.value) || !std::isnan(right.value); }
   } braking_force;
 
   /// J; since the start, but kinetic, rotational and elastic energy are those at the end.
@@ -120,6 +123,7 @@ struct CurvePoint {
   double cut_short = 0.0;               ///< mean number of contacts cut short
   double brake_failure_fraction = 0.0;  ///< part of the braking that they did
   Validity verdict = Validity::valid;
+  std::string cause = {};  ///< the finding that it follows from; empty for valid points
 };
 
 /// What the points of one v_x come to.

@@ -150,7 +150,8 @@ CurveSummary read_curve(const Json& json) {
                              .stuck = integer_of<int>(point.at("stuck")),
                              .cut_short = number(point, "cut_short"),
                              .brake_failure_fraction = number(point, "brake_failure_fraction"),
-                             .verdict = validity(point.at("verdict"))});
+                             .verdict = validity(point.at("verdict")),
+                             .cause = point.value("cause", std::string())});
   return summary;
 }
 

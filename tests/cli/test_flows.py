@@ -45,6 +45,18 @@ class Flows(CommandTest):
         self.assertAlmostEqual(summary["balance"]["gravity"], 4.226, places=3)
         self.assertLess(abs(summary["energy"]["residual"]), 0.01 * summary["energy"]["gravity_work"])
 
+    def test_a_chute_has_one_wall(self):
+        self.write("chute.yaml", CHUTE)
+        result = self.riesel("run", "chute.yaml", "--out", "chute")
+        self.assert_done(result)
+        braking = self.summary(self.home / "chute")["braking_force"]
+        self.assertEqual(braking["right"], {"value": None, "error": None})
+        self.assertRegex(result.stdout, r"(?m)^  braking by the walls  left [^,\n]* N, weight [^,\n]* N$")
+        self.assert_done(self.riesel("report", "chute"))
+        page = (self.home / "chute/report.html").read_text(encoding="utf-8")
+        self.assertIn("left wall", page)
+        self.assertNotIn("right wall", page)
+
     def test_a_shear_cell_is_judged_by_how_hot_it_is(self):
         out = self.run_of("cell", CELL)
         summary = self.summary(out)

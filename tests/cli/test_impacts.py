@@ -9,7 +9,7 @@ from riesel_command import SHIPPED, CommandTest
 COMMON_NAMES = {"format", "scenario", "version", "commit", "grains", "steps", "state_hash", "performance"}
 PERFORMANCE_NAMES = {"wall_seconds", "particle_steps_per_second", "threads"}
 POINT_NAMES = {"v_x", "v_y", "dv_x", "dv_y", "contacts", "contact_time", "max_overlap", "passed",
-               "stuck", "cut_short", "brake_failure_fraction", "verdict"}
+               "stuck", "cut_short", "brake_failure_fraction", "verdict", "cause"}
 VERDICTS = ["valid", "suspect", "unphysical"]
 
 
@@ -63,7 +63,7 @@ class Impacts:
         out = self.run_shipped("out")
         curve = self.summary(out)["curve"]
         with h5py.File(out / "run.h5", "r") as file:
-            self.assertEqual(set(file["curve"]), POINT_NAMES)
+            self.assertEqual(set(file["curve"]), POINT_NAMES - {"cause"})
             for name, column in file["curve"].items():
                 of_curve = [point[name] for point in curve]
                 if name == "verdict":
@@ -132,6 +132,7 @@ class SingleWallGrain(Impacts, CommandTest):
                                          f"impact: {{axial_velocity: [0.3]}}\nrun: {{steps_per_collision: {steps}}}\n")
                 point, = self.summary(self.run_to_end("power.yaml", f"{damping}-{steps}"))["curve"]
                 self.assertEqual(point["verdict"], verdict)
+                self.assertEqual(point["cause"], "" if verdict == "valid" else "energy_error_ratio")
                 losses[damping, steps] = point["dv_y"]
         self.assertAlmostEqual(losses[0.2, 50] / losses[0.2, 200], 1.0, delta=0.01)
         self.assertGreater(abs(losses[0.2, 20] / losses[0.2, 200] - 1.0), 0.3)
@@ -139,10 +140,25 @@ class SingleWallGrain(Impacts, CommandTest):
     def test_the_screen_tells_where_it_fails(self):
         result = self.riesel("run", SHIPPED / "single_wall_grain.yaml", "--out", "out")
         curve = self.summary(self.home / "out")["curve"]
-        bad = [point["v_y"] for point in curve if point["verdict"] == "unphysical"]
-        self.assertRegex(result.stdout, rf"(?m)^  validity  .*{len(bad)} unphysical$")
-        self.assertIn(f"{len(bad)} of 60 points, the first at v_y = {min(bad):.4g} m/s",
-                      result.stdout)
+        for verdict in ("suspect", "unphysical"):
+            bad = [point["v_y"] for point in curve if point["verdict"] == verdict]
+            if not bad:
+                continue
+            self.assertRegex(result.stdout, rf"(?m)^  validity  .*\b{len(bad)} {verdict}\b")
+            self.assertRegex(result.stdout,
+                             rf"(?m)^  {verdict} +brake_failure_fraction above [^;\n]*; raise contact.stiffness\n"
+                             rf" +at v_x = 0 m/s {len(bad)} of 60 points, the first at v_y = {min(bad):.4g} m/s$")
+
+    def test_where_nothing_brakes_is_told(self):
+        """Grains so soft that all go through the wall."""
+        self.write("soft.yaml", "scenario: wall_array\nwall: {spacing: 3 mm}\n"
+                                "contact: {stiffness: 0.1 N/m, restitution: 0.9}\n"
+                                "impact: {normal_velocity: [0.5], axial_velocity: [0.001, 0.01], starts: 2}\n")
+        result = self.riesel("run", "soft.yaml", "--out", "out")
+        for point in self.summary(self.home / "out")["curve"]:
+            self.assertEqual((point["passed"], point["brake_failure_fraction"], point["verdict"], point["cause"]),
+                             (2, None, "suspect", "brake_failure_fraction"))
+        self.assertRegex(result.stdout, r"(?m)^  suspect +brake_failure_fraction is not known: .* all impacts go through")
 
 
 class WallArray(Impacts, CommandTest):

@@ -39,14 +39,22 @@ TEST_CASE("hard grains are valid, with all findings told") {
 
 TEST_CASE("impacts are judged by their overlaps, how they brake and how well energy is kept") {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  CHECK(judge_impacts(0.19, 0.09, 0.009) == Validity::valid);
-  CHECK(judge_impacts(0.21, 0.09, 0.0) == Validity::suspect);
-  CHECK(judge_impacts(0.19, 0.11, 0.0) == Validity::suspect);
-  CHECK(judge_impacts(0.19, 0.09, 0.011) == Validity::suspect);
-  CHECK(judge_impacts(0.51, 0.09, 0.0) == Validity::unphysical);
-  CHECK(judge_impacts(0.19, 0.51, 0.0) == Validity::unphysical);
-  CHECK(judge_impacts(0.19, 0.09, 0.11) == Validity::unphysical);
-  CHECK(judge_impacts(0.19, unknown, 0.0) == Validity::suspect);
+  const auto is = [](const Finding& finding, Validity verdict, std::string_view name) {
+    return finding.verdict == verdict && finding.name == name;
+  };
+  const char* const overlap = "max_overlap_ratio";
+  const char* const brake = "brake_failure_fraction";
+  const char* const energy = "energy_error_ratio";
+  CHECK(judge_impacts(0.19, 0.09, 0.009).verdict == Validity::valid);
+  CHECK(is(judge_impacts(0.21, 0.09, 0.0), Validity::suspect, overlap));
+  CHECK(is(judge_impacts(0.19, 0.11, 0.0), Validity::suspect, brake));
+  CHECK(is(judge_impacts(0.19, 0.09, 0.011), Validity::suspect, energy));
+  CHECK(is(judge_impacts(0.51, 0.11, 0.011), Validity::unphysical, overlap));
+  CHECK(is(judge_impacts(0.21, 0.51, 0.0), Validity::unphysical, brake));
+  CHECK(is(judge_impacts(0.19, 0.09, 0.11), Validity::unphysical, energy));
+  CHECK(is(judge_impacts(0.19, unknown, 0.0), Validity::suspect, brake));
+  CHECK(is(judge_impacts(0.51, 0.51, 0.11), Validity::unphysical, energy));
+  CHECK(is(judge_impacts(0.51, 0.51, 0.0), Validity::unphysical, brake));
 }
 
 TEST_CASE("drops are judged by their overlap, by what hard beads would lose, and by their energy") {

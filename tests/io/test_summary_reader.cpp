@@ -162,7 +162,8 @@ TEST_CASE("A curve that is read back and written again is the same text") {
                   .stuck = 4,
                   .cut_short = 0.25,
                   .brake_failure_fraction = 0.125,
-                  .verdict = Validity::suspect},
+                  .verdict = Validity::suspect,
+                  .cause = "max_overlap_ratio"},
                  {.v_x = 0.2, .verdict = Validity::unphysical}};
   overwrite(path, to_json(curve));
   CHECK(to_json(std::get<CurveSummary>(read_summary(path))) == to_json(curve));
