@@ -1,14 +1,16 @@
 """Runs of the tube from the tables that keep.py has made."""
-from statistics import mean, stdev
+import sys
+from pathlib import Path
 
 import numpy as np
 
 from results import rows_of
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
+import riesel
+
 WINDOWS = 5  # equal parts of a run, of which the table has means: velocity_1 to velocity_5, and so on
 WORDS = ("point", "branch", "leg", "state", "attraction", "verdict", "commit")
-# 68 % points: errors of the mean of so many seeds, in standard errors.
-STUDENT = {2: 1.84, 3: 1.32, 4: 1.20, 5: 1.14, 6: 1.11, 7: 1.09, 8: 1.08, 9: 1.07, 10: 1.06}
 
 
 class Run:
@@ -65,8 +67,7 @@ def grouped(runs, *names):
 
 def over_seeds(values):
     """Mean and 68 % error of the values of several seeds; of a single one the error is not known."""
-    error = STUDENT[len(values)] * stdev(values) / len(values) ** 0.5 if len(values) > 1 else np.nan
-    return mean(values), error
+    return riesel.mean_of(values)
 
 
 def seeds_text(values):

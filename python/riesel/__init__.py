@@ -9,11 +9,12 @@ Everything is in SI units, names are those of docs/files.md, and arrays are nump
 written, and nothing is read before it is asked for.
 """
 
-from .run import Estimate, FinalState, Finding, Histogram, Run, Validity
+from .estimate import Estimate, mean_of
+from .run import FinalState, Finding, Histogram, Run, Validity
 from .sweep import Mean, Point, Sweep
 from .table import NotThere, Table
 from .trajectory import Frame, Trajectory
 from .tree import Tree
 
 __all__ = ["Estimate", "FinalState", "Finding", "Frame", "Histogram", "Mean", "NotThere", "Point", "Run",
-           "Sweep", "Table", "Trajectory", "Tree", "Validity"]
+           "Sweep", "Table", "Trajectory", "Tree", "Validity", "mean_of"]

@@ -15,23 +15,10 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 
+from .estimate import Estimate
 from .table import NotThere, Table, opened, part, table_of, text
 from .trajectory import Trajectory
 from .tree import Tree
-
-
-class Estimate(NamedTuple):
-    """A mean with its 68 % error bar; NaN where it is not known."""
-
-    value: float
-    error: float
-
-    def __str__(self) -> str:
-        return f"{self.value:.4g} +- {self.error:.2g}"
-
-    def __sub__(self, other: "Estimate") -> "Estimate":
-        """The difference of two independent means."""
-        return Estimate(self.value - other.value, math.hypot(self.error, other.error))
 
 
 class Finding(NamedTuple):

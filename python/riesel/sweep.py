@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from .estimate import mean_of
 from .run import Run
 from .table import NotThere, Table, opened, part, table_of
 
@@ -46,7 +47,7 @@ class Mean:
     branch: str  #: or ""
     leg: str  #: or ""
     value: float
-    error: float  #: standard error, by the scatter of the runs; NaN of a single one
+    error: float  #: 68 %, by the scatter of the runs, see mean_of(); NaN of a single one
     runs: int  #: that have such a result
     steady: int  #: how many of them are steady flows; of impacts none is
 
@@ -115,10 +116,7 @@ class Sweep:
 
 def _mean_of(results: list[tuple[float, bool]], first: Point, over: str) -> Mean:
     there = [(value, steady) for value, steady in results if math.isfinite(value)]
-    values = np.array([value for value, _ in there])
-    n = len(values)
+    mean = mean_of([value for value, _ in there])
     return Mean(settings={key: value for key, value in first.settings.items() if key != over},
                 branch=first.branch, leg=first.leg,
-                value=float(values.mean()) if n > 0 else math.nan,
-                error=float(values.std(ddof=1)) / math.sqrt(n) if n > 1 else math.nan,
-                runs=n, steady=sum(steady for _, steady in there))
+                value=mean.value, error=mean.error, runs=len(there), steady=sum(steady for _, steady in there))

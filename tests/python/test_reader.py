@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import statistics
+import unittest
 
 import h5py
 import numpy as np
@@ -221,6 +222,21 @@ class NotThere(CommandTest):
         self.assertGreaterEqual(run.final.time, run.series["time"][-1])
 
 
+class Mean(unittest.TestCase):
+
+    def test_its_error_covers_the_truth_as_often_as_it_says(self):
+        numbers = np.random.default_rng(1)
+        for n in (2, 3, 5, 10):
+            means = [riesel.mean_of(sample) for sample in numbers.normal(size=(20000, n))]
+            covered = sum(abs(mean.value) <= mean.error for mean in means) / len(means)
+            self.assertAlmostEqual(covered, 0.6827, delta=0.01)  # three standard deviations
+
+    def test_of_a_few(self):
+        self.assertEqual(riesel.mean_of([1.0, 3.0]).value, 2.0)
+        for few in ([], [5.0]):
+            self.assertTrue(math.isnan(riesel.mean_of(few).error))
+
+
 class OfSweep(CommandTest):
 
     def test_means_over_seeds(self):
@@ -239,7 +255,7 @@ class OfSweep(CommandTest):
             self.assertNotIn("seed", mean.settings)
             self.assertEqual((mean.runs, mean.steady), (3, 0))
             self.assertAlmostEqual(mean.value, statistics.mean(values), places=12)
-            self.assertAlmostEqual(mean.error, statistics.stdev(values) / 3 ** 0.5, places=12)
+            self.assertAlmostEqual(mean.error, 1.321 * statistics.stdev(values) / 3 ** 0.5, delta=0.001 * mean.error)
         (single,) = {mean.runs for mean in sweep.means(column, over="contact.restitution")}
         self.assertEqual(single, 2)
         (self.home / "out/points" / sweep.points[0].name / "summary.json").unlink()
