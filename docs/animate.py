@@ -13,29 +13,32 @@ import h5py
 import numpy as np
 from matplotlib.animation import FFMpegWriter
 
-from draw_tube import TubePicture
+from draw_tube import TubePicture, smooth_walls_at, walls_of
 
 
-def animate(trajectory: Path, film: Path, frames_per_second: float) -> None:
-    with h5py.File(trajectory) as file:
+def animate(run: Path, film: Path, frames_per_second: float) -> None:
+    with h5py.File(run / "run.h5") as file:
+        all_walls = walls_of(file["final"])  # a trajectory has no smooth ones
+    with h5py.File(run / "trajectory.h5") as file:
         grains, walls = file["particles/grains"], file["particles/walls"]
         positions, velocities = grains["position/value"], grains["velocity/value"]
         times = grains["position/time"][:]
         walls_move = isinstance(walls["position"], h5py.Group)
         wall_positions = walls["position/value"][:] if walls_move else walls["position"][:][None]
         width, length = grains["box/edges"][:2]
-        beyond = [0.0, -wall_positions[..., 0].min(initial=0.0), wall_positions[..., 0].max(initial=0.0) - width]
-        tube = TubePicture(width, length, wall_positions[0][:, :2], walls["radius"][:], grains["radius"][:],
-                           max(beyond))
+        swing = max(abs(wall.amplitude_x) for wall in all_walls)
+        tube = TubePicture(width, length, wall_positions[0][:, :2], walls["radius"][:], grains["radius"][:], swing,
+                           smooth_walls_at(all_walls, times[0]))
         # Rare fast grains shall not take the colours from the others.
         sample = velocities[:: max(1, len(times) // 50)][:, :, 1]
         velocity_range = tuple(np.percentile(sample, [0.5, 99.5]))
         writer = FFMpegWriter(fps=frames_per_second, extra_args=["-pix_fmt", "yuv420p"],
-                              metadata={"title": str(trajectory.parent)})
+                              metadata={"title": str(run)})
         with writer.saving(tube.figure, str(film), dpi=130):
             for i, time in enumerate(times):
                 if walls_move:
                     tube.move_walls(wall_positions[i][:, :2])
+                tube.move_smooth_walls(smooth_walls_at(all_walls, time))
                 tube.show(positions[i][:, :2], velocities[i][:, 1], velocity_range, f"t = {time * 1e3:.1f} ms")
                 writer.grab_frame()
 
@@ -48,4 +51,4 @@ if __name__ == "__main__":
     options = parser.parse_args()
     if not FFMpegWriter.isAvailable():
         parser.error("ffmpeg is missing; install it")
-    animate(options.run / "trajectory.h5", options.film, options.fps)
+    animate(options.run, options.film, options.fps)

@@ -6,6 +6,7 @@ right.
 """
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import h5py
 import matplotlib
@@ -21,8 +22,8 @@ MM = 1e3  # per metre
 class TubePicture:
     """Lengths in m: positions as (x, y), y along the fall."""
 
-    def __init__(self, width, length, wall_positions, wall_radii, radii, swing=0.0):
-        """`swing`: how far walls go beyond their lines."""
+    def __init__(self, width, length, wall_positions, wall_radii, radii, swing=0.0, smooth_walls=()):
+        """`swing`: how far walls go beyond their lines; `smooth_walls`: where they are, x."""
         height = 1.3 + 9.4 * width / length  # of the figure; its width is 11
         even_pixels = 0.2  # films want them
         self.figure, self._axes = plt.subplots(figsize=(11, round(height / even_pixels) * even_pixels), dpi=130)
@@ -30,6 +31,7 @@ class TubePicture:
         self._grains = self._discs(np.zeros((len(radii), 2)), radii, cmap="viridis", linewidth=0)
         self._axes.set(xlim=(0, length * MM), ylim=(-1 - swing * MM, (width + swing) * MM + 1), aspect="equal",
                        xlabel="y along the fall (mm)", ylabel="x (mm)")
+        self._smooth_walls = [self._axes.axhline(x * MM, color="0.55", linewidth=2) for x in smooth_walls]
         self.figure.colorbar(self._grains, label="axial velocity (m/s)", pad=0.02, fraction=0.012)
         self._axes.set_title("t")  # so that there is room for one
         self.figure.tight_layout()
@@ -43,6 +45,10 @@ class TubePicture:
     def move_walls(self, positions):
         self._walls.set_offsets(positions[:, ::-1] * MM)
 
+    def move_smooth_walls(self, places):
+        for wall, x in zip(self._smooth_walls, places):
+            wall.set_ydata([x * MM] * 2)
+
     def show(self, positions, axial_velocities, velocity_range=None, title=""):
         """`velocity_range`: what the colours span; by default that of the grains."""
         self._grains.set_offsets(positions[:, ::-1] * MM)
@@ -51,30 +57,51 @@ class TubePicture:
         self._axes.set_title(title)
 
 
-def wall_grains(final):
-    """[[x, y, radius]] in m of all wall grains where the walls are at the end."""
-    time = final.attrs["step"] * final.attrs["time_step"]
-    length = final.attrs["box_length"]
-    grains = [np.empty((0, 3))]
-    walls = final["walls"]
-    for i, count in enumerate(walls["count"][:]):
-        line, radius, velocity, amplitude_x, amplitude_y, frequency, phase, start = (
-            walls[name][i] for name in ("line", "radius", "velocity", "amplitude_x", "amplitude_y", "frequency",
-                                        "phase", "start"))
-        swing = np.sin(phase + 2 * np.pi * frequency * time)
-        way = start * 2.0**-64 * length + velocity * time + amplitude_y * swing
-        y = (np.arange(count) * length / max(count, 1) + way) % length
-        grains.append(np.column_stack([np.full(count, line + amplitude_x * swing), y, np.full(count, radius)]))
-    return np.concatenate(grains)
+class Wall(NamedTuple):
+    """As in the final state of a run."""
+
+    count: int  # of its grains; 0: it is smooth
+    line: float
+    radius: float
+    velocity: float
+    amplitude_x: float
+    amplitude_y: float
+    frequency: float
+    phase: float
+    start: int
+
+    def swing(self, time):
+        return np.sin(self.phase + 2 * np.pi * self.frequency * time)
+
+    def x(self, time):
+        return self.line + self.amplitude_x * self.swing(time)
+
+    def grains(self, time, length):
+        """[[x, y, radius]] in m."""
+        way = self.start * 2.0**-64 * length + self.velocity * time + self.amplitude_y * self.swing(time)
+        y = (np.arange(self.count) * length / max(self.count, 1) + way) % length
+        return np.column_stack([np.full(self.count, self.x(time)), y, np.full(self.count, self.radius)])
+
+
+def walls_of(final):
+    columns = [final["walls"][name][:] for name in Wall._fields]
+    return [Wall(*wall) for wall in zip(*columns)]
+
+
+def smooth_walls_at(walls, time):
+    """Where they are, x in m."""
+    return [wall.x(time) for wall in walls if wall.count == 0]
 
 
 def draw(run_file: Path, picture: Path) -> None:
     with h5py.File(run_file) as file:
         final = file["final"]
-        walls = wall_grains(final)
-        swing = max(abs(final["walls"]["amplitude_x"][:]))
-        tube = TubePicture(final.attrs["box_width"], final.attrs["box_length"], walls[:, :2], walls[:, 2],
-                           final["radius"][:], swing)
+        time, length = final.attrs["step"] * final.attrs["time_step"], final.attrs["box_length"]
+        walls = walls_of(final)
+        grains = np.concatenate([wall.grains(time, length) for wall in walls])
+        swing = max(abs(wall.amplitude_x) for wall in walls)
+        tube = TubePicture(final.attrs["box_width"], length, grains[:, :2], grains[:, 2], final["radius"][:], swing,
+                           smooth_walls_at(walls, time))
         tube.show(final["position"][:], final["velocity"][:, 1])
     tube.figure.savefig(picture)
 

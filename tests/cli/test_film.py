@@ -1,13 +1,34 @@
 """docs/animate.py makes a film of a run: ./setup.sh look."""
 
+import math
 import pathlib
 import shutil
 import subprocess
+import sys
 import unittest
+
+import h5py
 
 from riesel_command import SMALL_TUBE, CommandTest
 
-ANIMATE = pathlib.Path(__file__).resolve().parents[2] / "docs/animate.py"
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
+ANIMATE = DOCS / "animate.py"
+sys.path.insert(0, str(DOCS))
+from draw_tube import smooth_walls_at, walls_of
+
+
+class SmoothWalls(CommandTest):
+
+    def test_they_are_drawn_where_they_are(self):
+        """A trajectory does not have them: they are those of the run, moved by its clock."""
+        self.write("tube.yaml", SMALL_TUBE + "wall: {surface: smooth, shake_amplitude: 0.1 mm, "
+                                             "shake_frequency: 200 Hz, shake_angle: 90 degrees}\n")
+        with h5py.File(self.run_to_end("tube.yaml", "out") / "run.h5") as file:
+            walls = walls_of(file["final"])
+        for time in (0.0, 1e-3, 3.3e-3):
+            swing = 1e-4 * math.sin(2 * math.pi * 200 * time)
+            for x, line in zip(smooth_walls_at(walls, time), (0.0, 0.01), strict=True):
+                self.assertAlmostEqual(x, line + swing, delta=1e-9)
 
 
 @unittest.skipIf(shutil.which("ffmpeg") is None, "there is no ffmpeg")
