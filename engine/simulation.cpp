@@ -3,13 +3,14 @@
 #include "engine/flights.hpp"
 #include "engine/observables.hpp"
 #include "engine/require.hpp"
+#include "engine/state_check.hpp"
 #include "engine/team.hpp"
 
 #include <omp.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -17,46 +18,9 @@ namespace riesel {
 
 namespace {
 
-void check_grains(const Grains& g) {
-  require(g.size() > 0, "a simulation needs at least one grain");
-  std::vector<bool> seen(g.size(), false);
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    require(g.radius[i] > 0.0 && g.mass[i] > 0.0, "radii and masses must be positive");
-    const auto id = static_cast<std::size_t>(g.id[i]);
-    require(id < g.size() && !seen[id], "ids must be a permutation");
-    seen[id] = true;
-  }
-  const std::size_t spins = g.rotate() ? g.size() : 0;
-  require(g.inertia >= 0.0 && g.spin.size() == spins && g.spin_kick.size() == spins,
-          "grains that rotate, and no others, must have spins");
-}
-
-void check_contacts(const State& state) {
-  const auto grains = static_cast<std::int32_t>(state.grains.size());
-  const auto walls = static_cast<std::int32_t>(state.walls.size());
-  for (const Contact& contact : state.contacts) {
-    const auto& [wall, grain, partner] = contact.name;
-    const bool known_partner = partner >= 0 && (wall != no_wall || partner < grains);
-    require(grain >= 0 && grain < grains && known_partner && wall >= no_wall && wall < walls,
-            "a contact of bodies that do not exist");
-  }
-  for (const WallVisit& v : state.open_visits)
-    require(v.grain >= 0 && v.grain < grains && v.wall >= 0 && v.wall < walls,
-            "a visit of a grain or to a wall that does not exist");
-}
-
 /// `state` if a simulation can start from it, its balances opened.
 State ready(State state) {
-  require(state.box.width > 0.0 && state.box.length > 0.0, "the box must have a size");
-  require(state.time_step > 0.0, "the time step must be positive");
-  require(std::isfinite(state.gravity.x) && std::isfinite(state.gravity.y),
-          "gravity must be finite");
-  require(state.walls.size() <= WallImpulses::most_walls, "there are too many walls");
-  for (const WallLattice& wall : state.walls)
-    require(wall.sound() && wall.motion.is_within(state.box, state.time_step),
-            "a wall must have grains or be smooth, and must not move by half the box in a step");
-  check_grains(state.grains);
-  check_contacts(state);
+  if (const std::string flaw = flaw_of(state); !flaw.empty()) throw std::invalid_argument(flaw);
   if (state.step == 0) state.origin = origin_of(state);
   return state;
 }

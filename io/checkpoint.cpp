@@ -1,11 +1,11 @@
 #include "io/checkpoint.hpp"
 
+#include "engine/state_check.hpp"
 #include "io/build_info.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/seal.hpp"
 #include "io/sealed_hdf5.hpp"
-#include "io/state_check.hpp"
 #include "io/state_columns.hpp"
 #include "io/state_layout.hpp"
 
@@ -203,7 +203,8 @@ std::string flaw_of(const Checkpoint& checkpoint) {
   for (const TimeBlocks* blocks : {&checkpoint.profiles, &checkpoint.histograms})
     if (!std::ranges::all_of(blocks->sums(), [](double sum) { return std::isfinite(sum); }))
       return "a sum over a block of time is not finite";
-  return riesel::io::flaw_of(checkpoint.state);
+  if (checkpoint.state.walls.empty()) return "there are no walls";
+  return riesel::flaw_of(checkpoint.state);
 }
 
 bool is_there(const fs::path& path) {

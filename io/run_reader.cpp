@@ -1,8 +1,8 @@
 #include "io/run_reader.hpp"
 
+#include "engine/state_check.hpp"
 #include "io/file_error.hpp"
 #include "io/sealed_hdf5.hpp"
-#include "io/state_check.hpp"
 #include "io/state_columns.hpp"
 #include "io/state_layout.hpp"
 

@@ -207,8 +207,9 @@ void reject_too_many(const io::Settings& settings, const SizeDistribution& sizes
   const double expected = area / (0.25 * pi * sizes.mean_square());
   if (expected > most_grains)
     settings.reject(sizes.key(),
-                    fmt::format("about {:.3g} grains of this size would be needed, more than {:g}",
-                                expected, most_grains),
+                    fmt::format("about {:.3g} grains of {:.3g} m would be needed to cover {:.3g} "
+                                "m^2, more than {:g}",
+                                expected, std::sqrt(sizes.mean_square()), area, most_grains),
                     "choose larger grains, or less room for them; is a unit forgotten, as in "
                     "'1 mm'?");
 }

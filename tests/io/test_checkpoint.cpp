@@ -298,7 +298,7 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "the energy, momentum or moment at the start is not finite");
   CHECK(refusal([](auto& c) { c.state.step = -1; }) == "the number of steps is negative");
   CHECK(refusal([](auto& c) { c.state.step = INT64_MAX - 1; }) == "the number of steps is absurd");
-  CHECK(refusal([](auto& c) { c.state.walls.clear(); }) == "there are 0 walls");
+  CHECK(refusal([](auto& c) { c.state.walls.clear(); }) == "there are no walls");
   CHECK(refusal([](auto& c) { c.state.walls.resize(3); }) == "there are 3 walls");
   CHECK(refusal([](auto& c) { c.state.walls[0].line = nan; })
         == "the line of wall 0 is not finite");

@@ -147,14 +147,14 @@ TEST_CASE("the mean square is that of what is drawn") {
 }
 
 TEST_CASE("more grains than can be counted are refused before they are made") {
-  const std::vector<std::string> told = {"grains of this size would be needed, more than 1e+09",
+  const std::vector<std::string> told = {"would be needed to cover 0.00022 m^2, more than 1e+09",
                                          "choose larger grains"};
   const auto check_refused = [&](const Overrides& overrides, const std::string& expected) {
     const std::string message = complaint(tube_yaml, overrides);
     check_mentions(message, told);
     check_mentions(message, {expected});
   };
-  check_refused({"grains.diameter=0.5 um"}, "grains.diameter: about 1.12e+09 grains");
+  check_refused({"grains.diameter=0.5 um"}, "grains.diameter: about 1.12e+09 grains of 5e-07 m");
   check_refused({"grains.diameter=1 nm"}, "grains.diameter: about 2.8e+14 grains");
   check_refused({"grains.diameter=1e-200"}, "grains.diameter: about ");
   check_refused(FileOfSizes("diameter (mm)\n1e-6\n").overrides(),

@@ -1,19 +1,25 @@
-#include "io/state_check.hpp"
-
-#include "io/state_layout.hpp"
-
-#include <fmt/format.h>
+#include "engine/state_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string_view>
+#include <sstream>
 #include <tuple>
 #include <vector>
 
-namespace riesel::io {
+namespace riesel {
+
 namespace {
+
+/// All of it as one text.
+template <class... Parts>
+std::string joined(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
@@ -41,15 +47,15 @@ std::string flaw_of_scalars(const State& state) {
 }
 
 std::string flaw_of_walls(const State& state) {
-  if (state.walls.empty() || state.walls.size() > WallImpulses::most_walls)
-    return fmt::format("there are {} walls", state.walls.size());
+  if (state.walls.size() > WallImpulses::most_walls)
+    return joined("there are ", state.walls.size(), " walls");
   for (std::size_t i = 0; i < state.walls.size(); ++i) {
     const auto& wall = state.walls[i];
-    if (!std::isfinite(wall.line)) return fmt::format("the line of wall {} is not finite", i);
+    if (!std::isfinite(wall.line)) return joined("the line of wall ", i, " is not finite");
     if (!wall.motion.is_within(state.box, state.time_step))
-      return fmt::format("wall {} moves too far or too fast", i);
+      return joined("wall ", i, " moves too far or too fast");
     if (!wall.sound() || wall.count > std::numeric_limits<std::int32_t>::max())
-      return fmt::format("wall {} has {} grains of radius {}", i, wall.count, wall.radius);
+      return joined("wall ", i, " has ", wall.count, " grains of radius ", wall.radius);
   }
   return {};
 }
@@ -58,22 +64,21 @@ std::string flaw_of_grains(const Grains& grains) {
   if (grains.size() == 0) return "there are no grains";
   if (!std::isfinite(grains.inertia) || grains.inertia < 0.0)
     return "the moment of inertia is negative";
-  bool equal_sizes = true;
-  for_each_array(grains, [&](std::string_view name, const char*, const auto& array) {
-    const bool is_there = grains.rotate() || !name.starts_with("spin");
-    equal_sizes = equal_sizes && array.size() == (is_there ? grains.size() : 0);
+  bool equal_sizes = grains.rotate() || (grains.spin.empty() && grains.spin_kick.empty());
+  for_each_array_of(grains, [&](const auto& array) {
+    equal_sizes = equal_sizes && array.size() == grains.size();
   });
   if (!equal_sizes) return "not all grains have all values";
 
   std::vector<bool> seen(grains.size());
   for (const auto id : grains.id) {
-    if (!is_index(id, grains.size())) return fmt::format("the id {} is out of range", id);
-    if (seen[static_cast<std::size_t>(id)]) return fmt::format("two grains have the id {}", id);
+    if (!is_index(id, grains.size())) return joined("the id ", id, " is out of range");
+    if (seen[static_cast<std::size_t>(id)]) return joined("two grains have the id ", id);
     seen[static_cast<std::size_t>(id)] = true;
   }
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const auto is_wrong = [&](const char* what) {
-      return fmt::format("the {} of grain {} is not positive", what, grains.id[i]);
+      return joined("the ", what, " of grain ", grains.id[i], " is not positive");
     };
     if (!is_positive(grains.radius[i])) return is_wrong("radius");
     if (!is_positive(grains.mass[i])) return is_wrong("mass");
@@ -82,11 +87,16 @@ std::string flaw_of_grains(const Grains& grains) {
 }
 
 bool is_finite(const Contact& contact) {
-  bool finite = true;
-  for_each_member<Contact>([&](const char*, const char*, auto member) {
-    if (!std::isfinite(static_cast<double>(member(contact)))) finite = false;
-  });
-  return finite;
+  const auto& [name, begin, end, entry_rate, entry_slip, overlap, max_overlap, slip_path,
+               elastic_energy, normal_loss, friction_loss, impulse_x, impulse_y,
+               impulse_y_times_time, friction_x, friction_y, spring, torque, rolling_torque] =
+      contact;
+  const std::array values = {
+      begin,       end,       entry_rate,           entry_slip,  overlap,
+      max_overlap, slip_path, elastic_energy,       normal_loss, friction_loss,
+      impulse_x,   impulse_y, impulse_y_times_time, friction_x,  friction_y,
+      spring,      torque,    rolling_torque};
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
 std::string flaw_of_contacts(const State& state) {
@@ -94,8 +104,8 @@ std::string flaw_of_contacts(const State& state) {
   for (const auto& contact : state.contacts) {
     const auto& name = contact.name;
     const auto text = [&] {
-      return fmt::format("the contact (wall {}, grain {}, partner {})", name.wall, name.grain,
-                         name.partner);
+      return joined("the contact (wall ", name.wall, ", grain ", name.grain, ", partner ",
+                    name.partner, ")");
     };
     if (!names_bodies(name, state.grains.size(), state.walls))
       return text() + " is between bodies that do not exist";
@@ -117,7 +127,7 @@ std::string flaw_of_visits(const State& state) {
   const WallVisit* last = nullptr;
   for (const auto& visit : state.open_visits) {
     const auto text = [&] {
-      return fmt::format("the visit of grain {} to wall {}", visit.grain, visit.wall);
+      return joined("the visit of grain ", visit.grain, " to wall ", visit.wall);
     };
     if (!is_index(visit.grain, state.grains.size()) || !is_index(visit.wall, state.walls.size()))
       return text() + " is between bodies that do not exist";
@@ -167,4 +177,4 @@ bool names_bodies(const ContactName& name, std::size_t grains, std::span<const W
   return is_index(name.partner, static_cast<std::size_t>(wall.partners()));
 }
 
-}  // namespace riesel::io
+}  // namespace riesel
