@@ -139,14 +139,13 @@ private:
   void draw_walls() {
     svg_.begin_group("walls", {.fill = "#9a9a9a"});
     for (const WallLattice& wall : state_->walls) {
-      const double spacing = wall.spacing(state_->box);
       const WallWay way = wall.motion.way(state_->box, state_->time);
       if (wall.smooth()) draw_plane(wall.line + way.x);
       for (std::int64_t k = 0; k < wall.count; ++k) {
-        const double y = state_->box.wrapped(static_cast<double>(k) * spacing + way.y);
+        const auto [x, y] = wall.place(k, way, state_->box);
         const auto column = layout_.column_of(y);
         if (!column) continue;
-        svg_.disc(layout_.place(*column, wall.line + way.x, y), wall.radius * layout_.scale());
+        svg_.disc(layout_.place(*column, x, y), wall.radius * layout_.scale());
       }
     }
     svg_.end_group();

@@ -117,6 +117,13 @@ struct WallLattice {
     return std::uint64_t{1} << ((k + left_out) & 63);
   }
 
+  struct Place {
+    double x, y;  ///< m, y in [0, length)
+  };
+  /// Of grain k where the wall has gone this way, for whoever looks.
+  Place place(std::int64_t k, const WallWay& way, const Box& box) const {
+    return {line + way.x, box.wrapped(static_cast<double>(k) * spacing(box) + way.y)};
+  }
   /// y of grain k, 0 <= k < count, in quanta, before the wall moves; off by less than `count`
   /// quanta.
   Fixed place(std::int64_t k) const {

@@ -91,10 +91,9 @@ std::vector<float> places_of_walls(const State& state) {
   std::vector<float> places;
   for (const auto& wall : state.walls) {
     const WallWay way = wall.motion.way(state.box, state.time());
-    const auto x = static_cast<float>(wall.line + way.x);
     for (std::int64_t k = 0; k < wall.count; ++k) {
-      const double y = static_cast<double>(k) * wall.spacing(state.box) + way.y;
-      places.insert(places.end(), {x, place_y(state.box, state.box.wrapped(y)), 0.0F});
+      const WallLattice::Place place = wall.place(k, way, state.box);
+      places.insert(places.end(), {static_cast<float>(place.x), place_y(state.box, place.y), 0.0F});
     }
   }
   return places;
