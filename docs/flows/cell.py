@@ -3,19 +3,19 @@
 
     docs/flows/cell.py [--sweep sweeps/cell]
 
-Prints a row for each point: the shear rate in units of diameter and temperature, and temperature, pressure, shear
-stress (of the walls) and dissipation over those of the theory at the measured area fraction, shear rate and
-temperature. docs/flows.md quotes the table as it is printed.
+Prints a row for each stiffness and restitution, means over seeds: the shear rate in units of diameter and temperature,
+and temperature, pressure, shear stress (of the walls) and dissipation over those of the theory at the measured area
+fraction, shear rate and temperature. docs/flows.md quotes the table as it is printed.
 """
 import argparse
 import pathlib
-import sys
+from typing import NamedTuple
 
 import numpy as np
 
+from seeds import mean_of, riesel, runs_by_setting, states_of
+
 HOME = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(HOME / "python"))
-import riesel
 
 
 def ratio(value, error, theory):
@@ -37,7 +37,20 @@ class Theory:
         return self.viscosity * shear_rate ** 2 / self.loss
 
 
-def row_of(run):
+class Core(NamedTuple):
+    """The middle half of the width of a cell."""
+
+    shear_rate: float  # in units of diameter and temperature
+    area_fraction: float
+    anisotropy: float  # T_x / T_y
+    # Over those of the theory.
+    temperature: riesel.Estimate
+    pressure: riesel.Estimate
+    shear_stress: riesel.Estimate
+    dissipation: riesel.Estimate
+
+
+def core_of(run):
     p, settings = run.profiles, run.settings
     strips = len(p["x"])
     core = slice(strips // 4, strips - strips // 4)
@@ -55,10 +68,18 @@ def row_of(run):
     force = [run.estimate(f"braking_force.{wall}") for wall in ("left", "right")]
     shear = (force[0].value - force[1].value) / (2 * settings["cell.length"])
     shear_error = np.hypot(force[0].error, force[1].error) / (2 * settings["cell.length"])
-    cells = [f"{e:g}", f"{rate * d / t ** 0.5:.2f}", run.summary["state"], f"{nu:.3f}", f"{tx / ty:.3f}",
-             ratio(t, t_error, theory.temperature(rate)), ratio(pressure, pressure_error, theory.pressure * t),
-             ratio(shear, shear_error, theory.viscosity * t ** 0.5 * rate),
-             ratio(shear * rate, shear_error * rate, theory.loss * t ** 1.5)]
+    return Core(shear_rate=rate * d / t ** 0.5, area_fraction=nu, anisotropy=tx / ty,
+                temperature=ratio(t, t_error, theory.temperature(rate)),
+                pressure=ratio(pressure, pressure_error, theory.pressure * t),
+                shear_stress=ratio(shear, shear_error, theory.viscosity * t ** 0.5 * rate),
+                dissipation=ratio(shear * rate, shear_error * rate, theory.loss * t ** 1.5))
+
+
+def row_of(runs):
+    settings = runs[0].settings
+    rate, nu, anisotropy, *ratios = zip(*map(core_of, runs))
+    cells = [f"{settings['contact.stiffness'] / 1000:g}", f"{settings['contact.restitution']:g}", states_of(runs),
+             f"{np.mean(rate):.2f}", f"{np.mean(nu):.3f}", f"{np.mean(anisotropy):.3f}", *map(mean_of, ratios)]
     return "| " + " | ".join(str(cell) for cell in cells) + " |"
 
 
@@ -66,11 +87,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--sweep", type=pathlib.Path, default=HOME / "sweeps/cell")
     options = parser.parse_args()
-    print("| e_N | shear rate d / T^(1/2) | state | area fraction | T_x / T_y | temperature | pressure | shear stress | dissipation |")
-    print("|--:|--:|---|--:|--:|--:|--:|--:|--:|")
-    for point in riesel.Sweep(options.sweep).points:
-        if point.run.is_done:
-            print(row_of(point.run))
+    print("| k_N, kN/m | e_N | state | shear rate d / T^(1/2) | area fraction | T_x / T_y | temperature | pressure | "
+          "shear stress | dissipation |")
+    print("|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|")
+    for runs in runs_by_setting(options.sweep):
+        print(row_of(runs))
 
 
 if __name__ == "__main__":

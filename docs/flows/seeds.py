@@ -1,0 +1,30 @@
+"""Runs of a sweep that differ in their seeds alone."""
+import pathlib
+import sys
+from collections import Counter
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import riesel
+
+
+def runs_by_setting(sweep):
+    """[runs that are done and have the same settings but for the seed], in the order of the sweep file."""
+    groups = {}
+    for point in riesel.Sweep(sweep).points:
+        if point.run.is_done:
+            others = tuple(item for item in point.settings.items() if item[0] != "seed")
+            groups.setdefault(others, []).append(point.run)
+    return list(groups.values())
+
+
+def mean_of(values):
+    """Of several seeds, by their scatter; of a single one, which has an error of its own, that."""
+    return values[0] if len(values) == 1 else riesel.mean_of([value.value for value in values])
+
+
+def states_of(runs):
+    """"2 steady, 1 too_short"; one word if all are alike."""
+    counts = Counter(run.summary["state"] for run in runs)
+    if len(counts) == 1:
+        return next(iter(counts))
+    return ", ".join(f"{count} {state}" for state, count in counts.most_common())
