@@ -86,7 +86,8 @@ namespace {
 std::string explanation_of_points(Validity verdict, const std::string& cause, bool known) {
   const auto finding = finding_named(cause, HUGE_VAL);
   if (!finding) return "of what has not been noted";
-  if (!known) return cause + " is not known: nothing brakes there, or all impacts go through the wall";
+  if (!known)
+    return cause + " is not known: nothing brakes there, or all impacts go through the wall";
   return fmt::format("{} above {:.3g}: {}; {}", cause,
                      verdict == Validity::unphysical ? finding->unphysical : finding->suspect,
                      finding->meaning, finding->remedy);

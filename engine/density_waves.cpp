@@ -24,23 +24,31 @@ const std::vector<double>& cosines() {
   return table;
 }
 
-std::vector<std::int64_t> grains_in_cells(const Grains& grains) {
+struct Occupied {
+  std::size_t cell;
+  double grains;
+};
+
+/// The cells in which there are grains: of a single one, as in an impact, few.
+std::vector<Occupied> occupied_cells(const Grains& grains) {
   std::vector<std::int64_t> counts(cells);
   for (const Fixed y : grains.y) ++counts[static_cast<std::uint64_t>(y) >> (64 - cell_bits)];
-  return counts;
+  std::vector<Occupied> occupied;
+  for (std::size_t cell = 0; cell < cells; ++cell)
+    if (counts[cell] > 0) occupied.push_back({cell, static_cast<double>(counts[cell])});
+  return occupied;
 }
 
 }  // namespace
 
 std::array<double, density_waves> axial_structure_factor(const Grains& grains) {
   const std::vector<double>& cosine = cosines();
-  const std::vector<std::int64_t> counts = grains_in_cells(grains);
+  const std::vector<Occupied> occupied = occupied_cells(grains);
   const auto grains_in_all = static_cast<double>(grains.size());
   std::array<double, density_waves> factor{};
   for (std::size_t n = 1; n <= density_waves; ++n) {
     double real_part = 0.0, imaginary_part = 0.0;
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-      const auto count = static_cast<double>(counts[cell]);
+    for (const auto& [cell, count] : occupied) {
       real_part += count * cosine[n * cell % cells];
       imaginary_part += count * cosine[(n * cell + cells * 3 / 4) % cells];
     }
