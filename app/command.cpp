@@ -59,7 +59,7 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
 /// To go on with the runs of a sweep.
 CLI::Option* add_changes(CLI::App& command, std::vector<std::string>& overrides) {
   return add_set(command, overrides,
-                 "Go on with what is done, too, such as run.duration='4 s': key.path=value");
+                 "Follow all runs further, also those that are done, as by run.duration='4 s'");
 }
 
 void add_threads(CLI::App& command, std::vector<std::string>& overrides) {

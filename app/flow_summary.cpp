@@ -79,11 +79,11 @@ io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& st
 }
 
 io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state) {
-  const bool has_right = state.walls.size() > 1;  // a chute has a bottom only
-  return {.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
-          .right = has_right ? scaled(series.rate("right_wall_impulse_y"), -1.0)
-                             : io::Measured{unknown, unknown},
-          .weight = total_mass(state.grains) * state.gravity.y};
+  io::FlowSummary::BrakingForce force{.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
+                                      .right = {},
+                                      .weight = total_mass(state.grains) * state.gravity.y};
+  if (state.walls.size() > 1) force.right = scaled(series.rate("right_wall_impulse_y"), -1.0);
+  return force;
 }
 
 io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const VisitTally& tally) {

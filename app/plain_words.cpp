@@ -51,6 +51,19 @@ std::string explanation_of_end(const std::string& ended_by) {
   return "the time was up before the mean was known as well as was asked for";
 }
 
+Digits digits_of(const io::Measured& m, int digits, int error_digits) {
+  const auto order = [](double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); };
+  if (!(m.error > 0.0) || !std::isfinite(m.error))
+    return {fmt::format("{:.{}g}", m.value, digits), ""};
+  constexpr int most_decimals = 6;  // smaller ones have an exponent
+  const int decimals = std::max(0, error_digits - 1 - order(m.error));
+  if (decimals <= most_decimals)
+    return {fmt::format("{:.{}f}", m.value, decimals), fmt::format("{:.{}f}", m.error, decimals)};
+  const int significant = m.value == 0.0 ? 1 : order(m.value) - order(m.error) + error_digits;
+  return {fmt::format("{:.{}g}", m.value, std::max(1, significant)),
+          fmt::format("{:.{}g}", m.error, error_digits)};
+}
+
 std::string explanation(const Finding& f) {
   if (std::isnan(f.value)) return fmt::format("{}: {}; {}", f.name, f.meaning, f.remedy);
   const double threshold = f.verdict == Validity::unphysical ? f.unphysical : f.suspect;
@@ -85,9 +98,8 @@ namespace {
 /// known. `cause` is empty in summaries of versions that did not tell it.
 std::string explanation_of_points(Validity verdict, const std::string& cause, bool known) {
   const auto finding = finding_named(cause, HUGE_VAL);
-  if (!finding) return "of what has not been noted";
-  if (!known)
-    return cause + " is not known: nothing brakes there, or all impacts go through the wall";
+  if (!finding) return "for a reason that this summary does not tell";
+  if (!known) return cause + " is not known: no impact comes away from the wall, or nothing brakes";
   return fmt::format("{} above {:.3g}: {}; {}", cause,
                      verdict == Validity::unphysical ? finding->unphysical : finding->suspect,
                      finding->meaning, finding->remedy);

@@ -15,9 +15,8 @@ namespace {
 /// With its error bar, if it has one.
 std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int error_digits = 2) {
   if (std::isnan(m.value)) return "not known";
-  const auto error =
-      std::isnan(m.error) ? std::string() : fmt::format(" +- {:.{}g}", m.error, error_digits);
-  return fmt::format("{:.{}g}{} {}", m.value, digits, error, unit);
+  const auto [value, error] = digits_of(m, digits, error_digits);
+  return value + (error.empty() ? "" : " +- " + error) + " " + unit;
 }
 
 void print_balance(const io::FlowSummary::Balance& b) {
@@ -29,8 +28,7 @@ void print_balance(const io::FlowSummary::Balance& b) {
 }
 
 void print_braking(const io::FlowSummary::BrakingForce& f) {
-  const std::string right =
-      f.has_right_wall() ? fmt::format(", right {}", text_of(f.right, "N")) : "";
+  const std::string right = f.right ? fmt::format(", right {}", text_of(*f.right, "N")) : "";
   fmt::print("  {:<22}left {}{}, weight {:.4g} N\n", "braking by the walls", text_of(f.left, "N"),
              right, f.weight);
 }

@@ -2,16 +2,19 @@
 
 #include "app/commands.hpp"
 #include "app/resumed_settings.hpp"
-#include "io/run_file.hpp"
+#include "io/file_error.hpp"
+#include "io/run_record.hpp"
+#include "io/settings.hpp"
 #include "io/settings_given.hpp"
+#include "io/settings_table.hpp"
+#include "io/summary.hpp"
 #include "io/summary_reader.hpp"
-#include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <utility>
+#include <variant>
 
 namespace riesel::app {
 
@@ -19,34 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of a run that has begun, those that it goes by; else those that it will begin with.
-fs::path settings_of(const fs::path& point) {
-  const fs::path effective = point / io::effective_settings_name;
-  return fs::exists(effective) ? effective : point / point_settings_name;
-}
-
-/// s, simulated, of a run that has a result.
-std::optional<double> time_done(const fs::path& point) {
-  const fs::path summary = point / io::summary_name;
-  if (!fs::exists(summary)) return {};
-  const io::Summary any = io::read_summary(summary);
-  const auto* flow = std::get_if<io::FlowSummary>(&any);
-  return flow != nullptr ? std::optional(flow->time) : std::nullopt;
-}
-
-/// Whether "key=" takes out a setting that is not there, as the run has gone on like this already.
-bool is_done_already(const std::string& override, const io::Settings& from) {
-  const io::YamlEntry setting = io::parse_overrides({override}).front();
-  return setting.value.shape == io::YamlNode::Shape::null
-         && io::has_key(scenarios::settings_tables().at(from.scenario()), setting.key)
-         && !from.has(setting.key);
-}
-
 void reject_threads(const std::vector<std::string>& overrides) {
   for (const io::YamlEntry& setting : io::parse_overrides(overrides))
     if (setting.key == "run.threads")
       throw io::SettingsError(setting.key_place, setting.key, "cannot be set for a whole sweep",
-                              "choose the number of runs side by side with --jobs");
+                              "leave it out: the runs share the cores");
 }
 
 void reject_continuation(const io::Manifest& manifest, const fs::path& sweep) {
@@ -56,69 +36,112 @@ void reject_continuation(const io::Manifest& manifest, const fs::path& sweep) {
                           "with a longer run.duration");
 }
 
-struct Change {
-  io::Settings from, to;
-  std::vector<std::string> overrides;  // that lead from one to the other
-};
+void reject_without_length(const io::Settings& settings, const fs::path& sweep) {
+  const std::string& scenario = settings.scenario();
+  if (!io::has_key(scenarios::settings_tables().at(scenario), "run.duration"))
+    throw UnusableInput(sweep.string() + ": runs of the scenario " + scenario
+                        + " have no length in time; there is nothing to go on with");
+}
 
-Change change_of(const fs::path& point, const std::vector<std::string>& overrides) {
-  const fs::path file = settings_of(point);
-  const io::SettingsTables& tables = scenarios::settings_tables();
-  io::Settings from = io::Settings::from_file(file, tables);
-  std::vector<std::string> leading;
-  std::ranges::copy_if(overrides, std::back_inserter(leading),
-                       [&](auto& each) { return !is_done_already(each, from); });
-  io::Settings to = io::Settings::from_file(file, tables, leading);
-  return {.from = std::move(from), .to = std::move(to), .overrides = std::move(leading)};
+/// Of the flow that is done; nothing if it is not, or cannot be understood, as those of other
+/// versions.
+std::optional<io::FlowSummary> result_of(const fs::path& point) {
+  try {
+    const io::Summary any = io::read_summary(point / io::summary_name);
+    if (const auto* flow = std::get_if<io::FlowSummary>(&any)) return *flow;
+  } catch (const io::FileError&) {
+  }
+  return {};
+}
+
+/// That the run goes by, or went by to its result; nothing if it has not begun, or nobody can tell.
+std::optional<scenarios::RunLength> length_of(const fs::path& point) {
+  try {
+    return scenarios::run_length(
+        io::Settings::from_file(point / io::effective_settings_name, scenarios::settings_tables()));
+  } catch (const io::SettingsError&) {
+    return {};
+  }
+}
+
+bool has_reached(const scenarios::RunLength& wanted, const fs::path& point,
+                 const io::FlowSummary& summary) {
+  const double step = summary.time / static_cast<double>(summary.run.steps);
+  if (wanted.at_most < summary.time + 0.5 * step) return true;  // it ends with a whole step
+  if (!wanted.relative_error || summary.ended_by != "precision") return false;
+  const auto had = length_of(point);
+  return had && had->relative_error && *had->relative_error <= *wanted.relative_error;
 }
 
 }  // namespace
 
 Prolongation::Prolongation(const io::Manifest& manifest, const fs::path& sweep,
+                           const std::vector<std::string>& names,
                            std::vector<std::string> overrides)
     : overrides_(std::move(overrides)) {
   if (overrides_.empty()) return;
   reject_overrides_of_the_physics(overrides_);
   reject_threads(overrides_);
   reject_continuation(manifest, sweep);
+  const io::SettingsTables& tables = scenarios::settings_tables();
   for (const io::ManifestPoint& point : manifest.points) {
-    const io::Settings settings = change_of(point_directory(sweep, point.name), overrides_).to;
-    const std::string& scenario = settings.scenario();
-    if (!io::has_key(scenarios::settings_tables().at(scenario), "run.duration"))
-      throw UnusableInput(sweep.string() + ": runs of the scenario " + scenario
-                          + " have no length in time; there is nothing to go on with");
-    scenarios::run_length(settings);
+    if (!names.empty() && std::ranges::find(names, point.name) == names.end()) continue;
+    const fs::path file = point_directory(sweep, point.name) / point_settings_name;
+    const io::Settings planned = io::Settings::from_file(file, tables);
+    reject_without_length(planned, sweep);
+    goals_[point.name] = {
+        .planned = scenarios::run_length(planned).at_most,
+        .wanted = scenarios::run_length(io::Settings::from_file(file, tables, overrides_))};
   }
 }
 
-Prolongation::Way Prolongation::way_of(const fs::path& point) const {
-  constexpr double all = 1.0;
-  if (overrides_.empty()) return {.overrides = {}, .is_new = false, .part = all};
-  Change change = change_of(point, overrides_);
-  const double planned = scenarios::run_length(change.from).at_most;
-  const double wanted = scenarios::run_length(change.to).at_most;
-  const std::optional<double> done = time_done(point);
-  if (wanted < done.value_or(planned)) return {.overrides = {}, .is_new = false, .part = all};
-  return {.overrides = std::move(change.overrides),
-          .is_new = change.to.effective_yaml() != change.from.effective_yaml(),
-          .part = (wanted - done.value_or(0.0)) / planned};
+const Prolongation::Goal* Prolongation::goal_of(const fs::path& point) const {
+  const auto found = goals_.find(point.filename().string());
+  return found == goals_.end() ? nullptr : &found->second;
 }
 
 RunStanding Prolongation::standing_of(const fs::path& point) const {
   RunStanding standing = app::standing_of(point);
-  if (standing.status == RunStatus::done && way_of(point).is_new)
-    standing.status = RunStatus::interrupted;
+  const Goal* goal = goal_of(point);
+  if (standing.status != RunStatus::done || goal == nullptr) return standing;
+  const auto result = result_of(point);
+  if (!result || has_reached(goal->wanted, point, *result)) return standing;
+  standing.reason = io::read_run_record(point).failure;
+  if (!can_resume(point))
+    standing.reason = "has no checkpoint to go on from; remove its directory to begin anew";
+  standing.status = standing.reason.empty() ? RunStatus::interrupted : RunStatus::failed;
   return standing;
 }
 
 void Prolongation::refresh(io::Manifest& manifest, const fs::path& sweep) const {
   app::refresh(manifest, sweep);
-  if (overrides_.empty()) return;
   for (io::ManifestPoint& point : manifest.points) {
-    const fs::path directory = point_directory(sweep, point.name);
-    point.status = to_string(standing_of(directory).status);
-    point.expected_seconds *= way_of(directory).part;
+    if (!goals_.contains(point.name)) continue;
+    const RunStanding standing = standing_of(point_directory(sweep, point.name));
+    point.status = to_string(standing.status);
+    point.reason = standing.reason;
   }
+}
+
+void Prolongation::look_ahead(io::Manifest& manifest, const fs::path& sweep) const {
+  refresh(manifest, sweep);
+  for (io::ManifestPoint& point : manifest.points)
+    point.expected_seconds *= part_left(point_directory(sweep, point.name));
+}
+
+std::vector<std::string> Prolongation::overrides_for(const fs::path& point) const {
+  const Goal* goal = goal_of(point);
+  if (goal == nullptr) return {};
+  const auto begun = result_of(point) ? std::nullopt : length_of(point);
+  const bool goes_further = begun && begun->at_most > goal->wanted.at_most;
+  return goes_further ? std::vector<std::string>() : overrides_;
+}
+
+double Prolongation::part_left(const fs::path& point) const {
+  const Goal* goal = goal_of(point);
+  if (goal == nullptr) return 1.0;
+  const auto result = result_of(point);
+  return std::max(0.0, goal->wanted.at_most - (result ? result->time : 0.0)) / goal->planned;
 }
 
 }  // namespace riesel::app

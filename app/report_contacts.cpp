@@ -127,7 +127,7 @@ io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary)
   constexpr std::size_t parts = 50;
   const io::Series& time = run.series_of("time");
   std::vector<std::string> walls = {"left"};
-  if (summary.braking_force.has_right_wall()) walls.emplace_back("right");
+  if (summary.braking_force.right) walls.emplace_back("right");
   const double share = summary.braking_force.weight / static_cast<double>(walls.size());
   std::vector<std::array<std::vector<double>, 2>> forces;
   std::vector<double> extent = {0.0};

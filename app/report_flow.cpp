@@ -186,8 +186,8 @@ private:
         {"gravity", number(b.gravity) + " m/s^2"},
         {"contacts with other grains per grain", with_error(summary().grain_contact_rate, "1/s")},
         {"braking force of the left wall", with_error(force.left, "N")}};
-    if (force.has_right_wall())
-      rows.push_back({"braking force of the right wall", with_error(force.right, "N")});
+    if (force.right)
+      rows.push_back({"braking force of the right wall", with_error(*force.right, "N")});
     rows.insert(rows.end(), {{"weight of all grains, carried by the walls in a steady state",
                               number(force.weight) + " N"},
                              {"visits to a wall", number(v.visits, "{:.0f}")},
@@ -200,8 +200,7 @@ private:
         "braking", draw_braking(record_->run, summary()),
         "Axial force of each wall on the grains, positive where it brakes, in means over parts of "
         "the time. Dashed: the share of the weight of all grains that each wall carries in a "
-        "steady "
-        "state.");
+        "steady state.");
     draft_.add_figure("visits", draw_visits(v.of_contacts),
                       "Contacts per visit to a wall, of all visits that have ended since the "
                       "start. Many contacts with short passages are the brake failure of the "

@@ -1,5 +1,7 @@
 #include "app/report_parts.hpp"
 
+#include "app/plain_words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,9 +43,11 @@ std::string number(double value, const char* form) {
 
 std::string with_error(const io::Measured& m, const std::string& unit) {
   if (std::isnan(m.value)) return "not known";
-  const std::string error =
-      std::isnan(m.error) ? "(error not known)" : "± " + number(m.error, "{:.2g}");
-  return fmt::format("{:.4g} {}{}", m.value, error, unit.empty() ? "" : " " + unit);
+  const auto [value, error] = digits_of(m);
+  const std::string bar = std::isnan(m.error) ? " (error not known)"
+                          : error.empty()     ? ""
+                                              : " ± " + error;
+  return value + bar + (unit.empty() ? "" : " " + unit);
 }
 
 std::string with_unit(const std::string& name, const std::string& unit) {

@@ -55,8 +55,8 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   io::FoundCheckpoint found = as_input([&] { return io::find_checkpoint(options.checkpoint); });
   if (!found.note.empty()) tell("riesel: {}; going on from {}\n", found.note, found.path.string());
 
-  const auto settings = io::Settings::from_text(found.checkpoint.settings, found.path.string(),
-                                                scenarios::settings_tables(), options.overrides);
+  const io::Settings settings =
+      resumed_settings(found.checkpoint.settings, found.path.string(), options.overrides);
   const scenarios::RunLength length = scenarios::run_length(settings);
   const State& state = found.checkpoint.state;
   if (length.at_most < state.time() - state.time_step)

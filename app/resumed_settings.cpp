@@ -3,6 +3,7 @@
 #include "io/settings_error.hpp"
 #include "io/settings_given.hpp"
 #include "io/settings_table.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <set>
 
@@ -18,6 +19,14 @@ bool may_change(const std::string& key) {
   return names.contains(key) || names.contains(io::section_of(key));
 }
 
+/// "key=" for a key of the table that has no value.
+bool takes_out_nothing(const std::string& override, const io::Settings& from) {
+  const io::YamlEntry setting = io::parse_overrides({override}).front();
+  return setting.value.shape == io::YamlNode::Shape::null
+         && io::has_key(scenarios::settings_tables().at(from.scenario()), setting.key)
+         && !from.has(setting.key);
+}
+
 }  // namespace
 
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
@@ -27,6 +36,15 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
                               "only run.duration, run.until, run.threads, run.stepping, limits and "
                               "output.checkpoint_interval can; for anything else start a new run");
   }
+}
+
+io::Settings resumed_settings(const std::string& checkpoint, const std::string& source,
+                              const std::vector<std::string>& overrides) {
+  const io::SettingsTables& tables = scenarios::settings_tables();
+  const io::Settings before = io::Settings::from_text(checkpoint, source, tables);
+  std::vector<std::string> changes = overrides;
+  std::erase_if(changes, [&](const std::string& each) { return takes_out_nothing(each, before); });
+  return io::Settings::from_text(checkpoint, source, tables, changes);
 }
 
 }  // namespace riesel::app

@@ -71,11 +71,12 @@ RunDirectory RunDirectory::reopen(const fs::path& path) {
 
 void RunDirectory::go_on(const io::Settings& settings) const {
   lock_->sign();
-  write_settings(settings);
-  const fs::path summary = file(io::summary_name);  // of the shorter run
+  // First that of the shorter run: no result stands beside settings that are not its own.
+  const fs::path summary = file(io::summary_name);
   std::error_code error;
   fs::remove(summary, error);
   if (error) throw io::system_failure(summary, "cannot be removed", error.value());
+  write_settings(settings);
 }
 
 }  // namespace riesel::app

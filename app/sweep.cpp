@@ -60,7 +60,7 @@ constexpr std::size_t usual_most_tasks = 1000;
 /// tried again.
 void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
                        const Prolongation& prolongation, bool retry_failed) {
-  prolongation.refresh(manifest, sweep);
+  prolongation.look_ahead(manifest, sweep);
   if (!retry_failed) return;
   for (io::ManifestPoint& point : manifest.points)
     if (point.status == to_string(RunStatus::failed))
@@ -146,14 +146,14 @@ int sweep(const SweepOptions& options) {
   const fs::path directory =
       begun ? options.file : options.directory.value_or("sweeps" / options.file.stem());
   SweepPlan plan = begun ? plan_in(directory) : plan_sweep(options.file);
-  const Prolongation prolongation(plan.manifest, directory, options.overrides);
+  const Prolongation prolongation(plan.manifest, directory, {}, options.overrides);
   const int jobs = options.jobs.value_or(cores());
   if (options.dry_run) {
     if (options.to_slurm) {
       refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
       return show_slurm_script(plan.manifest, directory, options);
     }
-    prolongation.refresh(plan.manifest, directory);
+    prolongation.look_ahead(plan.manifest, directory);
     print_plan(plan.manifest, directory, jobs);
     return exit_done;
   }

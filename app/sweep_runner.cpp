@@ -95,7 +95,7 @@ public:
       std::this_thread::sleep_for(between_looks);
     }
     progress_.finish();
-    write_manifest();
+    write_last_manifest();
     if (interrupting_signal() != 0) return 128 + interrupting_signal();
     if (count(RunStatus::done) == jobs_.size()) return exit_done;
     return passed_on_ ? exit_out_of_time : exit_failed;
@@ -109,7 +109,7 @@ private:
     job->directory = point_directory(sweep_, point.name);
     if (const auto parent = by_name_.find(point.parent); parent != by_name_.end())
       job->parent = parent->second;
-    job->seconds = point.expected_seconds * options_.prolongation.way_of(job->directory).part;
+    job->seconds = point.expected_seconds * options_.prolongation.part_left(job->directory);
     job->most_threads = point.most_threads;
     job->status = status_of(*job);
     if (job->status == RunStatus::failed && options_.retry_failed)
@@ -184,7 +184,7 @@ private:
       arguments = {"run", settings.string(), "--out", directory};
     }
     arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
-    for (const std::string& setting : options_.prolongation.way_of(job.directory).overrides)
+    for (const std::string& setting : options_.prolongation.overrides_for(job.directory))
       arguments.insert(arguments.end(), {"--set", setting});
     const auto log = job.directory / log_name;
     job.log_begin = fs::exists(log) ? fs::file_size(log) : 0;
@@ -280,8 +280,18 @@ private:
 
   void write_manifest() {
     refresh(manifest_, sweep_);
+    for (io::ManifestPoint& point : manifest_.points) {
+      const auto job = by_name_.find(point.name);
+      const bool done = point.status == to_string(RunStatus::done);
+      if (done && job != by_name_.end()) point.status = to_string(job->second->status);
+    }
     options_.on_change(manifest_);
     last_manifest_ = Clock::now();
+  }
+
+  void write_last_manifest() {
+    options_.prolongation.refresh(manifest_, sweep_);
+    options_.on_change(manifest_);
   }
 
   io::Manifest& manifest_;

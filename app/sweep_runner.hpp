@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/prolongation.hpp"
+#include "app/sweep_directory.hpp"
 #include "io/sweep_manifest.hpp"
 
 #include <filesystem>

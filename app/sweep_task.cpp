@@ -2,6 +2,7 @@
 // own queue.
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
+#include "app/prolongation.hpp"
 #include "app/sweep_directory.hpp"
 #include "app/sweep_parts.hpp"
 #include "app/sweep_runner.hpp"
@@ -45,14 +46,15 @@ int sweep_task(const SweepTaskOptions& options) {
   io::Manifest manifest = manifest_in(options.directory);
   const std::vector<std::string> names = names_for(options, manifest);
   if (names.empty()) return exit_done;  // more parts than there are points
+  const Prolongation prolongation(manifest, options.directory, names, options.overrides);
   const int status = run_points(manifest, options.directory, names,
                                 {.jobs = 1,
                                  .cores = options.threads.value_or(cores()),
                                  .retry_failed = options.retry_failed,
                                  .max_walltime = options.max_walltime,
-                                 .prolongation = {manifest, options.directory, options.overrides}});
+                                 .prolongation = prolongation});
   for (const std::string& name : names) {
-    const RunStanding standing = standing_of(point_directory(options.directory, name));
+    const RunStanding standing = prolongation.standing_of(point_directory(options.directory, name));
     fmt::print("point {}: {}{}{}\n", name, to_string(standing.status),
                standing.reason.empty() ? "" : ": ", standing.reason);
   }

@@ -86,6 +86,7 @@ std::string flaw_of_grains(const Grains& grains) {
   return {};
 }
 
+/// All members but the name: a new one must be added in both places.
 bool is_finite(const Contact& contact) {
   const auto& [name, begin, end, entry_rate, entry_slip, overlap, max_overlap, slip_path,
                elastic_energy, normal_loss, friction_loss, impulse_x, impulse_y,

@@ -70,7 +70,10 @@ Json balance(const FlowSummary::Balance& b) {
 }
 
 Json braking_force(const FlowSummary::BrakingForce& f) {
-  return {{"left", measured(f.left)}, {"right", measured(f.right)}, {"weight", f.weight}};
+  Json json = {{"left", measured(f.left)}};
+  if (f.right) json["right"] = measured(*f.right);
+  json["weight"] = f.weight;
+  return json;
 }
 
 /// A threshold that no value passes stands as null.

@@ -10,8 +10,8 @@
 #include "engine/wall_visits.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,10 +78,9 @@ struct FlowSummary {
   /// What each wall carries: the mean force on the grains against gravity. In a steady state both
   /// together carry the weight.
   struct BrakingForce {
-    Measured left{unknown, unknown}, right{unknown, unknown};  ///< N
-    double weight = unknown;                                   ///< N, of all grains
-    /// A chute has a bottom only, which is its left wall: of the right one nothing is known.
-    bool has_right_wall() const { return std::isnan(left.value) || !std::isnan(right.value); }
+    Measured left{unknown, unknown};  ///< N
+    std::optional<Measured> right;    ///< N; none of a chute, which has its bottom only
+    double weight = unknown;          ///< N, of all grains
   } braking_force;
 
   /// J; since the start, but kinetic, rotational and elastic energy are those at the end.

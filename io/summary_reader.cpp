@@ -52,9 +52,10 @@ Measured read_grain_contact_rate(const Json& summary) {
 FlowSummary::BrakingForce read_braking_force(const Json& summary) {
   const auto found = summary.find("braking_force");
   if (found == summary.end()) return {};
-  return {.left = measured(found->at("left")),
-          .right = measured(found->at("right")),
-          .weight = number(*found, "weight")};
+  FlowSummary::BrakingForce force{
+      .left = measured(found->at("left")), .right = {}, .weight = number(*found, "weight")};
+  if (found->contains("right")) force.right = measured(found->at("right"));
+  return force;
 }
 
 FlowSummary::Energy read_energy(const Json& json) {

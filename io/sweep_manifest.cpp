@@ -114,7 +114,8 @@ Manifest read_manifest(const fs::path& directory) {
     return manifest_of(json);
   } catch (const std::exception& error) {
     throw FileError(path, fmt::format("is no manifest of a sweep ({})", flaw_of(error)),
-                    "run 'riesel sweep' again: it writes a new one and keeps the results");
+                    "run 'riesel sweep' with its sweep file: it writes a new one and keeps the "
+                    "results");
   }
 }
 

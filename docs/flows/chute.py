@@ -15,7 +15,9 @@ from typing import NamedTuple
 import matplotlib
 import numpy as np
 
-from seeds import mean_of, riesel, runs_by_setting, states_of
+from seeds import mean_of, runs_by_setting, states_of
+
+import riesel  # by way of seeds
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
 matplotlib.use("Agg")
@@ -98,7 +100,7 @@ def main():
     for f in flows:
         at_rest = abs(f.velocity.value) < 1e-6
         state = "at rest" if at_rest else f.state
-        velocity = 0 if at_rest else f.velocity if state != "accelerating" else f"{f.velocity.value:.4g}"
+        velocity = 0 if at_rest else f.velocity if "accelerating" not in state else f"{f.velocity.value:.4g}"
         exponent = "" if np.isnan(f.rate_exponent.value) else f.rate_exponent
         print(f"| {f.inclination:.0f} | {f.layers:.0f} | {state} | {velocity} | {1e3 * f.height.value:.1f} | "
               f"{f.area_fraction} | {f.stress_ratio} | {exponent} |")

@@ -1,4 +1,4 @@
-"""Runs of a sweep that differ in their seeds alone."""
+"""Runs of a sweep that differ in their seeds alone. Also makes the package riesel of the checkout known."""
 import pathlib
 import sys
 from collections import Counter

@@ -2,7 +2,7 @@
 from statistics import mean
 
 from results import print_table, save
-from tube import grouped, mean_text, over_seeds, runs_of, runs_of_all, stay_cells, steady_of
+from tube import grouped, mean_text, riesel, runs_of, runs_of_all, stay_cells, steady_of
 
 LONG_ENOUGH = 3.0  # s, for a fast run to settle
 SAME = 0.05  # part of a velocity by which runs may differ that approach the same state
@@ -44,7 +44,7 @@ def draw_fig6(plt, slow, fast):
 
 def draw_state(axes, e_n, runs, color, **symbol):
     """The mean of several seeds with its error; of a single one the point."""
-    value, error = over_seeds([run.velocity for run in runs])
+    value, error = riesel.mean_of([run.velocity for run in runs])
     axes.errorbar(e_n, value, error if len(runs) > 1 else None, color=color, capsize=2, **symbol)
 
 

@@ -65,14 +65,9 @@ def grouped(runs, *names):
     return list(groups.items())
 
 
-def over_seeds(values):
-    """Mean and 68 % error of the values of several seeds; of a single one the error is not known."""
-    return riesel.mean_of(values)
-
-
 def seeds_text(values):
     """The mean of several seeds with its error, of one seed the value."""
-    value, error = over_seeds(values)
+    value, error = riesel.mean_of(values)
     return f"{value:.3g}" if np.isnan(error) else plus_minus(value, error)
 
 

@@ -8,13 +8,14 @@ import sys
 import unittest
 
 import h5py
+import numpy as np
 
 from riesel_command import SMALL_TUBE, CommandTest
 
 DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
 ANIMATE = DOCS / "animate.py"
 sys.path.insert(0, str(DOCS))
-from draw_tube import smooth_walls_at, walls_of
+from draw_tube import TubePicture, smooth_walls_at, walls_of
 
 
 class SmoothWalls(CommandTest):
@@ -29,6 +30,13 @@ class SmoothWalls(CommandTest):
             swing = 1e-4 * math.sin(2 * math.pi * 200 * time)
             for x, line in zip(smooth_walls_at(walls, time), (0.0, 0.01), strict=True):
                 self.assertAlmostEqual(x, line + swing, delta=1e-9)
+
+    def test_they_move(self):
+        tube = TubePicture(0.01, 0.02, np.empty((0, 2)), np.empty(0), np.array([5e-4]), 1e-4, [0.0, 0.01])
+        for places in ([0.0, 0.01], [1e-4, 0.0101]):
+            tube.move_smooth_walls(places)
+            lines = [line.get_ydata()[0] for line in tube.figure.axes[0].lines]
+            np.testing.assert_allclose(lines, np.array(places) * 1e3)
 
 
 @unittest.skipIf(shutil.which("ffmpeg") is None, "there is no ffmpeg")

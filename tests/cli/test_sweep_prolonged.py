@@ -1,6 +1,7 @@
 """Going on with the runs of a sweep that are done: what they come to is what they would have come to
 if they had been planned like this."""
 
+import json
 import shutil
 import signal
 import time
@@ -123,22 +124,102 @@ class Prolonged(SweepTest):
         self.assertEqual(self.go_on("run.duration=6 ms").returncode, FAILED)
         self.assertEqual(sorted(row["status"] for row in self.rows()), ["done", "done", "failed"])
 
+    def test_what_is_done_does_not_go_on_for_other_settings_alone(self):
+        self.sweep_to_end(TWO)
+        before = bytes_of_files(self.home / "out/points")
+        self.assert_done(self.go_on("limits.overlap=1e-9", "run.stepping=plain",
+                                    "output.checkpoint_interval=1 s"))
+        self.assertEqual(bytes_of_files(self.home / "out/points"), before)
+
+    def test_what_fails_on_the_way_is_told_and_tried_again_only_if_asked(self):
+        self.sweep_to_end(TWO)
+        for options, attempts in (((), 2), ((), 2), (("--retry-failed",), 3)):
+            result = self.go_on("run.duration=5 ms", "limits.overlap=1e-9", options=options)
+            self.assertEqual(result.returncode, FAILED, result)
+            self.assertIn("2 failed", result.stdout)
+            self.assertIn("limits.overlap", result.stdout)
+            self.assertEqual([point["attempts"] for point in self.points()], 2 * [attempts])
+        self.assert_done(self.go_on("run.duration=5 ms", "limits.overlap=1", options=["--retry-failed"]))
+        self.assert_is_whole("0.9", "5 ms")
+
+    def test_what_has_no_checkpoint_cannot_go_on(self):
+        self.sweep_to_end(TWO)
+        for checkpoint in self.directory_of("0.7").glob("checkpoint*"):
+            checkpoint.unlink()
+        before = bytes_of_files(self.directory_of("0.7"))
+        result = self.go_on("run.duration=5 ms")
+        self.assertEqual(result.returncode, FAILED)
+        self.assertIn("has no checkpoint to go on from; remove its directory", result.stdout)
+        self.assertEqual(bytes_of_files(self.directory_of("0.7")), before)
+        self.assert_is_whole("0.9", "5 ms")
+
+    def test_results_of_other_versions_stay_as_they_are(self):
+        self.sweep_to_end(TWO)
+        summary = self.directory_of("0.7") / "summary.json"
+        summary.write_text(summary.read_text(encoding="utf-8").replace('"format": 2', '"format": 1'),
+                           encoding="utf-8")
+        before = bytes_of_files(self.directory_of("0.7"))
+        self.riesel("sweep", "out", "--set", "run.duration=5 ms")
+        self.assertEqual(bytes_of_files(self.directory_of("0.7")), before)
+
+    def test_a_crash_between_any_two_files_costs_nothing(self):
+        """What a run leaves that is killed while it begins to go on: the summary has gone, and the
+        settings are the new ones or not; the checkpoint is the old one."""
+        changes = ["run.duration=", "run.until.relative_error=0.01 %", "run.until.at_most=6 ms"]
+        self.sweep_to_end(TWO)
+        whole = self.sweep_whole(changes)
+        for settings_too in (False, True):
+            for summary in self.home.glob("out/points/*/summary.json"):
+                summary.unlink()
+                if settings_too:
+                    shutil.copy(whole / summary.parent.name / "effective.yaml", summary.parent)
+            shutil.copytree(self.home / "out", self.home / f"crashed_{settings_too}")
+        for settings_too in (False, True):
+            out = f"crashed_{settings_too}"
+            self.assert_done(self.go_on(*changes, out=out))
+            for point in (self.home / out / "points").iterdir():
+                self.assert_same_result(point, whole / point.name)
+
+    def sweep_whole(self, changes):
+        """The points of a copy that has gone on undisturbed."""
+        shutil.copytree(self.home / "out", self.home / "undisturbed")
+        self.assert_done(self.go_on(*changes, out="undisturbed"))
+        return self.home / "undisturbed/points"
+
+    def test_the_expected_time_is_that_of_what_is_left(self):
+        self.sweep_to_end(TWO)
+        manifest = self.manifest()
+        for point in manifest["points"]:
+            point["expected_seconds"] = 3600.0  # of 2 ms
+        self.write("out/manifest.json", json.dumps(manifest))
+        self.assertIn(" 9.0 h ", self.go_on("run.duration=20 ms", options=["--dry-run"]).stdout)
+        self.assert_done(self.go_on("run.duration=6 ms"))
+        self.assertIn(" 7.0 h ", self.go_on("run.duration=20 ms", options=["--dry-run"]).stdout)
+
     def test_interrupted_it_goes_on_by_the_same_command_and_by_the_sweep_file(self):
         self.sweep_to_end(TWO)
         change = f"run.duration={LONG_ENOUGH_TO_INTERRUPT}"
-        process = self.start("sweep", "out", "--set", change)
+        process = self.start("sweep", "out", "--set", change, "--jobs", 1)
         deadline = time.monotonic() + 100.0
-        while list(self.home.glob("out/points/*/summary.json")) and time.monotonic() < deadline:
+        while len(list(self.home.glob("out/points/*/summary.json"))) > 1:
+            self.assertLess(time.monotonic(), deadline)
             time.sleep(0.005)
         time.sleep(0.3)  # which is no matter: the runs catch signals from their beginning
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=100.0)
+        output, _ = process.communicate(timeout=100.0)
         self.assertEqual(process.returncode, 128 + signal.SIGTERM)
+        self.assertIn("2 interrupted", output)
+        begun = [point for point in (self.home / "out/points").iterdir()
+                 if not (point / "summary.json").exists()]
+        self.assertEqual(len(begun), 1)
+        # The sweep file alone lets what was begun come to its new end, and leaves the other as it was.
         shutil.copytree(self.home / "out", self.home / "other")
-        for command in ([self.go_on, change], [self.sweep, TWO, "other"]):
-            act, *arguments = command
-            self.assert_done(act(*arguments))
-        self.assertEqual(self.hashes("out"), self.hashes("other"))
+        self.assert_done(self.sweep(TWO, "other"))
+        times = sorted(float(row["time"]) for row in self.rows("other"))
+        self.assertAlmostEqual(times[0], 2e-3, delta=1e-6)
+        self.assertAlmostEqual(times[1], 4.0, delta=1e-3)
+        self.assert_done(self.go_on(change))
+        self.assertEqual(self.hashes()[begun[0].name], self.hashes("other")[begun[0].name])
         self.assert_is_whole("0.9", LONG_ENOUGH_TO_INTERRUPT)
 
 
@@ -153,7 +234,7 @@ class Refused(SweepTest):
         self.sweep_to_end(TWO)
         for change, mentions in {
                 "contact.friction=0.1": ("contact.friction", "new run"),
-                "run.threads=2": ("run.threads", "--jobs"),
+                "run.threads=2": ("run.threads", "share the cores"),
                 "run.duration=5 mm": ("run.duration", "mm"),
                 "run.duration=-1 s": ("run.duration",),
                 "run.duratoin=5 ms": ("run.duratoin",),
@@ -190,7 +271,7 @@ class Refused(SweepTest):
     def test_damaged_settings_of_a_point(self):
         self.sweep_to_end(TWO)
         point = next(iter(sorted(self.home.glob("out/points/*"))))
-        (point / "effective.yaml").write_text("scenario: [", encoding="utf-8")
+        (point / "point.yaml").write_text("scenario: [", encoding="utf-8")
         self.assert_refused_without_a_trace(["out", "--set", "run.duration=5 ms"], str(point.name))
 
     def test_resume_tells_the_way(self):

@@ -48,7 +48,7 @@ FlowSummary special_summary() {
   s.wall_layers.area_fraction = {0.2, 0.06};
   s.balance = {.n_dot = {1.1, 0.1}, .dv_y = {1.2, 0.2}, .n_dot_dv_y = {1.3, 0.3}, .gravity = -0.0};
   s.grain_contact_rate = {77.0, 0.7};
-  s.braking_force = {.left = {1.4, 0.4}, .right = {1.5, std::nan("")}, .weight = 2.9};
+  s.braking_force = {.left = {1.4, 0.4}, .right = Measured{1.5, std::nan("")}, .weight = 2.9};
   s.energy = {.initial = 1.0 / 9.0,
               .kinetic = 2.1,
               .elastic = 2.2,
