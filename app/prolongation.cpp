@@ -54,7 +54,7 @@ std::optional<io::FlowSummary> result_of(const fs::path& point) {
   return {};
 }
 
-/// That the run goes by, or went by to its result; nothing if it has not begun, or nobody can tell.
+/// That the run went by to its result; nothing if nobody can tell.
 std::optional<scenarios::RunLength> length_of(const fs::path& point) {
   try {
     return scenarios::run_length(
@@ -131,17 +131,16 @@ void Prolongation::look_ahead(io::Manifest& manifest, const fs::path& sweep) con
 
 std::vector<std::string> Prolongation::overrides_for(const fs::path& point) const {
   const Goal* goal = goal_of(point);
-  if (goal == nullptr) return {};
-  const auto begun = result_of(point) ? std::nullopt : length_of(point);
-  const bool goes_further = begun && begun->at_most > goal->wanted.at_most;
-  return goes_further ? std::vector<std::string>() : overrides_;
+  const bool goes_on = goal != nullptr && goal->wanted.at_most >= goal->planned;
+  return goes_on ? overrides_ : std::vector<std::string>();
 }
 
 double Prolongation::part_left(const fs::path& point) const {
   const Goal* goal = goal_of(point);
   if (goal == nullptr) return 1.0;
   const auto result = result_of(point);
-  return std::max(0.0, goal->wanted.at_most - (result ? result->time : 0.0)) / goal->planned;
+  const double length = std::max(goal->wanted.at_most, goal->planned);
+  return std::max(0.0, length - (result ? result->time : 0.0)) / goal->planned;
 }
 
 }  // namespace riesel::app

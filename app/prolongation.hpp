@@ -37,7 +37,7 @@ public:
   /// Besides, points are expected to take as long as is left of them.
   void look_ahead(io::Manifest& manifest, const std::filesystem::path& sweep) const;
 
-  /// What the run of a point is to be called with. None if it was begun to go further.
+  /// What the run of a point is to be called with. None if it is planned to go further.
   std::vector<std::string> overrides_for(const std::filesystem::path& point) const;
 
   /// What is left to be done of a point that is done, or all of another, as a part of what was

@@ -62,6 +62,7 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   if (length.at_most < state.time() - state.time_step)
     settings.reject(length.key, fmt::format("the run has come to {:.6g} s already", state.time()),
                     "choose a longer time");
+  scenarios::reject_too_many_steps(settings, length, state.time_step);
   if (found.checkpoint.rows > 0
       && found.checkpoint.profiles.columns() != Strips::of(state).columns())
     throw UnusableInput(found.path.string()

@@ -13,6 +13,7 @@
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/core.h>
 
@@ -21,6 +22,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace riesel::app {
 
@@ -123,9 +125,20 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   return exit_done;
 }
 
-/// The plan of a sweep that was begun: nothing of it need be written.
+/// The plan of a sweep that was begun: nothing of it need be written. What lacks is for its sweep
+/// file to make.
 SweepPlan plan_in(const fs::path& sweep) {
-  return {.manifest = manifest_in(sweep), .settings = {}, .sweep_file = {}};
+  SweepPlan plan{.manifest = manifest_in(sweep), .settings = {}, .sweep_file = {}};
+  std::vector<fs::path> files = {sweep / sweep_file_name};
+  for (const io::ManifestPoint& point : plan.manifest.points)
+    files.push_back(point_directory(sweep, point.name) / point_settings_name);
+  for (const fs::path& file : files)
+    if (!fs::exists(file))
+      throw UnusableInput(file.string()
+                          + ": is missing; call 'riesel sweep' with the sweep file, which makes it "
+                            "anew, and --out "
+                          + io::in_quotes(sweep.string()));
+  return plan;
 }
 
 void reject_options_in_vain(const SweepOptions& options, bool begun) {

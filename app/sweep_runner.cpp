@@ -10,6 +10,7 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_record.hpp"
+#include "io/summary.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -171,8 +172,10 @@ private:
     const int threads = threads_for(job);
     job.status = status_of(job);
     if (job.status == RunStatus::running || job.status == RunStatus::done) return;
-    ++job.starts;
     const bool goes_on = can_resume(job.directory);
+    if (!goes_on && job.status == RunStatus::failed && fs::exists(job.directory / io::summary_name))
+      return;  // it has a result and nothing to go on from
+    ++job.starts;
     if (!goes_on && !cleared(job)) return;
     io::RunRecord record = io::read_run_record(job.directory);
     io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});

@@ -101,10 +101,7 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
   const double shortest = collision_time(settings, model, 0.5 * *lightest);
   collision_time(settings, model, *heaviest);
   state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
-  const RunLength length = run_length(settings);
-  if (length.at_most / state.time_step > most_steps)
-    settings.reject(length.key, "more time steps than can be counted",
-                    fmt::format("choose at most {:.3g} s", most_steps * state.time_step));
+  reject_too_many_steps(settings, run_length(settings), state.time_step);
 }
 
 /// What falls freely from one look to the next must not get so fast that it seems slow again.

@@ -1,5 +1,7 @@
 #include "scenarios/run_length.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -56,6 +58,13 @@ RunLength run_length(const io::Settings& settings) {
   if (!settings.has(duration_key))
     settings.reject(duration_key, "is missing", "give a time such as '2 s', or run.until");
   return {.at_most = settings.number(duration_key), .relative_error = {}, .key = duration_key};
+}
+
+void reject_too_many_steps(const io::Settings& settings, const RunLength& length,
+                           double time_step) {
+  if (length.at_most / time_step > most_steps)
+    settings.reject(length.key, "more time steps than can be counted",
+                    fmt::format("choose at most {:.3g} s", most_steps * time_step));
 }
 
 std::int64_t steps_between(double seconds, double time_step) {

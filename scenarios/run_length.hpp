@@ -26,6 +26,9 @@ io::SettingsTable run_length_settings();
 /// Throws SettingsError unless there is a duration, or else both a precision and a limit.
 RunLength run_length(const io::Settings& settings);
 
+/// Throws SettingsError if steps of `time_step` (s) would be more than can be counted.
+void reject_too_many_steps(const io::Settings& settings, const RunLength& length, double time_step);
+
 /// Steps between two rows or frames that are `seconds` apart: at least one.
 std::int64_t steps_between(double seconds, double time_step);
 

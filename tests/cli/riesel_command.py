@@ -10,6 +10,7 @@ import re
 import subprocess
 import tempfile
 import unittest
+from decimal import Decimal
 
 import h5py
 
@@ -55,6 +56,12 @@ def saved_step(run_directory):
     """Up to which a run is in its last checkpoint."""
     with h5py.File(run_directory / "checkpoint.h5", "r") as file:
         return file.attrs["step"].item()
+
+
+def with_error(mean):
+    """"1.534 ± 0.050", of a value and its error: two digits of the error, and the value as far."""
+    decimals = max(0, 1 - Decimal(f"{mean['error']:.1e}").adjusted())
+    return f"{mean['value']:.{decimals}f} ± {mean['error']:.{decimals}f}"
 
 
 def final_time(run_directory):

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from report_files import SVG, Report
-from riesel_command import SHIPPED, bytes_of_files
+from riesel_command import SHIPPED, bytes_of_files, with_error
 
 FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits",
            "area_fraction", "velocity", "temperature", "stress", "braking",
@@ -54,7 +54,7 @@ class FinishedRun(Report):
     def test_the_result_is_told_with_its_error_and_its_verdicts(self):
         summary = self.summary(self.out)
         mean = summary["mean_axial_velocity"]
-        self.assertIn(f"{mean['value']:.4g} ± {mean['error']:.2g} m/s", self.page.text)
+        self.assertIn(f"{with_error(mean)} m/s", self.page.text)
         self.assertIn("too_short: 1 of 20 independent samples", self.page.text)
         self.assertIn(f"{summary['grains']} grains", self.page.text)
         self.assertIn(summary["state_hash"], self.page.text)
@@ -177,8 +177,8 @@ class FinishedRun(Report):
         braking = self.summary(self.out)["braking_force"]
         for wall in ("left", "right"):
             force = braking[wall]
-            self.assertIn(f"braking force of the {wall} wall{force['value']:.4g} ± "
-                          f"{force['error']:.2g} N", self.page.text)
+            self.assertIn(f"braking force of the {wall} wall{with_error(force)} N",
+                          self.page.text)
         curves = self.figure(self.out, "braking").findall(f"{SVG}g[@class='curve']/{SVG}polyline")
         self.assertEqual([len(curve.get("points").split()) for curve in curves], [5, 5])
 

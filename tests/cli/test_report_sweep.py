@@ -6,7 +6,7 @@ import re
 import shutil
 
 from report_files import SVG, Report
-from riesel_command import SHIPPED, SMALL_TUBE, bytes_of_files
+from riesel_command import SHIPPED, SMALL_TUBE, bytes_of_files, with_error
 
 GRID = """\
 base: tube.yaml
@@ -136,7 +136,7 @@ class FinishedSweep(SweepReport):
             mean, settings = summary["mean_axial_velocity"], point["settings"]
             self.assertIn(point["name"] + f"{settings['contact.restitution']:g}"
                           f"{settings['start.axial_velocity']:g}{settings['seed']:g}"
-                          + point["branch"] + f"{mean['value']:.4g} ± {mean['error']:.2g}"
+                          + point["branch"] + with_error(mean)
                           + summary["state"] + summary["validity"]["verdict"], self.page.text)
 
     def test_each_point_of_the_figure_is_where_its_velocity_is(self):
@@ -148,7 +148,7 @@ class FinishedSweep(SweepReport):
             mean = self.summary(self.sweep_directory / "points" / point["name"])[
                 "mean_axial_velocity"]
             self.assertIn(f"restitution {point['settings']['contact.restitution']:g}", tip)
-            self.assertIn(f"{point['branch']}: {mean['value']:.4g} ± {mean['error']:.2g} m/s", tip)
+            self.assertIn(f"{point['branch']}: {with_error(mean)} m/s", tip)
             seen.append((point["settings"]["contact.restitution"], mean["value"], *centre_of(link)))
         low, high = min(seen, key=lambda p: p[1]), max(seen, key=lambda p: p[1])
         left, right = min(seen), max(seen)

@@ -138,6 +138,19 @@ class ResumeRefuses(CommandTest):
         out = self.run_small_tube("out")
         self.assert_refused_untouched(out, "--set", "run.duration=1 ms", mentions=["run.duration"])
 
+    def test_a_duration_of_more_steps_than_can_be_counted(self):
+        out = self.run_small_tube("out")
+        for duration in ("1e300", "1e12 s"):
+            self.assert_refused_untouched(out, "--set", f"run.duration={duration}",
+                                          mentions=["run.duration", "more time steps than can be counted"])
+
+    def test_what_is_taken_out_need_not_be_there(self):
+        out = self.run_small_tube("out")
+        until = ["--set", "run.duration=", "--set", "run.until.relative_error=0.1 %", "--set", "run.until.at_most=6 ms"]
+        for _ in range(2):
+            self.resume_to_end(out, *until)
+        self.assertEqual(self.summary(out)["ended_by"], "at_most")
+
     def test_what_is_not_there(self):
         self.assert_refused(self.riesel("resume", "nowhere"), "nowhere", "check the path")
         self.assert_nothing_written({})

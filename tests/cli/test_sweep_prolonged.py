@@ -7,7 +7,7 @@ import signal
 import time
 import unittest
 
-from riesel_command import FAILED, bytes_of_files
+from riesel_command import DONE, FAILED, bytes_of_files
 from test_sweep import CHAIN, ONE_FAILS, SweepTest
 
 TWO = """\
@@ -186,6 +186,21 @@ class Prolonged(SweepTest):
         self.assert_done(self.go_on(*changes, out="undisturbed"))
         return self.home / "undisturbed/points"
 
+    def test_a_length_given_by_mistake_can_be_taken_back(self):
+        self.sweep_to_end(TWO)
+        process = self.start("sweep", "out", "--set", "run.duration=1000 s")
+        deadline = time.monotonic() + 100.0
+        while list(self.home.glob("out/points/*/summary.json")):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.005)
+        process.kill()  # before anything is saved, or after
+        process.communicate(timeout=100.0)
+        result = self.go_on("run.duration=5 ms")
+        if result.returncode == DONE:
+            self.assert_is_whole("0.9", "5 ms")
+        else:
+            self.assertRegex(result.stdout, "the run has come to .* already; choose a longer time")
+
     def test_the_expected_time_is_that_of_what_is_left(self):
         self.sweep_to_end(TWO)
         manifest = self.manifest()
@@ -263,6 +278,14 @@ class Refused(SweepTest):
     def test_a_sweep_goes_on_where_it_is(self):
         self.sweep_to_end(TWO)
         self.assert_refused_without_a_trace(["out", "--out", "elsewhere"], "--out")
+
+    def test_a_point_whose_directory_is_missing(self):
+        self.assert_done(self.sweep(TWO, "out", "--prepare"))
+        shutil.rmtree(next(iter(sorted(self.home.glob("out/points/*")))))
+        self.assert_refused_without_a_trace(["out"], "point.yaml: is missing", "with the sweep file", "--out out")
+        self.sweep_to_end(TWO)
+        (self.home / "out/sweep.yaml").unlink()
+        self.assert_refused_without_a_trace(["out"], "sweep.yaml: is missing")
 
     def test_a_directory_without_a_sweep(self):
         self.run_to_end("tube.yaml", "run")
