@@ -342,6 +342,8 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "the contact (wall 2, grain 2, partner 0) is between bodies that do not exist");
   CHECK(refusal([](auto& c) { c.state.contacts[0].slip_path = nan; })
         == "the contact (wall -1, grain 0, partner 3) has a value that is not finite");
+  CHECK(refusal([](auto& c) { c.state.contacts[0].slip_path = infinity; })
+        == "the contact (wall -1, grain 0, partner 3) has a value that is not finite");
   CHECK(refusal([](auto& c) { c.state.tally.walls.begun = -1; })
         == "a count of contacts is negative");
   CHECK(
