@@ -16,6 +16,10 @@ class Estimate(NamedTuple):
     error: float
 
     def __str__(self) -> str:
+        """Two digits of the error, and the value as far: "1.534 +- 0.050"."""
+        if 1e-5 < self.error < math.inf:
+            decimals = max(0, 1 - math.floor(math.log10(self.error)))
+            return f"{self.value:.{decimals}f} +- {self.error:.{decimals}f}"
         return f"{self.value:.4g} +- {self.error:.2g}"
 
     def __sub__(self, other: "Estimate") -> "Estimate":

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .estimate import mean_of
+from .estimate import Estimate, mean_of
 from .run import Run
 from .table import NotThere, Table, opened, part, table_of
 
@@ -52,7 +52,7 @@ class Mean:
     steady: int  #: how many of them are steady flows; of impacts none is
 
     def __str__(self) -> str:
-        return f"{self.value:.4g} +- {self.error:.2g} ({self.runs} runs, {self.steady} steady)"
+        return f"{Estimate(self.value, self.error)} ({self.runs} runs, {self.steady} steady)"
 
 
 class Sweep:
