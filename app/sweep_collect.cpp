@@ -8,6 +8,7 @@
 #include "io/durable_file.hpp"
 #include "io/settings_text.hpp"
 #include "io/summary.hpp"
+#include "io/summary_units.hpp"
 #include "io/sweep_table.hpp"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ void add_results(const fs::path& summary, std::size_t row, std::size_t columns_o
     const auto plan_end = table.columns().begin() + static_cast<std::ptrdiff_t>(columns_of_plan);
     const bool taken = std::any_of(table.columns().begin(), plan_end,
                                    [&, &n = name](auto& column) { return column.name == n; });
-    table.set(row, taken ? "summary." + name : name, std::move(value));
+    table.set(row, taken ? "summary." + name : name, std::move(value), io::unit_of_result(name));
   }
 }
 

@@ -49,6 +49,12 @@ axes:
 continue_along: contact.restitution
 """
 
+ONE_POINT = """\
+base: tube.yaml
+set: {run.duration: 2 ms}
+axes: {contact.stiffness: [2000 N/m]}
+"""
+
 # The second point has contacts so soft that grains go through the walls.
 ONE_FAILS = """\
 base: tube.yaml
@@ -178,6 +184,28 @@ class Grid(SweepTest):
             for finding in summary["validity"]["findings"]:
                 cell = row[f"validity.findings.{finding['name']}"]
                 self.assertEqual(float(cell) if cell else None, finding["value"])
+
+    def test_the_columns_have_their_units(self):
+        self.sweep_to_end(ONE_POINT)
+        with h5py.File(self.home / "out/sweep.h5", "r") as file:
+            columns = file["points"]
+            unit = {name: columns[name].attrs.get("unit", b"").decode() for name in columns
+                    if columns[name].dtype.kind == "f"}
+        for name, expected in {"mean_axial_velocity.error": "m/s", "balance.errors.n_dot": "1/s",
+                               "granular_temperature": "m^2/s^2", "braking_force.weight": "N",
+                               "energy.residual": "J", "validity.t_col.walls": "s",
+                               "profiles.core.stress_xx.value": "N/m", "contact.stiffness": "N/m",
+                               "balance.gravity": "m/s^2"}.items():
+            self.assertEqual(unit[name], expected, name)
+        # What has none, has none: counts, and ratios of equal things.
+        self.assertLessEqual({re.sub(r"\.(value|error)$", "", name) for name, of_it in unit.items() if of_it == ""},
+                             {"seed", "attempts", "format", "grains", "steps", "performance.threads",
+                              "independent_samples", *[f"structure_factor.{n}" for n in range(1, 5)],
+                              "profiles.core.area_fraction", "profiles.wall_layers.area_fraction",
+                              "wall_visits.visits", "wall_visits.contacts", "validity.max_overlap_ratio",
+                              "validity.brake_failure_fraction", "validity.friction_failure_fraction",
+                              "validity.contacts_per_wall_visit",
+                              *[name for name in unit if name.startswith("validity.findings.")]})
 
     def test_impacts_are_swept_too_and_share_the_cores(self):
         for points, threads in ((1, "4"), (2, "2"), (4, "1")):
