@@ -142,6 +142,19 @@ class Prolonged(SweepTest):
         self.assert_done(self.go_on("run.duration=5 ms", "limits.overlap=1", options=["--retry-failed"]))
         self.assert_is_whole("0.9", "5 ms")
 
+    def test_what_cannot_even_begin_to_go_on_is_told_and_not_tried_again(self):
+        self.sweep_to_end(TWO)
+        for checkpoint in self.directory_of("0.7").glob("checkpoint*"):
+            checkpoint.write_bytes(checkpoint.read_bytes()[:-100])
+        for options, attempts in (((), 2), ((), 2), (("--retry-failed",), 3)):
+            result = self.go_on("run.duration=5 ms", options=options)
+            self.assertEqual(result.returncode, FAILED, result)
+            self.assertIn("1 done, 1 failed", result.stdout)
+            self.assertIn("is damaged", result.stdout)
+            point, = [point for point in self.points() if point["status"] == "failed"]
+            self.assertEqual(point["attempts"], attempts)
+        self.assertTrue((self.directory_of("0.7") / "summary.json").exists())
+
     def test_what_has_no_checkpoint_cannot_go_on(self):
         self.sweep_to_end(TWO)
         for checkpoint in self.directory_of("0.7").glob("checkpoint*"):
