@@ -73,11 +73,12 @@ void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
 /// what has failed, they would do so each time they are queued. The records as they were, by
 /// directory.
 std::map<fs::path, io::RunRecord> forget_failures(const io::Manifest& manifest,
-                                                  const fs::path& sweep) {
+                                                  const fs::path& sweep,
+                                                  const Prolongation& prolongation) {
   std::map<fs::path, io::RunRecord> forgotten;
   for (const io::ManifestPoint& point : manifest.points) {
     const fs::path directory = point_directory(sweep, point.name);
-    if (standing_of(directory).status != RunStatus::failed) continue;
+    if (prolongation.standing_of(directory).status != RunStatus::failed) continue;
     const io::RunRecord record = io::read_run_record(directory);
     io::write_run_record(directory, {.attempts = record.attempts, .failure = ""});
     forgotten.emplace(directory, record);
@@ -87,9 +88,10 @@ std::map<fs::path, io::RunRecord> forget_failures(const io::Manifest& manifest,
 
 /// Tasks may begin at once, so failures are forgotten before; but not if there is no job. Returns
 /// its number.
-std::string submitted_job(const io::Manifest& manifest, const fs::path& sweep, bool retry_failed) {
+std::string submitted_job(const io::Manifest& manifest, const fs::path& sweep,
+                          const Prolongation& prolongation, bool retry_failed) {
   std::map<fs::path, io::RunRecord> forgotten;
-  if (retry_failed) forgotten = forget_failures(manifest, sweep);
+  if (retry_failed) forgotten = forget_failures(manifest, sweep, prolongation);
   try {
     return submit_to_slurm(sweep / slurm_script_name);
   } catch (const std::runtime_error&) {
@@ -107,7 +109,8 @@ int show_slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   return exit_done;
 }
 
-int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptions& options) {
+int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
+           const SweepOptions& options) {
   const auto most = most_tasks_of_slurm();
   if (!most)
     throw UnusableInput("--slurm: scontrol does not answer; call this on a machine with Slurm, or "
@@ -120,7 +123,7 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const SweepOptio
   }
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
-  const std::string job = submitted_job(manifest, sweep, options.retry_failed);
+  const std::string job = submitted_job(manifest, sweep, prolongation, options.retry_failed);
   fmt::print("{}: submitted as job {}; see '{}'\n", sweep.string(), job, call_of("status", sweep));
   return exit_done;
 }
@@ -179,7 +182,7 @@ int sweep(const SweepOptions& options) {
   }
   if (options.to_slurm) {
     refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
-    return submit(plan.manifest, directory, options);
+    return submit(plan.manifest, directory, prolongation, options);
   }
   const auto write_manifest = [&](const io::Manifest& manifest) {
     locked.require_in_place();

@@ -137,6 +137,20 @@ class Submission(SweepTest):
         self.assert_done(self.riesel("collect", "out"))
         self.assertEqual([row["attempts"] for row in self.rows()], ["1", "2", "1"])
 
+    def test_what_failed_to_go_on_is_tried_once_more(self):
+        """Its result of before is still there, and so it is done for those who do not ask for more."""
+        self.sweep_to_end(ONE_FAILS.replace(", 0.5 N/m", ""))
+        point = self.home / "out/points" / self.points()[0]["name"]
+        for checkpoint in point.glob("checkpoint*"):
+            checkpoint.write_bytes(checkpoint.read_bytes()[:-100])
+        further = ["--set", "run.duration=5 ms"]
+        self.assertEqual(self.riesel("sweep", "out", *further).returncode, FAILED)
+        path = f"{self.home / 'slurm'}:{os.environ['PATH']}"
+        self.assert_done(self.riesel("sweep", "out", "--slurm", "--retry-failed", *further, PATH=path))
+        self.assertIn("#SBATCH --array=0\n", (self.home / "out/slurm.sh").read_text())
+        self.assertEqual(self.riesel("sweep-task", "out", 0, "--of", 2, *further).returncode, FAILED)
+        self.assertEqual(json.loads((point / "attempts.json").read_text())["attempts"], 3)
+
     def test_what_failed_stays_failed_if_slurm_refuses(self):
         self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
         before = self.riesel("status", "out").stdout
