@@ -113,20 +113,16 @@ RunStanding Prolongation::standing_of(const fs::path& point) const {
   return standing;
 }
 
-void Prolongation::refresh(io::Manifest& manifest, const fs::path& sweep) const {
-  app::refresh(manifest, sweep);
-  for (io::ManifestPoint& point : manifest.points) {
-    if (!goals_.contains(point.name)) continue;
-    const RunStanding standing = standing_of(point_directory(sweep, point.name));
-    point.status = to_string(standing.status);
-    point.reason = standing.reason;
-  }
-}
-
 void Prolongation::look_ahead(io::Manifest& manifest, const fs::path& sweep) const {
   refresh(manifest, sweep);
-  for (io::ManifestPoint& point : manifest.points)
-    point.expected_seconds *= part_left(point_directory(sweep, point.name));
+  for (io::ManifestPoint& point : manifest.points) {
+    if (!goals_.contains(point.name)) continue;
+    const fs::path directory = point_directory(sweep, point.name);
+    const RunStanding standing = standing_of(directory);
+    point.status = to_string(standing.status);
+    point.reason = standing.reason;
+    point.expected_seconds *= part_left(directory);
+  }
 }
 
 std::vector<std::string> Prolongation::overrides_for(const fs::path& point) const {

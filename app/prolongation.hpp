@@ -32,9 +32,7 @@ public:
   /// or as failed if it cannot go on or has failed to.
   RunStanding standing_of(const std::filesystem::path& point) const;
 
-  /// As refresh(), with those.
-  void refresh(io::Manifest& manifest, const std::filesystem::path& sweep) const;
-  /// Besides, points are expected to take as long as is left of them.
+  /// As refresh(), with those; points are expected to take as long as is left of them.
   void look_ahead(io::Manifest& manifest, const std::filesystem::path& sweep) const;
 
   /// What the run of a point is to be called with. None if it is planned to go further.

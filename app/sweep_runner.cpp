@@ -48,6 +48,7 @@ struct Job {
   double urgency = 0.0;  // seconds, with the longest chain that waits for it
   int most_threads = 1;
   RunStatus status = RunStatus::waiting;
+  std::string reason;  // why it failed
   int starts = 0;
   std::unique_ptr<ChildProcess> process;
   Clock::time_point started = {};
@@ -96,7 +97,7 @@ public:
       std::this_thread::sleep_for(between_looks);
     }
     progress_.finish();
-    write_last_manifest();
+    write_manifest();
     if (interrupting_signal() != 0) return 128 + interrupting_signal();
     if (count(RunStatus::done) == jobs_.size()) return exit_done;
     return passed_on_ ? exit_out_of_time : exit_failed;
@@ -112,15 +113,22 @@ private:
       job->parent = parent->second;
     job->seconds = point.expected_seconds * options_.prolongation.part_left(job->directory);
     job->most_threads = point.most_threads;
-    job->status = status_of(*job);
-    if (job->status == RunStatus::failed && options_.retry_failed)
+    look_at(*job);
+    if (job->status == RunStatus::failed && options_.retry_failed && can_begin(*job))
       job->status = RunStatus::interrupted;
     by_name_.emplace(job->name, job.get());
     jobs_.push_back(std::move(job));
   }
 
-  RunStatus status_of(const Job& job) const {
-    return options_.prolongation.standing_of(job.directory).status;
+  void look_at(Job& job) const {
+    const RunStanding standing = options_.prolongation.standing_of(job.directory);
+    job.status = standing.status;
+    job.reason = standing.reason;
+  }
+
+  /// Not beside a result that it cannot go on from.
+  static bool can_begin(const Job& job) {
+    return can_resume(job.directory) || !fs::exists(job.directory / io::summary_name);
   }
 
   void order_by_urgency() {
@@ -149,16 +157,14 @@ private:
   bool start_what_can() {
     bool more = false;
     for (Job* job : by_urgency_) {
-      if (job->status == RunStatus::running && !job->process) look_at_others_work(*job);
+      // Another process has the directory; when it lets go, the point may be done or not.
+      if (job->status == RunStatus::running && !job->process) look_at(*job);
       const bool here = is_ready(*job);
       more = more || here || job->status == RunStatus::running;
       if (here && running_ < options_.jobs) start(*job);
     }
     return more;
   }
-
-  /// Another process has the directory; when it lets go, the point may be done or not.
-  void look_at_others_work(Job& job) const { job.status = status_of(job); }
 
   /// An equal share of the cores for all that can run now.
   int threads_for(const Job& job) const {
@@ -170,12 +176,10 @@ private:
 
   void start(Job& job) {
     const int threads = threads_for(job);
-    job.status = status_of(job);
+    look_at(job);
     if (job.status == RunStatus::running || job.status == RunStatus::done) return;
-    const bool goes_on = can_resume(job.directory);
-    if (!goes_on && job.status == RunStatus::failed && fs::exists(job.directory / io::summary_name))
-      return;  // it has a result and nothing to go on from
     ++job.starts;
+    const bool goes_on = can_resume(job.directory);
     if (!goes_on && !cleared(job)) return;
     io::RunRecord record = io::read_run_record(job.directory);
     io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});
@@ -203,7 +207,7 @@ private:
       clear(job.directory);
       return true;
     } catch (const io::FileError&) {
-      look_at_others_work(job);
+      look_at(job);
       if (job.status == RunStatus::running || job.status == RunStatus::done) return false;
       throw;
     }
@@ -214,7 +218,7 @@ private:
     if (!end) return;
     job.process.reset();
     --running_;
-    job.status = status_of(job);
+    look_at(job);
     const bool taken_by_another = job.status == RunStatus::running;
     if (job.status == RunStatus::done || taken_by_another) return;
     if (was_stopped(*end)) {
@@ -234,6 +238,7 @@ private:
     record.failure = reason;
     io::write_run_record(job.directory, record);
     job.status = RunStatus::failed;
+    job.reason = reason;
     tell_of("point {} failed: {}", job, reason);
   }
 
@@ -285,16 +290,12 @@ private:
     refresh(manifest_, sweep_);
     for (io::ManifestPoint& point : manifest_.points) {
       const auto job = by_name_.find(point.name);
-      const bool done = point.status == to_string(RunStatus::done);
-      if (done && job != by_name_.end()) point.status = to_string(job->second->status);
+      if (job == by_name_.end() || point.status != to_string(RunStatus::done)) continue;
+      point.status = to_string(job->second->status);  // it may be to go on
+      point.reason = job->second->reason;
     }
     options_.on_change(manifest_);
     last_manifest_ = Clock::now();
-  }
-
-  void write_last_manifest() {
-    options_.prolongation.refresh(manifest_, sweep_);
-    options_.on_change(manifest_);
   }
 
   io::Manifest& manifest_;

@@ -2,7 +2,9 @@
 from statistics import mean
 
 from results import print_table, save
-from tube import grouped, mean_text, riesel, runs_of, runs_of_all, stay_cells, steady_of
+from tube import grouped, mean_text, runs_of, runs_of_all, stay_cells, steady_of
+
+import riesel  # by way of tube
 
 LONG_ENOUGH = 3.0  # s, for a fast run to settle
 SAME = 0.05  # part of a velocity by which runs may differ that approach the same state
