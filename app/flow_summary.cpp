@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,13 +76,9 @@ io::Measured scaled(const io::Measured& m, double factor) {
 io::Measured balanced(const io::Measured& braking, std::span<const double> mean_vy,
                       double interval) {
   if (mean_vy.size() < 2) return braking;
-  const auto n = static_cast<double>(mean_vy.size());
-  const double mean = std::accumulate(mean_vy.begin(), mean_vy.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double v : mean_vy) squares += (v - mean) * (v - mean);
-  const double of_difference = std::sqrt(2.0 * squares / (n - 1.0));
-  return {.value = braking.value,
-          .error = std::min(braking.error, of_difference / (interval * (n - 1.0)))};
+  const double of_difference = std::numbers::sqrt2 * standard_deviation(mean_vy);
+  const double seconds = interval * static_cast<double>(mean_vy.size() - 1);
+  return {.value = braking.value, .error = std::min(braking.error, of_difference / seconds)};
 }
 
 /// Eq. (9)

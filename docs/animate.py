@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 from matplotlib.animation import FFMpegWriter
 
-from draw_tube import TubePicture, smooth_walls_at, walls_of
+from draw_tube import TubePicture, walls_of
 
 
 def animate(run: Path, film: Path, frames_per_second: float) -> None:
@@ -26,9 +26,7 @@ def animate(run: Path, film: Path, frames_per_second: float) -> None:
         walls_move = isinstance(walls["position"], h5py.Group)
         wall_positions = walls["position/value"][:] if walls_move else walls["position"][:][None]
         width, length = grains["box/edges"][:2]
-        swing = max(abs(wall.amplitude_x) for wall in all_walls)
-        tube = TubePicture(width, length, wall_positions[0][:, :2], walls["radius"][:], grains["radius"][:], swing,
-                           smooth_walls_at(all_walls, times[0]))
+        tube = TubePicture(width, length, wall_positions[0][:, :2], walls["radius"][:], grains["radius"][:], all_walls)
         # Rare fast grains shall not take the colours from the others.
         sample = velocities[:: max(1, len(times) // 50)][:, :, 1]
         velocity_range = tuple(np.percentile(sample, [0.5, 99.5]))
@@ -38,7 +36,7 @@ def animate(run: Path, film: Path, frames_per_second: float) -> None:
             for i, time in enumerate(times):
                 if walls_move:
                     tube.move_walls(wall_positions[i][:, :2])
-                tube.move_smooth_walls(smooth_walls_at(all_walls, time))
+                tube.move_smooth_walls(time)
                 tube.show(positions[i][:, :2], velocities[i][:, 1], velocity_range, f"t = {time * 1e3:.1f} ms")
                 writer.grab_frame()
 

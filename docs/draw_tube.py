@@ -22,8 +22,9 @@ MM = 1e3  # per metre
 class TubePicture:
     """Lengths in m: positions as (x, y), y along the fall."""
 
-    def __init__(self, width, length, wall_positions, wall_radii, radii, swing=0.0, smooth_walls=()):
-        """`swing`: how far walls go beyond their lines; `smooth_walls`: where they are, x."""
+    def __init__(self, width, length, wall_positions, wall_radii, radii, walls):
+        """`wall_positions`: of the grains of `walls` (Wall)."""
+        swing = max(abs(wall.amplitude_x) for wall in walls)
         height = 1.3 + 9.4 * width / length  # of the figure; its width is 11
         even_pixels = 0.2  # films want them
         self.figure, self._axes = plt.subplots(figsize=(11, round(height / even_pixels) * even_pixels), dpi=130)
@@ -31,7 +32,8 @@ class TubePicture:
         self._grains = self._discs(np.zeros((len(radii), 2)), radii, cmap="viridis", linewidth=0)
         self._axes.set(xlim=(0, length * MM), ylim=(-1 - swing * MM, (width + swing) * MM + 1), aspect="equal",
                        xlabel="y along the fall (mm)", ylabel="x (mm)")
-        self._smooth_walls = [self._axes.axhline(x * MM, color="0.55", linewidth=2) for x in smooth_walls]
+        self._smooth_walls = [(wall, self._axes.axhline(wall.line * MM, color="0.55", linewidth=2))
+                              for wall in walls if wall.count == 0]
         self.figure.colorbar(self._grains, label="axial velocity (m/s)", pad=0.02, fraction=0.012)
         self._axes.set_title("t")  # so that there is room for one
         self.figure.tight_layout()
@@ -45,9 +47,9 @@ class TubePicture:
     def move_walls(self, positions):
         self._walls.set_offsets(positions[:, ::-1] * MM)
 
-    def move_smooth_walls(self, places):
-        for wall, x in zip(self._smooth_walls, places):
-            wall.set_ydata([x * MM] * 2)
+    def move_smooth_walls(self, time):
+        for wall, line in self._smooth_walls:
+            line.set_ydata([wall.x(time) * MM] * 2)
 
     def show(self, positions, axial_velocities, velocity_range=None, title=""):
         """`velocity_range`: what the colours span; by default that of the grains."""
@@ -88,20 +90,14 @@ def walls_of(final):
     return [Wall(*wall) for wall in zip(*columns)]
 
 
-def smooth_walls_at(walls, time):
-    """Where they are, x in m."""
-    return [wall.x(time) for wall in walls if wall.count == 0]
-
-
 def draw(run_file: Path, picture: Path) -> None:
     with h5py.File(run_file) as file:
         final = file["final"]
         time, length = final.attrs["step"] * final.attrs["time_step"], final.attrs["box_length"]
         walls = walls_of(final)
         grains = np.concatenate([wall.grains(time, length) for wall in walls])
-        swing = max(abs(wall.amplitude_x) for wall in walls)
-        tube = TubePicture(final.attrs["box_width"], length, grains[:, :2], grains[:, 2], final["radius"][:], swing,
-                           smooth_walls_at(walls, time))
+        tube = TubePicture(final.attrs["box_width"], length, grains[:, :2], grains[:, 2], final["radius"][:], walls)
+        tube.move_smooth_walls(time)
         tube.show(final["position"][:], final["velocity"][:, 1])
     tube.figure.savefig(picture)
 

@@ -215,6 +215,12 @@ double autocorrelation_time(std::span<const double> series) {
   return integrated_time(deviations_from_mean(series), 1);
 }
 
+double standard_deviation(std::span<const double> series) {
+  if (series.size() < 2) return 0.0;
+  const std::vector<double> deviations = deviations_from_mean(series);
+  return std::sqrt(product(deviations, deviations) / static_cast<double>(series.size() - 1));
+}
+
 MeanEstimate estimate_mean(std::span<const double> series) {
   require_finite(series);
   if (series.empty()) {

@@ -47,6 +47,9 @@ std::size_t transient_length(std::span<const double> series);
 /// constant series.
 double autocorrelation_time(std::span<const double> series);
 
+/// Of the samples around their mean; 0 for fewer than two.
+double standard_deviation(std::span<const double> series);
+
 /// Mean and standard error from the eight slowest cosines: Müller, J. Bus. Econ. Stat. 32, 311
 /// (2014); Lazarus, Lewis, Stock and Watson, ibid. 36, 541 (2018). Fewer than 20 samples count as
 /// one independent sample, whose error is the standard deviation; none at all give zeros.
