@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <omp.h>
 
 #include <algorithm>
 
@@ -117,7 +118,8 @@ void barrier(int threads) {
   for (int spell = 0; spell < spells; ++spell)
     timing.seconds.push_back(seconds_of([&] {
 #pragma omp parallel num_threads(threads)
-      for (int round = 0; round < rounds; ++round) team.arrive_and_wait();
+      for (int round = 0; round < rounds; ++round)
+        team.arrive_and_wait(static_cast<std::size_t>(omp_get_thread_num()));
     }));
   std::sort(timing.seconds.begin(), timing.seconds.end());
   const auto ns = [](double seconds) { return 1e9 * seconds / rounds; };

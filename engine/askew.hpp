@@ -13,7 +13,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <thread>
 
 namespace riesel {
 
@@ -46,7 +45,7 @@ struct PlaceInRing {
 /// stopped(). go_on(slice) does what the slice can do now, and returns false if that is nothing.
 template <class GoOn, class Stopped>
 void go_askew(std::size_t begin, std::size_t end, GoOn go_on, Stopped stopped) {
-  int idle = 0;
+  Patience patience;
   while (!stopped()) {
     bool any = false;
     for (std::size_t slice = begin; slice < end; ++slice)
@@ -54,11 +53,10 @@ void go_askew(std::size_t begin, std::size_t end, GoOn go_on, Stopped stopped) {
         any = true;
         if (s == begin) break;
       }
-    idle = any ? 0 : idle + 1;
-    if (idle > TeamBarrier::looks)
-      std::this_thread::yield();
-    else if (idle > 0)
-      pause_core();
+    if (any)
+      patience = {};
+    else
+      patience.wait_a_moment();
   }
 }
 

@@ -38,19 +38,27 @@ struct Stray {
   std::int64_t step;
 };
 
-/// What one slice tells the others.
+/// What one slice tells the others. What they read in each step stands on lines that are written to
+/// only if there is news, for then alone they have to come from another core.
 struct alignas(cache_line) Announcement {
-  std::vector<Deed> deeds;
+  std::vector<std::uint32_t> foreign;  ///< slots that are foreign here, increasing
+  std::vector<BorderGrain> border;     ///< own grains that are foreign elsewhere, increasing
+  std::int64_t step = 0;               ///< that of their motion
 
-  std::vector<std::uint32_t> foreign;      ///< slots that are foreign here, increasing
-  std::vector<BorderGrain> border;         ///< own grains that are foreign elsewhere, increasing
-  std::int64_t step = 0;                   ///< that of their motion
-  std::vector<std::uint32_t> new_courses;  ///< own grains of the border that have one
-  std::int64_t hold_until = 0;             ///< step until which the candidates hold for sure
-  double fastest2 = 0.0;                   ///< (m per step)^2, as SkinGuard::fastest2()
-  std::vector<Stray> strays;               ///< while slices are askew
-  bool trouble = false;                    ///< the run cannot go on
+  alignas(cache_line) std::vector<Deed> deeds;
+
+  alignas(cache_line) std::vector<std::uint32_t> new_courses;  ///< own grains of the border
+  std::int64_t hold_until = 0;  ///< step until which the candidates hold for sure
+  double fastest2 = 0.0;        ///< (m per step)^2, as SkinGuard::fastest2()
+  bool trouble = false;         ///< the run cannot go on
+  std::vector<Stray> strays;    ///< while slices are askew
 };
+
+/// Writes it if it is news.
+template <class T>
+void announce(T& told, const T& now) {
+  if (told != now) told = now;
+}
 
 /// The borders of one slice.
 class Border {

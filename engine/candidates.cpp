@@ -117,12 +117,12 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
                             std::int64_t step, double ahead) {
   Profile& profile = share.front().profile;
   profile.begin_build();
-  team_.arrive_and_wait();
+  wait(share);
   for (Slice& mine : share) {
     measure_displacements(coarse, mine, step);
     measure_speeds(state, mine);
   }
-  team_.arrive_and_wait();
+  wait(share);
   const double room = 0.5 * skin_, left = room - largest(slices_, &Slice::farthest);
   if (left > std::max(smallest_useful_part * room, ahead) && step <= hold_until_) {
     for (Slice& mine : share) mine.gone = mine.farthest;
@@ -132,33 +132,32 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
       std::copy(&when_sorted_.x[mine.begin], &when_sorted_.x[mine.end], &coarse.x[mine.begin]);
       std::copy(&when_sorted_.y[mine.begin], &when_sorted_.y[mine.end], &coarse.y[mine.begin]);
     }
-    team_.arrive_and_wait();
+    wait(share);
   }
   profile.done_build();
 }
 
 void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t step) {
   for (Slice& mine : share) set_contacts_aside(mine);
-  team_.arrive_and_wait();  // all grains are at this step
+  wait(share);  // all grains are at this step
   renew(state, share, step);
   for (const Slice& slice : slices_) keep(state, share, slice.lasting);
-  team_.arrive_and_wait();
-  if (member_with(share) == 0) end_lost_contacts(state);
-  team_.arrive_and_wait();
+  wait(share);
+  if (member_with(share) == 0) end_lost_contacts(state, step);
+  wait(share);
   for (Slice& mine : share) give_up(mine.lasting);  // the memory serves others meanwhile
 }
 
 void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
-  const std::size_t member = member_with(share);
-  cells_.sort(state, range(), team_, member);
-  if (member == 0) start_over(state, step);
-  team_.arrive_and_wait();
+  cells_.sort(state, range(), team_, member_with(share));
+  if (member_with(share) == 0) start_over(state, step);
+  wait(share);
   for (std::size_t slot = share.front().begin; slot < share.back().end; ++slot) {
     when_sorted_.x[slot] = upper_half(state.grains.x[slot]);
     when_sorted_.y[slot] = upper_half(state.grains.y[slot]);
     slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
   }
-  team_.arrive_and_wait();
+  wait(share);
   for (Slice& mine : share) {
     list_pairs(state, mine, share.front().close);
     list_near_walls(state, mine);
@@ -167,7 +166,7 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
     mine.gone = 0.0;
     mine.inner.start_over(skin_);
   }
-  team_.arrive_and_wait();
+  wait(share);
 }
 
 /// What all slices share: who has which slots, and the common motion that does not count as

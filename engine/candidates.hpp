@@ -93,9 +93,9 @@ public:
   void catch_strays(const State& state, const CoarsePositions& coarse, Slice& mine,
                     const Slice& next, std::int64_t step) const;
 
-  /// Sorts and lists all candidates anew. `state` is at this step. The coarse positions are those
-  /// of when_sorted() then. To be called by all threads of a team; what it changes is complete
-  /// when it returns.
+  /// Sorts and lists all candidates anew. The grains of `state` are at this step. The coarse
+  /// positions are those of when_sorted() then. To be called by all threads of a team; what it
+  /// changes is complete when it returns.
   void sort_anew(State& state, std::span<Slice> share, std::int64_t step);
 
   /// Until the next sorting nobody asks for cells: gives their memory to others.
@@ -135,6 +135,7 @@ private:
   std::size_t member_with(std::span<const Slice> share) const {
     return static_cast<std::size_t>(share.data() - slices_.data()) / share.size();
   }
+  void wait(std::span<const Slice> share) { team_.arrive_and_wait(member_with(share)); }
   void look_again(State& state, CoarsePositions& coarse, std::span<Slice> share, std::int64_t step,
                   double ahead);
   void renew(State& state, std::span<Slice> share, std::int64_t step);
@@ -166,7 +167,7 @@ private:
   void keep(const State& state, std::span<Slice> share, const std::vector<Contact>& contacts) const;
   void keep(const State& state, Slice& mine, const Contact& contact) const;
   std::size_t kept() const;
-  void end_lost_contacts(const State& state);
+  void end_lost_contacts(const State& state, std::int64_t step);
 
   SlipLaw slip_;  // of the contacts that end in a sorting
   double skin_;   // m

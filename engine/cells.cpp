@@ -10,14 +10,14 @@ namespace riesel {
 void Cells::sort(State& state, double range, TeamBarrier& team, std::size_t member) {
   Grains& grains = state.grains;
   if (member == 0) lay_out(state, range);
-  team.arrive_and_wait();
+  team.arrive_and_wait(member);
   const SlotRange mine = part_of(grains.size(), member, team.members());
   for (std::size_t i = mine.begin; i < mine.end; ++i) scratch_[i] = cell_at(grains, i);
-  team.arrive_and_wait();
+  team.arrive_and_wait(member);
   if (member == 0) count();
-  team.arrive_and_wait();
-  for_each_array_of(grains, [&](auto& array) { permute(array, mine, team); });
-  team.arrive_and_wait();
+  team.arrive_and_wait(member);
+  for_each_array_of(grains, [&](auto& array) { permute(array, member, team); });
+  team.arrive_and_wait(member);
 }
 
 void Cells::forget() {
@@ -76,11 +76,12 @@ void Cells::count() {
 
 /// Its part of the new values each thread first puts aside, until nobody needs the old ones.
 template <class T>
-void Cells::permute(AlignedVector<T>& values, const SlotRange& mine, TeamBarrier& team) {
+void Cells::permute(AlignedVector<T>& values, std::size_t member, TeamBarrier& team) {
+  const SlotRange mine = part_of(values.size(), member, team.members());
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
   for (std::size_t i = mine.begin; i < mine.end; ++i)
     scratch_[i] = std::bit_cast<Bits>(values[old_slot_[i]]);
-  team.arrive_and_wait();
+  team.arrive_and_wait(member);
   for (std::size_t i = mine.begin; i < mine.end; ++i)
     values[i] = std::bit_cast<T>(static_cast<Bits>(scratch_[i]));
 }

@@ -7,6 +7,7 @@
 // slots.
 #pragma once
 
+#include "engine/aligned.hpp"
 #include "engine/state.hpp"
 #include "engine/team_barrier.hpp"
 
@@ -22,9 +23,14 @@ struct SlotRange {
   std::size_t size() const { return end - begin; }
 };
 
-/// Part number `part` of so many slots, shared out into `parts` as equal as can be.
+/// Part number `part` of so many slots, shared out into `parts` nearly as equal as can be: no two
+/// of them have a cache line of an array in common, which threads would take from each other.
 inline SlotRange part_of(std::size_t slots, std::size_t part, std::size_t parts) {
-  return {slots * part / parts, slots * (part + 1) / parts};
+  constexpr std::size_t in_a_line = cache_line / sizeof(std::int32_t);  // of the smallest values
+  const auto end_of = [&](std::size_t count) {
+    return count == parts ? slots : slots * count / parts / in_a_line * in_a_line;
+  };
+  return {end_of(part), end_of(part + 1)};
 }
 
 class Cells {
@@ -60,7 +66,7 @@ private:
   std::uint32_t cell_at(const Grains& grains, std::size_t slot) const;
   void count();
   template <class T>
-  void permute(AlignedVector<T>& values, const SlotRange& mine, TeamBarrier& team);
+  void permute(AlignedVector<T>& values, std::size_t member, TeamBarrier& team);
 
   std::size_t columns_ = 1, rows_ = 1;
   Fixed left_edge_ = 0;              // quanta of x

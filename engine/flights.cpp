@@ -16,7 +16,8 @@ Flights::Flights(State& state, const ContactModel& model, Candidates& candidates
     const std::size_t begin = regions_.size(), end = begin + share.size();
     for (std::size_t slice = begin; slice < end; ++slice)
       regions_.push_back(std::make_unique<FlightRegion>(airspace_, slice, profile));
-    members_.push_back({.begin = begin, .end = end, .share = share, .profile = profile});
+    members_.push_back(
+        {.number = number, .begin = begin, .end = end, .share = share, .profile = profile});
   }
 }
 
@@ -47,9 +48,9 @@ void Flights::take_off(Member& member, std::int64_t step) {
     return;
   }
   if (member.begin == 0) airspace_.courses.set_origin(step);
-  wait();
+  wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.set_out_again(step); });
-  wait();
+  wait(member);
   heed(member);
   for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
 }
@@ -62,11 +63,11 @@ void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks
     airspace_.candidates.forget_cells();
   }
   for_each_region(member, [&](FlightRegion& region) { region.start_over(step); });
-  wait();
+  wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.take_up_contacts(step); });
-  wait();
+  wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.set_out(step, kicks); });
-  wait();
+  wait(member);
   heed(member);
   const std::int64_t earliest = kicks == FlightRegion::Kicks::taken_up ? step : step + 1;
   for_each_region(member, [&](FlightRegion& region) {
@@ -75,7 +76,7 @@ void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks
 }
 
 void Flights::land(Member& member, std::int64_t step) {
-  wait();
+  wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.land(step); });
   if (member.begin == 0) airspace_.state.step = step;
 }
@@ -107,9 +108,9 @@ void Flights::step_together(Member& member, std::int64_t step) {
   for_each_region(member, [&](FlightRegion& region) { region.move(step); });
   if (step >= member.hold_until) renew(member, step);
   for_each_region(member, [&](FlightRegion& region) { region.collide(step); });
-  wait();
+  wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.settle(step); });
-  wait();
+  wait(member);
   heed(member);
   for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
   member.profile.done(Profile::Phase::appointments);
@@ -143,14 +144,14 @@ void Flights::step_askew(Member& member, std::int64_t now, std::int64_t last) {
     p.fetched = false;
     regions_[i]->need_candidates_until(last);
   }
-  wait();
+  wait(member);
   go_askew(
       member.begin, member.end, [&](std::size_t slice) { return go_on(member, slice, last); },
       [&] {
         return std::all_of(progress_.data() + member.begin, progress_.data() + member.end,
                            [&](const Progress& p) { return p.foreseen == last; });
       });
-  wait();
+  wait(member);
   heed(member);
   for_each_region(member, [](FlightRegion& region) {
     region.need_candidates_until(FlightRegion::nobody_asks);

@@ -53,6 +53,7 @@ public:
 private:
   /// What a thread works with: regions begin ... end - 1.
   struct alignas(cache_line) Member {
+    std::size_t number;
     std::size_t begin, end;
     std::span<Slice> share;  // theirs
     Profile& profile;
@@ -81,7 +82,7 @@ private:
 
   template <class Do>
   void for_each_region(const Member& member, Do something);
-  void wait() { airspace_.candidates.team().arrive_and_wait(); }
+  void wait(const Member& member) { airspace_.candidates.team().arrive_and_wait(member.number); }
 
   Airspace airspace_;
   const std::int64_t most_steps_askew_;

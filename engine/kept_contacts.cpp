@@ -107,11 +107,12 @@ std::size_t Candidates::kept() const {
 
 /// A contact whose bodies are no candidates any more has ended: the grain is so fast that it left
 /// in a single step.
-void Candidates::end_lost_contacts(const State& state) {
+void Candidates::end_lost_contacts(const State& state, std::int64_t step) {
   std::size_t lasting = 0;
   for (const Slice& slice : slices_) lasting += slice.lasting.size();
   if (kept() == lasting) return;
-  const StepUnits units(state);
+  StepUnits units(state);
+  units.move_to(step);
   const auto is_lost = [&](const Contact& contact) {
     return std::none_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
       return candidate_in(slice, contact).has_value();

@@ -41,14 +41,14 @@ PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& cand
 
 void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last) {
   const std::span<Slice> share = candidates_.share(number);
-  Member member{.share = share, .units = units_, .profile = share.front().profile};
+  Member member{
+      .number = number, .share = share, .units = units_, .profile = share.front().profile};
   while (now < last && !candidates_.in_trouble()) {
     const std::int64_t next = now + 1;
     member.profile.begin_step(next);
     for (Slice& mine : share) move(member, mine, next);
     candidates_.compare_inner_lists(share);
-    if (number == 0) state_.step = next;
-    candidates_.team().arrive_and_wait();
+    candidates_.team().arrive_and_wait(member.number);
     member.profile.done(Profile::Phase::fly);
     now += candidates_.ready_for(state_, coarse_, share, next,
                                  std::min(most_steps_askew_, last - now));
@@ -57,6 +57,7 @@ void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last
     else
       step_askew(member, next, now);
   }
+  if (number == 0) state_.step = now;
 }
 
 void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
@@ -89,7 +90,7 @@ void PlainSteps::receive(Member& member, Slice& mine, std::span<const Slice> giv
 void PlainSteps::step_together(Member& member, std::int64_t step) {
   const double motion = candidates_.fastest();
   for (Slice& mine : member.share) touch(member, mine, step, motion);
-  candidates_.team().arrive_and_wait();
+  candidates_.team().arrive_and_wait(member.number);
   for (Slice& mine : member.share) receive(member, mine, candidates_.slices());
 }
 
@@ -102,12 +103,11 @@ void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t las
     p.touched = first - 1;
     p.done = false;
   }
-  candidates_.team().arrive_and_wait();
+  candidates_.team().arrive_and_wait(member.number);
   go_askew(
       begin, begin + progress.size(), [&](std::size_t slice) { return go_on(member, slice, last); },
       [&] { return std::all_of(progress.begin(), progress.end(), std::mem_fn(&Progress::done)); });
-  if (begin == 0) state_.step = last;
-  candidates_.team().arrive_and_wait();
+  candidates_.team().arrive_and_wait(member.number);
 }
 
 /// Does what this slice can do now, up to its part of step `last`; false if that is nothing.

@@ -42,6 +42,7 @@ private:
 
   /// What a thread works with.
   struct Member {
+    std::size_t number;
     std::span<Slice> share;
     StepUnits units;
     Profile& profile;

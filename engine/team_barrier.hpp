@@ -1,11 +1,12 @@
-// Where the threads of a team wait for each other.
+// How the threads of a team wait for each other.
 //
-// A step has several such places, each a few microseconds of work after the last. A waiting thread
-// first looks again and again, for about as long as it takes to put a thread to sleep and to wake
-// it; then it sleeps and leaves its core to others. So steps stay short where the team has its
-// cores to itself, and a busy machine costs no more than its share: OpenMP's own barrier, which
-// looks for milliseconds, takes the core from the very thread that it waits for, and asks the
-// system to wake sleepers each time, even in a team of one; std::barrier sleeps too soon.
+// A step has several places for that, each a few microseconds of work after the last. A waiting
+// thread first looks again and again; later it offers its core to others between two looks. So
+// steps stay short where the team has its cores to itself, and a busy machine costs no more than
+// its share: OpenMP's own barrier, which looks for milliseconds, takes the core from the very
+// thread that it waits for, and asks the system to wake sleepers each time, even in a team of one;
+// std::barrier sleeps too soon. Nobody sleeps here: then the others would have to look who does,
+// each time.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -13,6 +14,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <thread>
+#include <vector>
 
 namespace riesel {
 
@@ -25,39 +28,53 @@ inline void pause_core() {
 #endif
 }
 
-/// Has a cache line for itself.
-class alignas(cache_line) TeamBarrier {
+/// One thread's waiting for something that is about to happen.
+class Patience {
 public:
-  /// So often one looks before it leaves the core to others: 5 to 20 microseconds.
-  static constexpr int looks = 500;
-
-  explicit TeamBarrier(int members) : members_(members) {}
-
-  std::size_t members() const { return static_cast<std::size_t>(members_); }
-
-  /// Returns when all members have called it as often as this one. What each did before is seen by
-  /// all afterwards.
-  void arrive_and_wait() {
-    if (members_ == 1) return;
-    const std::uint32_t passed = passed_.load(std::memory_order_relaxed);
-    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == members_) {
-      arrived_.store(0, std::memory_order_relaxed);
-      // In one order with the count of sleepers that notify_all() looks at: none is overlooked.
-      passed_.store(passed + 1, std::memory_order_seq_cst);
-      passed_.notify_all();
-      return;
-    }
-    for (int look = 0; look < looks; ++look) {
-      if (passed_.load(std::memory_order_acquire) != passed) return;
+  /// To be called between two looks.
+  void wait_a_moment() {
+    if (++moments_ <= most)
       pause_core();
-    }
-    passed_.wait(passed, std::memory_order_acquire);
+    else
+      std::this_thread::yield();
   }
 
 private:
-  const int members_;
-  std::atomic<int> arrived_{0};
-  std::atomic<std::uint32_t> passed_{0};  // how often all were there; may wrap
+  static constexpr int most = 500;  // 5 to 20 microseconds, and then others may have the core
+  int moments_ = 0;
+};
+
+class TeamBarrier {
+public:
+  explicit TeamBarrier(int members) : arrivals_(static_cast<std::size_t>(members)) {}
+
+  std::size_t members() const { return arrivals_.size(); }
+
+  /// Returns when all members, 0, 1, ..., have called it as often as this one. What each did before
+  /// is seen by all afterwards.
+  void arrive_and_wait(std::size_t member) {
+    if (members() == 1) return;
+    std::atomic<std::uint32_t>& mine = arrivals_[member].count;
+    const std::uint32_t before = mine.load(std::memory_order_relaxed);
+    mine.store(before + 1, std::memory_order_release);
+    for (const Arrivals& other : arrivals_) wait_for_more(other, before);
+  }
+
+private:
+  /// How often one member has come; may wrap. It alone writes to it, so that a look of another
+  /// takes the cache line from core to core once, where a count of all goes back and forth. Two
+  /// lines: processors fetch them in pairs.
+  struct alignas(2 * cache_line) Arrivals {
+    std::atomic<std::uint32_t> count{0};
+  };
+
+  /// Nobody is ahead of another by more than one arrival.
+  static void wait_for_more(const Arrivals& other, std::uint32_t before) {
+    for (Patience patience; other.count.load(std::memory_order_acquire) == before;)
+      patience.wait_a_moment();
+  }
+
+  std::vector<Arrivals> arrivals_;
 };
 
 }  // namespace riesel

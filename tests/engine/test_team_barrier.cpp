@@ -26,13 +26,14 @@ int out_of_step(int members, int rounds, Before before) {
   std::vector<Rounds> team(static_cast<std::size_t>(members));
   std::atomic<int> mismatches{0};
   const auto work = [&](int member) {
+    const auto number = static_cast<std::size_t>(member);
     for (int round = 1; round <= rounds; ++round) {
       before(member, round);
-      team[static_cast<std::size_t>(member)].done = round;
-      barrier.arrive_and_wait();
+      team[number].done = round;
+      barrier.arrive_and_wait(number);
       mismatches += static_cast<int>(std::count_if(
           team.begin(), team.end(), [&](const Rounds& r) { return r.done != round; }));
-      barrier.arrive_and_wait();
+      barrier.arrive_and_wait(number);
     }
   };
   std::vector<std::thread> threads;

@@ -222,7 +222,7 @@ FAULTS = [
      "if (on_last == 0) to.last = new_sheet(to.last);",
      "if (on_last == 0 && to.count < 2 * Sheet::room) to.last = new_sheet(to.last);"),
     ("coarse positions read before all have written theirs", "engine/candidates.cpp",
-     "&coarse.y[mine.begin]);\n    }\n    team_.arrive_and_wait();\n", "&coarse.y[mine.begin]);\n    }\n"),
+     "&coarse.y[mine.begin]);\n    }\n    wait(share);\n", "&coarse.y[mine.begin]);\n    }\n"),
 
     # Slopes and walls of all kinds
     ("gravity across the tube forgotten", "engine/state.cpp",
