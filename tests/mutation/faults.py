@@ -223,6 +223,11 @@ FAULTS = [
      "if (on_last == 0 && to.count < 2 * Sheet::room) to.last = new_sheet(to.last);"),
     ("coarse positions read before all have written theirs", "engine/candidates.cpp",
      "&coarse.y[mine.begin]);\n    }\n    wait(share);\n", "&coarse.y[mine.begin]);\n    }\n"),
+    ("a barrier that waits for the first member only", "engine/team_barrier.hpp",
+     "for (const Arrivals& other : arrivals_) wait_for_more(other, before);",
+     "wait_for_more(arrivals_.front(), before);"),
+    ("news at the borders not told", "engine/border.hpp",
+     "if (told != now) told = now;", "if (told == now) told = now;"),
 
     # Slopes and walls of all kinds
     ("gravity across the tube forgotten", "engine/state.cpp",
