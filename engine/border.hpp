@@ -56,7 +56,7 @@ struct alignas(cache_line) Announcement {
 
 /// Writes it if it is news.
 template <class T>
-void announce(T& told, const T& now) {
+void tell_news(T& told, const T& now) {
   if (told != now) told = now;
 }
 

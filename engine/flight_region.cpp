@@ -272,10 +272,10 @@ void FlightRegion::correct_courses(std::int64_t step) {
 void FlightRegion::announce(std::int64_t step) {
   Announcement& mine = border_.mine();
   mine.step = step;
-  riesel::announce(mine.trouble, slice_.failed());
-  riesel::announce(mine.fastest2, skin_guard_.fastest2());
+  tell_news(mine.trouble, slice_.failed());
+  tell_news(mine.fastest2, skin_guard_.fastest2());
   for (BorderGrain& grain : mine.border) {
-    riesel::announce(grain.deflected, airspace_.courses.deflected(grain.slot));
+    tell_news(grain.deflected, airspace_.courses.deflected(grain.slot));
     if (grain.deflected)
       grain.motion = deflected_.motion(
           static_cast<DeflectedGrains::Place>(airspace_.courses.place(grain.slot)));
@@ -347,7 +347,7 @@ void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step, K
   deflected_.set_course(place);
   Announcement& mine = border_.mine();
   const std::int64_t hold_until = skin_guard_.hold_until(slot, course, step);
-  riesel::announce(mine.hold_until, std::min(mine.hold_until, hold_until));
+  tell_news(mine.hold_until, std::min(mine.hold_until, hold_until));
   if (hold_until < needed_until_) mine.strays.push_back({slot, hold_until});
   border_.announce_course(slot);
   appointments_.reconsider(slot);

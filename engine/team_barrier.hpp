@@ -33,10 +33,12 @@ class Patience {
 public:
   /// To be called between two looks.
   void wait_a_moment() {
-    if (++moments_ <= most)
-      pause_core();
-    else
+    if (moments_ == most) {
       std::this_thread::yield();
+    } else {
+      pause_core();
+      ++moments_;
+    }
   }
 
 private:
