@@ -81,8 +81,8 @@ public:
   /// itself, for which they hold for sure, at most `wanted`. Looks at the true displacements if
   /// need be, and sorts anew if they are too large. If it is more than one step, the second grain
   /// of a pair is in the slice of the first or in the next, and catch_strays() must be called
-  /// before each search: no look finds a grain that becomes faster than expected meanwhile. `state`
-  /// and `coarse`, the positions of its grains, must be those of `step`. To be called by all
+  /// before each search: no look finds a grain that becomes faster than expected meanwhile. The
+  /// grains of `state` and `coarse`, their positions, must be those of `step`. To be called by all
   /// threads of a team after a barrier; all get the same answer, and what it changes is complete
   /// when it returns.
   std::int64_t ready_for(State& state, CoarsePositions& coarse, std::span<Slice> share,

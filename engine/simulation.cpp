@@ -164,7 +164,7 @@ void Simulation::prepare() {
 }
 
 void Simulation::step_up_to(std::int64_t last) {
-  const std::int64_t now = state_.step;  // before the team starts: a step changes state_.step
+  const std::int64_t now = state_.step;  // before the team starts, which changes it
   as_a_team(prepared_->way.threads, [&](std::size_t member) {
     if (flights_)
       flights_->advance(member, now, last);
