@@ -37,6 +37,14 @@ double largest(const std::vector<Slice>& slices, double Slice::*member) {
   return most;
 }
 
+LastingContacts lasting_contacts(const State& state) {
+  const std::vector<std::size_t> slots = slots_by_id(state.grains);
+  LastingContacts all;
+  for (const Contact& contact : state.contacts)
+    all.add(contact, contact_slots(contact.name, slots));
+  return all;
+}
+
 }  // namespace
 
 Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
@@ -67,10 +75,11 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Pur
       throw std::invalid_argument("the grains of a wall are too close together");
 
   for (Slice& slice : slices_) slice.pairs.searched = purpose.searched;
+  const LastingContacts lasting = lasting_contacts(state);
   as_a_team(threads, [&](std::size_t member) {
     const std::span<Slice> mine = share(member);
     renew(state, mine, state.step);
-    keep(state, mine, state.contacts);
+    keep(state, mine, lasting);
   });
   if (kept() < state.contacts.size())
     throw std::invalid_argument("a contact between bodies that are far from each other");
@@ -155,7 +164,7 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
   for (std::size_t slot = share.front().begin; slot < share.back().end; ++slot) {
     when_sorted_.x[slot] = upper_half(state.grains.x[slot]);
     when_sorted_.y[slot] = upper_half(state.grains.y[slot]);
-    slot_of_[static_cast<std::size_t>(state.grains.id[slot])] = static_cast<std::uint32_t>(slot);
+    new_slot_[cells_.old_slot(slot)] = static_cast<std::uint32_t>(slot);
   }
   wait(share);
   for (Slice& mine : share) {
@@ -174,7 +183,7 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
 void Candidates::start_over(const State& state, std::int64_t step) {
   const Grains& grains = state.grains;
   when_sorted_.resize(grains.size());
-  slot_of_.resize(grains.size());
+  new_slot_.resize(grains.size());
   for (std::size_t s = 0; s < slices_.size(); ++s) {
     const SlotRange slots = part_of(grains.size(), s, slices_.size());
     slices_[s].begin = slots.begin;

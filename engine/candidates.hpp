@@ -163,9 +163,13 @@ private:
 
   // kept_contacts.cpp
   static void set_contacts_aside(Slice& mine);
-  std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact) const;
-  void keep(const State& state, std::span<Slice> share, const std::vector<Contact>& contacts) const;
-  void keep(const State& state, Slice& mine, const Contact& contact) const;
+  ContactSlots after_sorting(ContactSlots before) const {
+    return {new_slot_[before.grain], new_slot_[before.partner]};
+  }
+  static std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact,
+                                                   ContactSlots slots);
+  void keep(const State& state, std::span<Slice> share, const LastingContacts& lasting) const;
+  static void keep(const State& state, Slice& mine, const Contact& contact, ContactSlots slots);
   std::size_t kept() const;
   void end_lost_contacts(const State& state, std::int64_t step);
 
@@ -179,7 +183,7 @@ private:
   TeamBarrier team_;
   std::vector<Slice> slices_;
   bool slices_are_thick_ = false;
-  std::vector<std::uint32_t> slot_of_;  // by id
+  std::vector<std::uint32_t> new_slot_;  // by slots before the last sorting
 
   Fall fall_;                        // in a step
   std::int64_t steps_to_walls_ = 0;  // that the common fall takes for the room it has at walls

@@ -60,6 +60,9 @@ public:
 
   std::size_t row_of(std::size_t slot) const { return cell_of_slot_[slot] / columns_; }
 
+  /// Where the grain in `slot` was before the last sort().
+  std::size_t old_slot(std::size_t slot) const { return old_slot_[slot]; }
+
 private:
   void lay_out(const State& state, double range);
   double quanta_from_left(Fixed x) const;

@@ -9,12 +9,6 @@ namespace riesel {
 
 namespace {
 
-template <class Visit>
-void for_each_contact_of(const Slice& slice, Visit visit) {
-  for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
-    for (std::size_t i = 0; i < live->size(); ++i) visit(live->contact(i));
-}
-
 /// Index among the pairs of `slice`, which have just been listed, in this order of the two.
 std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
                                      std::uint32_t second) {
@@ -38,6 +32,13 @@ std::optional<std::uint32_t> near_wall_in(const Slice& slice, std::uint32_t slot
   return std::nullopt;
 }
 
+/// Where the grains of a contact stand.
+ContactSlots slots_of(const Meeting& m) {
+  const auto first = static_cast<std::uint32_t>(m.first);
+  const auto second = static_cast<std::uint32_t>(m.second);
+  return m.turned ? ContactSlots{second, first} : ContactSlots{first, second};
+}
+
 /// The slice that owns `slot`, or none.
 Slice* owner_in(std::span<Slice> share, std::uint32_t slot) {
   const auto owner = std::partition_point(share.begin(), share.end(),
@@ -50,47 +51,46 @@ Slice* owner_in(std::span<Slice> share, std::uint32_t slot) {
 std::vector<Contact> Candidates::contacts() const {
   std::vector<Contact> all;
   for (const Slice& slice : slices_)
-    for_each_contact_of(slice, [&](const Contact& contact) { all.push_back(contact); });
+    for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
+      for (std::size_t i = 0; i < live->size(); ++i) all.push_back(live->contact(i));
   std::sort(all.begin(), all.end(),
             [](const Contact& a, const Contact& b) { return a.name < b.name; });
   return all;
 }
 
 void Candidates::set_contacts_aside(Slice& mine) {
-  for_each_contact_of(mine, [&](const Contact& contact) { mine.lasting.push_back(contact); });
-  mine.pair_contacts.clear();
-  mine.wall_contacts.clear();
+  for (LiveContacts* live : {&mine.pair_contacts, &mine.wall_contacts}) {
+    for (std::size_t i = 0; i < live->size(); ++i)
+      mine.lasting.add(live->contact(i), slots_of(live->meeting(i)));
+    live->clear();
+  }
   mine.kept = 0;
 }
 
 /// The candidate that `contact` is, if it is one of `slice`.
-std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice,
-                                                      const Contact& contact) const {
-  const std::uint32_t a = slot_of_[static_cast<std::size_t>(contact.name.grain)];
-  if (contact.name.wall != no_wall) return near_wall_in(slice, a, contact.name.wall);
-  const std::uint32_t b = slot_of_[static_cast<std::size_t>(contact.name.partner)];
+std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice, const Contact& contact,
+                                                      ContactSlots slots) {
+  if (contact.name.wall != no_wall) return near_wall_in(slice, slots.grain, contact.name.wall);
   // Most often the first has the lower slot.
-  const auto [low, high] = std::minmax(a, b);
+  const auto [low, high] = std::minmax(slots.grain, slots.partner);
   const auto found = slice.owns(low) ? pair_in(slice, low, high) : std::nullopt;
   return !found && slice.owns(high) ? pair_in(slice, high, low) : found;
 }
 
 /// Goes on with those of the contacts that belong to the slices of `share`.
 void Candidates::keep(const State& state, std::span<Slice> share,
-                      const std::vector<Contact>& contacts) const {
-  for (const Contact& contact : contacts) {
-    Slice* const one = owner_in(share, slot_of_[static_cast<std::size_t>(contact.name.grain)]);
-    Slice* const other =
-        contact.name.wall == no_wall
-            ? owner_in(share, slot_of_[static_cast<std::size_t>(contact.name.partner)])
-            : one;
-    if (one != nullptr) keep(state, *one, contact);
-    if (other != nullptr && other != one) keep(state, *other, contact);
+                      const LastingContacts& lasting) const {
+  for (std::size_t i = 0; i < lasting.size(); ++i) {
+    const ContactSlots slots = after_sorting(lasting.slots[i]);
+    Slice* const one = owner_in(share, slots.grain);
+    Slice* const other = owner_in(share, slots.partner);
+    if (one != nullptr) keep(state, *one, lasting.contacts[i], slots);
+    if (other != nullptr && other != one) keep(state, *other, lasting.contacts[i], slots);
   }
 }
 
-void Candidates::keep(const State& state, Slice& mine, const Contact& contact) const {
-  const auto candidate = candidate_in(mine, contact);
+void Candidates::keep(const State& state, Slice& mine, const Contact& contact, ContactSlots slots) {
+  const auto candidate = candidate_in(mine, contact, slots);
   if (!candidate) return;
   const bool of_wall = contact.name.wall != no_wall;
   const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
@@ -113,15 +113,17 @@ void Candidates::end_lost_contacts(const State& state, std::int64_t step) {
   if (kept() == lasting) return;
   StepUnits units(state);
   units.move_to(step);
-  const auto is_lost = [&](const Contact& contact) {
+  const auto is_lost = [&](const Contact& contact, ContactSlots slots) {
     return std::none_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
-      return candidate_in(slice, contact).has_value();
+      return candidate_in(slice, contact, slots).has_value();
     });
   };
   for (Slice& owner : slices_)
-    for (Contact& contact : owner.lasting) {
-      if (!is_lost(contact)) continue;
-      const Meeting meeting = meeting_of(contact.name, state, slot_of_);
+    for (std::size_t i = 0; i < owner.lasting.size(); ++i) {
+      Contact& contact = owner.lasting.contacts[i];
+      const ContactSlots slots = after_sorting(owner.lasting.slots[i]);
+      if (!is_lost(contact, slots)) continue;
+      const Meeting meeting = meeting_of(contact.name, state, slots);
       add_last_loss(contact, meeting, bodies(state.grains), slip_, units);
       owner.tally.end(contact, meeting.reach());
     }

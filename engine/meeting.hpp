@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace riesel {
 
@@ -80,17 +81,25 @@ inline Meeting meeting_with_wall(const State& state, std::uint32_t slot, std::in
           .level = lattice.smooth()};
 }
 
-/// The bodies of a contact, seen from the free grain that names it; slots[id] is where a grain
-/// stands in the store.
-template <class Slots>
-Meeting meeting_of(const ContactName& name, const State& state, const Slots& slots) {
+/// Where the free grains of a contact stand in the store; at a wall there is no second one.
+struct ContactSlots {
+  std::uint32_t grain, partner;
+};
+
+/// slots[id] is where a grain stands, as slots_by_id() has it.
+inline ContactSlots contact_slots(const ContactName& name, std::span<const std::size_t> slots) {
   const auto slot = [&](std::int32_t id) {
     return static_cast<std::uint32_t>(slots[static_cast<std::size_t>(id)]);
   };
+  return {slot(name.grain), slot(name.wall == no_wall ? name.partner : name.grain)};
+}
+
+/// The bodies of a contact.
+inline Meeting meeting_of(const ContactName& name, const State& state, ContactSlots slots) {
   constexpr std::uint32_t none = 0;  // nobody looks for it
   return name.wall == no_wall
-             ? meeting_of_grains(state.grains, slot(name.grain), slot(name.partner), none)
-             : meeting_with_wall(state, slot(name.grain), name.wall, name.partner, none);
+             ? meeting_of_grains(state.grains, slots.grain, slots.partner, none)
+             : meeting_with_wall(state, slots.grain, name.wall, name.partner, none);
 }
 
 /// Where the wall grain is, and how it moves, in the step of `units`; `first` is where the first

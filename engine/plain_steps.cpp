@@ -13,14 +13,31 @@ namespace riesel {
 
 namespace {
 
-/// Moves `count` grains by one step along one axis.
-RIESEL_VECTOR_KERNEL void fly(std::size_t count, Fixed fallen, const Fixed* u, Fixed* position,
-                              std::int32_t* coarse) {
+/// Some grains next to each other, along one axis.
+struct Movers {
+  Fixed fallen;
+  const Fixed* u;
+  Fixed* position;
+  std::int32_t* coarse;
+
+  [[gnu::always_inline]] void move(std::size_t begin, std::size_t end) const {
 #pragma omp simd
-  for (std::size_t i = 0; i < count; ++i) {
-    position[i] = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
-    coarse[i] = upper_half(position[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      position[i] = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
+      coarse[i] = upper_half(position[i]);
+    }
   }
+};
+
+/// Moves `count` grains by one step along one axis: from the first up to `turn`, and from the last
+/// down to there.
+RIESEL_VECTOR_KERNEL void fly(std::size_t count, std::size_t turn, Movers movers) {
+  constexpr std::size_t block = cache_line / sizeof(std::int32_t);
+  const std::size_t middle = turn / block * block;
+  movers.move(0, middle);
+  std::size_t end = middle + (count - middle) / block * block;
+  movers.move(end, count);
+  for (; end > middle; end -= block) movers.move(end - block, end);
 }
 
 }  // namespace
@@ -65,8 +82,13 @@ void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   take_up_kicks(g, mine, [&](std::uint32_t slot) { candidates_.note_speed(state_, mine, slot); });
   const std::size_t count = mine.end - mine.begin;
   const Fall fallen = member.units.fall.times(step);
-  fly(count, fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]);
-  fly(count, fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]);
+  // Processors fetch up to some thousand bytes of what comes next in the direction of a loop:
+  // beyond the end of a share these are lines to which another thread is writing. So it goes
+  // inwards there.
+  const bool beside_others = candidates_.team().members() > 1 && member.share.size() == 1;
+  const std::size_t turn = beside_others ? count / 2 : count;
+  fly(count, turn, {fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]});
+  fly(count, turn, {fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]});
   Candidates::count_motion(mine);
   member.profile.done(Profile::Phase::fly);
 }

@@ -29,7 +29,7 @@ std::vector<PresentForce> present_forces(const State& state, const ContactModel&
   std::vector<PresentForce> forces;
   forces.reserve(state.contacts.size());
   for (const Contact& contact : state.contacts) {
-    const Meeting meeting = meeting_of(contact.name, state, slots);
+    const Meeting meeting = meeting_of(contact.name, state, contact_slots(contact.name, slots));
     const Encounter e = encounter(meeting, b, units);
     const Touch t = touch_of(contact, meeting, e);
     forces.push_back(

@@ -7,6 +7,7 @@
 #include "engine/fixed_point.hpp"
 #include "engine/inner_pairs.hpp"
 #include "engine/live_contacts.hpp"
+#include "engine/meeting.hpp"
 #include "engine/profile.hpp"
 #include "engine/tally.hpp"
 
@@ -31,6 +32,19 @@ struct Kick {
   BodyKick by;
 };
 
+/// Contacts that are to outlive a sorting. Each thread looks for its own among those of all, by
+/// slots: close together, as what one core gets from another takes long.
+struct LastingContacts {
+  std::vector<ContactSlots> slots;  ///< before it
+  std::vector<Contact> contacts;
+
+  std::size_t size() const { return contacts.size(); }
+  void add(const Contact& contact, ContactSlots of_it) {
+    slots.push_back(of_it);
+    contacts.push_back(contact);
+  }
+};
+
 /// A grain that cannot be followed any more.
 struct LostGrain {
   std::int64_t step;
@@ -53,11 +67,11 @@ struct alignas(cache_line) Slice {
   std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
   LiveContacts pair_contacts{Partner::grain};
   LiveContacts wall_contacts{Partner::wall};
-  std::vector<Kick> received;    ///< of this step, by contacts of any slice on grains of the slice
-  std::vector<Contact> lasting;  ///< contacts of the slice that are to outlive a sorting
-  std::size_t kept = 0;          ///< how many of all those the slice has after it
-  Profile profile;               ///< of what its thread does with it
-  Tally tally;                   ///< of contacts that began or ended in the last advance
+  std::vector<Kick> received;  ///< of this step, by contacts of any slice on grains of the slice
+  LastingContacts lasting;     ///< of the slice, while the grains are sorted
+  std::size_t kept = 0;        ///< how many of all those the slice has after it
+  Profile profile;             ///< of what its thread does with it
+  Tally tally;                 ///< of contacts that began or ended in the last advance
 
   alignas(cache_line) std::vector<Kick> given_away;  ///< of this step, on grains of other slices
   std::uint32_t given_first = 0, given_last = 0;     ///< the lowest and the highest slot of them
