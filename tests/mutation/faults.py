@@ -228,6 +228,14 @@ FAULTS = [
      "wait_for_more(arrivals_.front(), before);"),
     ("news at the borders not told", "engine/border.hpp",
      "if (told != now) told = now;", "if (told == now) told = now;"),
+    ("contacts looked for where their grains were before the sorting", "engine/candidates.cpp",
+     "new_slot_[cells_.old_slot(slot)] = static_cast<std::uint32_t>(slot);",
+     "new_slot_[slot] = static_cast<std::uint32_t>(slot);"),
+    ("the last grains of a share left where they are", "engine/plain_steps.cpp",
+     "  movers.move(end, count);\n", ""),
+    ("the bodies of a contact that outlives a sorting turned round", "engine/kept_contacts.cpp",
+     "return m.turned ? ContactSlots{second, first} : ContactSlots{first, second};",
+     "return m.turned ? ContactSlots{first, second} : ContactSlots{second, first};"),
 
     # Slopes and walls of all kinds
     ("gravity across the tube forgotten", "engine/state.cpp",
