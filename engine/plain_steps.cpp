@@ -35,9 +35,9 @@ RIESEL_VECTOR_KERNEL void fly(std::size_t count, std::size_t turn, Movers movers
   constexpr std::size_t block = cache_line / sizeof(std::int32_t);
   const std::size_t middle = turn / block * block;
   movers.move(0, middle);
-  std::size_t end = middle + (count - middle) / block * block;
-  movers.move(end, count);
-  for (; end > middle; end -= block) movers.move(end - block, end);
+  std::size_t done_from = middle + (count - middle) / block * block;
+  movers.move(done_from, count);
+  for (; done_from > middle; done_from -= block) movers.move(done_from - block, done_from);
 }
 
 }  // namespace

@@ -232,7 +232,7 @@ FAULTS = [
      "new_slot_[cells_.old_slot(slot)] = static_cast<std::uint32_t>(slot);",
      "new_slot_[slot] = static_cast<std::uint32_t>(slot);"),
     ("the last grains of a share left where they are", "engine/plain_steps.cpp",
-     "  movers.move(end, count);\n", ""),
+     "  movers.move(done_from, count);\n", ""),
     ("the bodies of a contact that outlives a sorting turned round", "engine/kept_contacts.cpp",
      "return m.turned ? ContactSlots{second, first} : ContactSlots{first, second};",
      "return m.turned ? ContactSlots{first, second} : ContactSlots{second, first};"),
