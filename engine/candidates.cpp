@@ -37,11 +37,11 @@ double largest(const std::vector<Slice>& slices, double Slice::*member) {
   return most;
 }
 
-LastingContacts lasting_contacts(const State& state) {
+std::vector<ContactSlots> slots_of_contacts(const State& state) {
   const std::vector<std::size_t> slots = slots_by_id(state.grains);
-  LastingContacts all;
-  for (const Contact& contact : state.contacts)
-    all.add(contact, contact_slots(contact.name, slots));
+  std::vector<ContactSlots> all;
+  all.reserve(state.contacts.size());
+  for (const Contact& contact : state.contacts) all.push_back(contact_slots(contact.name, slots));
   return all;
 }
 
@@ -75,11 +75,11 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Pur
       throw std::invalid_argument("the grains of a wall are too close together");
 
   for (Slice& slice : slices_) slice.pairs.searched = purpose.searched;
-  const LastingContacts lasting = lasting_contacts(state);
+  const std::vector<ContactSlots> before = slots_of_contacts(state);
   as_a_team(threads, [&](std::size_t member) {
     const std::span<Slice> mine = share(member);
     renew(state, mine, state.step);
-    keep(state, mine, lasting);
+    keep(state, mine, before, state.contacts);
   });
   if (kept() < state.contacts.size())
     throw std::invalid_argument("a contact between bodies that are far from each other");
@@ -150,7 +150,8 @@ void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t st
   for (Slice& mine : share) set_contacts_aside(mine);
   wait(share);  // all grains are at this step
   renew(state, share, step);
-  for (const Slice& slice : slices_) keep(state, share, slice.lasting);
+  for (const Slice& slice : slices_)
+    keep(state, share, slice.lasting.slots, slice.lasting.contacts);
   wait(share);
   if (member_with(share) == 0) end_lost_contacts(state, step);
   wait(share);

@@ -168,7 +168,8 @@ private:
   }
   static std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact,
                                                    ContactSlots slots);
-  void keep(const State& state, std::span<Slice> share, const LastingContacts& lasting) const;
+  void keep(const State& state, std::span<Slice> share, std::span<const ContactSlots> before,
+            std::span<const Contact> contacts) const;
   static void keep(const State& state, Slice& mine, const Contact& contact, ContactSlots slots);
   std::size_t kept() const;
   void end_lost_contacts(const State& state, std::int64_t step);

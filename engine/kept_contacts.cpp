@@ -77,15 +77,17 @@ std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice, const 
   return !found && slice.owns(high) ? pair_in(slice, high, low) : found;
 }
 
-/// Goes on with those of the contacts that belong to the slices of `share`.
+/// Goes on with those of the contacts that belong to the slices of `share`; their slots are those
+/// before the sorting.
 void Candidates::keep(const State& state, std::span<Slice> share,
-                      const LastingContacts& lasting) const {
-  for (std::size_t i = 0; i < lasting.size(); ++i) {
-    const ContactSlots slots = after_sorting(lasting.slots[i]);
+                      std::span<const ContactSlots> before,
+                      std::span<const Contact> contacts) const {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactSlots slots = after_sorting(before[i]);
     Slice* const one = owner_in(share, slots.grain);
     Slice* const other = owner_in(share, slots.partner);
-    if (one != nullptr) keep(state, *one, lasting.contacts[i], slots);
-    if (other != nullptr && other != one) keep(state, *other, lasting.contacts[i], slots);
+    if (one != nullptr) keep(state, *one, contacts[i], slots);
+    if (other != nullptr && other != one) keep(state, *other, contacts[i], slots);
   }
 }
 
