@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -166,11 +165,8 @@ private:
   ContactSlots after_sorting(ContactSlots before) const {
     return {new_slot_[before.grain], new_slot_[before.partner]};
   }
-  static std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact,
-                                                   ContactSlots slots);
   void keep(const State& state, std::span<Slice> share, std::span<const ContactSlots> before,
             std::span<const Contact> contacts) const;
-  static void keep(const State& state, Slice& mine, const Contact& contact, ContactSlots slots);
   std::size_t kept() const;
   void end_lost_contacts(const State& state, std::int64_t step);
 

@@ -23,12 +23,14 @@ struct SlotRange {
   std::size_t size() const { return end - begin; }
 };
 
+/// As many slots have a whole cache line of each array.
+inline constexpr std::size_t slots_in_a_line = cache_line / sizeof(std::int32_t);
+
 /// Part number `part` of so many slots, shared out into `parts` nearly as equal as can be: no two
 /// of them have a cache line of an array in common, which threads would take from each other.
 inline SlotRange part_of(std::size_t slots, std::size_t part, std::size_t parts) {
-  constexpr std::size_t in_a_line = cache_line / sizeof(std::int32_t);  // of the smallest values
   const auto end_of = [&](std::size_t count) {
-    return count == parts ? slots : slots * count / parts / in_a_line * in_a_line;
+    return count == parts ? slots : slots * count / parts / slots_in_a_line * slots_in_a_line;
   };
   return {end_of(part), end_of(part + 1)};
 }

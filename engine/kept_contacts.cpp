@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace riesel {
 
@@ -46,6 +47,28 @@ Slice* owner_in(std::span<Slice> share, std::uint32_t slot) {
   return owner != share.end() && owner->owns(slot) ? &*owner : nullptr;
 }
 
+/// The candidate that `contact` is, if it is one of `slice`.
+std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact,
+                                          ContactSlots slots) {
+  if (contact.name.wall != no_wall) return near_wall_in(slice, slots.grain, contact.name.wall);
+  // Most often the first has the lower slot.
+  const auto [low, high] = std::minmax(slots.grain, slots.partner);
+  const auto found = slice.owns(low) ? pair_in(slice, low, high) : std::nullopt;
+  return !found && slice.owns(high) ? pair_in(slice, high, low) : found;
+}
+
+/// Goes on with it if it is one of `mine`.
+void keep_one(const State& state, Slice& mine, const Contact& contact, ContactSlots slots) {
+  const auto candidate = candidate_in(mine, contact, slots);
+  if (!candidate) return;
+  const bool of_wall = contact.name.wall != no_wall;
+  const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
+                                  : meeting_of_pair(mine, state.grains, *candidate);
+  note_lasting(mine, meeting);
+  (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
+  ++mine.kept;
+}
+
 }  // namespace
 
 std::vector<Contact> Candidates::contacts() const {
@@ -67,16 +90,6 @@ void Candidates::set_contacts_aside(Slice& mine) {
   mine.kept = 0;
 }
 
-/// The candidate that `contact` is, if it is one of `slice`.
-std::optional<std::uint32_t> Candidates::candidate_in(const Slice& slice, const Contact& contact,
-                                                      ContactSlots slots) {
-  if (contact.name.wall != no_wall) return near_wall_in(slice, slots.grain, contact.name.wall);
-  // Most often the first has the lower slot.
-  const auto [low, high] = std::minmax(slots.grain, slots.partner);
-  const auto found = slice.owns(low) ? pair_in(slice, low, high) : std::nullopt;
-  return !found && slice.owns(high) ? pair_in(slice, high, low) : found;
-}
-
 /// Goes on with those of the contacts that belong to the slices of `share`; their slots are those
 /// before the sorting.
 void Candidates::keep(const State& state, std::span<Slice> share,
@@ -86,20 +99,9 @@ void Candidates::keep(const State& state, std::span<Slice> share,
     const ContactSlots slots = after_sorting(before[i]);
     Slice* const one = owner_in(share, slots.grain);
     Slice* const other = owner_in(share, slots.partner);
-    if (one != nullptr) keep(state, *one, contacts[i], slots);
-    if (other != nullptr && other != one) keep(state, *other, contacts[i], slots);
+    if (one != nullptr) keep_one(state, *one, contacts[i], slots);
+    if (other != nullptr && other != one) keep_one(state, *other, contacts[i], slots);
   }
-}
-
-void Candidates::keep(const State& state, Slice& mine, const Contact& contact, ContactSlots slots) {
-  const auto candidate = candidate_in(mine, contact, slots);
-  if (!candidate) return;
-  const bool of_wall = contact.name.wall != no_wall;
-  const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
-                                  : meeting_of_pair(mine, state.grains, *candidate);
-  note_lasting(mine, meeting);
-  (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
-  ++mine.kept;
 }
 
 std::size_t Candidates::kept() const {

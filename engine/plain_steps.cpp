@@ -32,7 +32,7 @@ struct Movers {
 /// Moves `count` grains by one step along one axis: from the first up to `turn`, and from the last
 /// down to there.
 RIESEL_VECTOR_KERNEL void fly(std::size_t count, std::size_t turn, Movers movers) {
-  constexpr std::size_t block = cache_line / sizeof(std::int32_t);
+  constexpr std::size_t block = slots_in_a_line;
   const std::size_t middle = turn / block * block;
   movers.move(0, middle);
   std::size_t done_from = middle + (count - middle) / block * block;
