@@ -154,7 +154,20 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
   }
 }
 
+void Appointments::make_inside(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
+  if (border_.foreign().empty()) return;
+  put_off_.clear();
+  reconsidered_.keep_if([&](std::uint32_t candidate) {
+    if (candidate >= pair_count() || border_.owns(slice_.pairs.second[candidate])) return true;
+    put_off_.add(candidate);
+    return false;
+  });
+  make(now, earliest, hold_until);
+  for (const std::uint32_t pair : put_off_.items()) reconsidered_.add(pair);
+}
+
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
+  if (reconsidered_.empty()) return;
   // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
   const Period period{.now = now, .earliest = earliest, .latest = std::max(hold_until, earliest)};
   bool any_watched = false;

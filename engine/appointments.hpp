@@ -95,6 +95,8 @@ public:
   /// Makes the appointments of all that are to be reconsidered, with the courses of step `now`: not
   /// before `earliest`, and none for after `hold_until` unless it is `earliest`.
   void make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
+  /// The same for those of them without foreign grains; the others stay to be reconsidered.
+  void make_inside(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
   /// The same for all candidates.
   void make_all(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
 
@@ -157,6 +159,7 @@ private:
   std::vector<First> first_;          // of each grain of the slice, or foreign in it, and the end
   std::vector<std::uint32_t> links_;  // to other candidates; like due_, with some room to read
   Selection reconsidered_;            // candidates
+  Selection put_off_;                 // likewise, while others are foreseen
   CloseWatch close_watch_;
 };
 

@@ -14,14 +14,6 @@ void sort_and_unite(std::vector<std::uint32_t>& slots) {
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
-/// Where `slot` is in the border, or the end.
-auto find_in(const std::vector<BorderGrain>& border, std::uint32_t slot) {
-  const auto found =
-      std::lower_bound(border.begin(), border.end(), slot,
-                       [](const BorderGrain& g, std::uint32_t s) { return g.slot < s; });
-  return found != border.end() && found->slot == slot ? found : border.end();
-}
-
 }  // namespace
 
 void Border::find_neighbours(bool slices_are_thick) {
@@ -47,15 +39,15 @@ void Border::list_foreign() {
 }
 
 void Border::list_border() {
-  std::vector<std::uint32_t> slots;
+  Announcement& told = mine();
+  told.border.clear();
   for_each_before([&](const Announcement& other) {
     for (const std::uint32_t slot : other.foreign)
-      if (owns(slot)) slots.push_back(slot);
+      if (owns(slot)) told.border.push_back(slot);
   });
-  sort_and_unite(slots);
-  mine().border.clear();
-  for (const std::uint32_t slot : slots)
-    mine().border.push_back({.slot = slot, .deflected = false, .motion = {}});
+  sort_and_unite(told.border);
+  told.deflected.assign(told.border.size(), 0);
+  told.motions.resize(told.border.size());
 }
 
 bool Border::is_foreign(std::uint32_t slot) const {
@@ -67,22 +59,43 @@ std::size_t Border::number_of_foreign(std::uint32_t slot) const {
   return slice_.end - slice_.begin + static_cast<std::size_t>(rank);
 }
 
-Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const {
-  Motion m = courses_.motion(slot, step);
-  for_each_after([&](const Announcement& other) {
-    const auto found = find_in(other.border, slot);
-    if (found == other.border.end() || !found->deflected) return;
-    m = found->motion;
-    if (other.step == step) return;
-    m.take_up_kick();
-    m.x = wrapped_sum(m.x, wrapped_sum(m.ux, fallen.x));
-    m.y = wrapped_sum(m.y, wrapped_sum(m.uy, fallen.y));
-  });
-  return m;
+/// Where the grain is among those of that border, if it is one of them.
+std::optional<std::size_t> Border::place_at_border(const Announcement& of, std::uint32_t slot) {
+  const auto found = std::lower_bound(of.border.begin(), of.border.end(), slot);
+  if (found == of.border.end() || *found != slot) return std::nullopt;
+  return static_cast<std::size_t>(found - of.border.begin());
 }
 
 void Border::announce_course(std::uint32_t slot) {
-  if (find_in(mine().border, slot) != mine().border.end()) mine().new_courses.push_back(slot);
+  if (has(slot)) mine().new_courses.push_back(slot);
+}
+
+void Border::announce_motion(const DeflectedGrains& deflected, std::int64_t step) {
+  announced_ = step;
+  Announcement& told = mine();
+  for (std::size_t i = 0; i < told.border.size(); ++i) {
+    const std::int32_t place = courses_.place(told.border[i]);
+    const bool is_deflected = place != Courses::flying;
+    tell_news(told.deflected[i], static_cast<std::uint8_t>(is_deflected));
+    if (is_deflected)
+      told.motions[i] = deflected.motion(static_cast<DeflectedGrains::Place>(place));
+  }
+}
+
+Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const {
+  for (const std::size_t i : after_) {
+    const Announcement& other = announcements_[i];
+    const auto place = place_at_border(other, slot);
+    if (!place) continue;
+    if (other.deflected[*place] == 0) break;
+    Motion m = other.motions[*place];
+    if (announced_ == step) return m;
+    m.take_up_kick();
+    m.x = wrapped_sum(m.x, wrapped_sum(m.ux, fallen.x));
+    m.y = wrapped_sum(m.y, wrapped_sum(m.uy, fallen.y));
+    return m;
+  }
+  return courses_.motion(slot, step);
 }
 
 }  // namespace riesel

@@ -10,10 +10,12 @@
 
 #include "engine/aligned.hpp"
 #include "engine/courses.hpp"
+#include "engine/deflected_grains.hpp"
 #include "engine/slice.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace riesel {
@@ -25,13 +27,6 @@ struct Deed {
   std::int32_t contacts;  ///< this many more
 };
 
-/// A grain that is foreign in pairs of other slices, after a step.
-struct BorderGrain {
-  std::uint32_t slot;
-  bool deflected;
-  Motion motion;  ///< if deflected
-};
-
 /// A grain for which the candidates do not hold any more from this step on.
 struct Stray {
   std::uint32_t slot;
@@ -41,9 +36,10 @@ struct Stray {
 /// What one slice tells the others. What they read in each step stands on lines that are written to
 /// only if there is news, for then alone they have to come from another core.
 struct alignas(cache_line) Announcement {
-  std::vector<std::uint32_t> foreign;  ///< slots that are foreign here, increasing
-  std::vector<BorderGrain> border;     ///< own grains that are foreign elsewhere, increasing
-  std::int64_t step = 0;               ///< that of their motion
+  std::vector<std::uint32_t> foreign;     ///< slots that are foreign here, increasing
+  std::vector<std::uint32_t> border;      ///< own grains that are foreign elsewhere, increasing
+  AlignedVector<std::uint8_t> deflected;  ///< whether each of the border is, after the last step
+  AlignedVector<Motion> motions;          ///< of those that are; a cache line each
 
   alignas(cache_line) std::vector<Deed> deeds;
 
@@ -85,13 +81,17 @@ public:
   }
   std::size_t numbered() const { return slice_.end - slice_.begin + foreign().size(); }
 
-  /// Of a foreign grain in `step`, that of the announcement or the next; `fallen` is the fall in
+  /// What all grains of the border do after `step`. All slices do that in the same step.
+  void announce_motion(const DeflectedGrains& deflected, std::int64_t step);
+  /// Of a foreign grain in `step`, that of the announcements or the next; `fallen` is the fall in
   /// this step.
   Motion foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const;
 
   Announcement& mine() { return announcements_[index_]; }
   const Announcement& mine() const { return announcements_[index_]; }
-  /// Announces it if it is at the border.
+  /// Whether an own grain is at the border: foreign elsewhere.
+  bool has(std::uint32_t slot) const { return place_at_border(mine(), slot).has_value(); }
+  /// Announces it if it is.
   void announce_course(std::uint32_t slot);
 
   /// Calls visit(announcement) for those of the slices before this one, or after it.
@@ -107,6 +107,7 @@ public:
   const std::vector<std::size_t>& after() const { return after_; }
 
 private:
+  static std::optional<std::size_t> place_at_border(const Announcement& of, std::uint32_t slot);
   std::size_t number_of_foreign(std::uint32_t slot) const;
 
   const Slice& slice_;
@@ -114,6 +115,7 @@ private:
   std::vector<Announcement>& announcements_;
   const std::size_t index_;
   std::vector<std::size_t> before_, after_;
+  std::int64_t announced_ = 0;  // the step of which all motion is
 };
 
 }  // namespace riesel

@@ -56,7 +56,7 @@ public:
   /// From here on the course is the present motion, the kick included.
   void set_course(Place place);
   /// The grains that will be farther from their course than this (quanta, along either axis) in the
-  /// next step.
+  /// next step. To be asked once in each step, when all kicks have been added.
   const std::vector<Place>& straying(Fixed tolerance_x, Fixed tolerance_y);
 
 private:

@@ -69,7 +69,7 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
 
 void FlightRegion::set_out(std::int64_t step, Kicks kicks) {
   suffer(step);
-  border_.mine().hold_until = skin_guard_.hold_until(SlotRange{slice_.begin, slice_.end});
+  skin_guard_.start_over({slice_.begin, slice_.end});
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
     if (is_guest(place)) continue;
     set_course(place, step, kicks);
@@ -104,11 +104,32 @@ void FlightRegion::collide(std::int64_t step) {
   step_contacts(step);
 }
 
+/// A grain that has been let go flies on, if no contact is left.
+inline void FlightRegion::let_fly(DeflectedGrains::Place place, std::int64_t step) {
+  if (!deflected_.in_use(place) || deflected_.contacts(place) > 0) return;
+  if (!is_guest(place)) set_course(place, step);
+  release(place);
+}
+
 void FlightRegion::settle(std::int64_t step) {
   suffer(step);
   profile_.done(Profile::Phase::forces);
+  for (const DeflectedGrains::Place place : let_go_) let_fly(place, step);
+  let_go_.clear();
   correct_courses(step);
   announce(step);
+}
+
+void FlightRegion::settle_inside(std::int64_t step) {
+  profile_.done(Profile::Phase::forces);
+  std::size_t left = 0;
+  for (const DeflectedGrains::Place place : let_go_) {
+    if (at_border(place))
+      let_go_[left++] = place;  // perhaps others do something to it
+    else
+      let_fly(place, step);
+  }
+  let_go_.resize(left);
 }
 
 void FlightRegion::foresee(std::int64_t step, std::int64_t hold_until) {
@@ -118,6 +139,10 @@ void FlightRegion::foresee(std::int64_t step, std::int64_t hold_until) {
       if (border_.is_foreign(slot)) appointments_.reconsider(slot);
   });
   appointments_.make(step, step + 1, hold_until);
+}
+
+void FlightRegion::foresee_inside(std::int64_t step, std::int64_t hold_until) {
+  appointments_.make_inside(step, step + 1, hold_until);
 }
 
 void FlightRegion::fetch() const {
@@ -256,30 +281,18 @@ void FlightRegion::suffer(std::int64_t step) {
   });
 }
 
-/// Gives a new course to grains that have ended their last contact or go too far from the old
-/// course.
+/// Gives a new course to grains that go too far from the old one.
 void FlightRegion::correct_courses(std::int64_t step) {
-  for (const DeflectedGrains::Place place : let_go_) {
-    if (!deflected_.in_use(place) || deflected_.contacts(place) > 0) continue;
-    if (!is_guest(place)) set_course(place, step);
-    release(place);
-  }
-  let_go_.clear();
   for (const DeflectedGrains::Place place : deflected_.straying(tolerance_x_, tolerance_y_))
     if (!is_guest(place)) set_course(place, step);
 }
 
 void FlightRegion::announce(std::int64_t step) {
   Announcement& mine = border_.mine();
-  mine.step = step;
   tell_news(mine.trouble, slice_.failed());
+  tell_news(mine.hold_until, skin_guard_.hold_until());
   tell_news(mine.fastest2, skin_guard_.fastest2());
-  for (BorderGrain& grain : mine.border) {
-    tell_news(grain.deflected, airspace_.courses.deflected(grain.slot));
-    if (grain.deflected)
-      grain.motion = deflected_.motion(
-          static_cast<DeflectedGrains::Place>(airspace_.courses.place(grain.slot)));
-  }
+  border_.announce_motion(deflected_, step);
 }
 
 /// The grains of a contact are stepped from now on.
@@ -345,10 +358,8 @@ void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step, K
   if (kick == Kicks::to_come) course.take_up_kick();
   airspace_.courses.set(slot, course, step);
   deflected_.set_course(place);
-  Announcement& mine = border_.mine();
-  const std::int64_t hold_until = skin_guard_.hold_until(slot, course, step);
-  tell_news(mine.hold_until, std::min(mine.hold_until, hold_until));
-  if (hold_until < needed_until_) mine.strays.push_back({slot, hold_until});
+  const std::int64_t hold_until = skin_guard_.note_course(slot, course, step);
+  if (hold_until < needed_until_) border_.mine().strays.push_back({slot, hold_until});
   border_.announce_course(slot);
   appointments_.reconsider(slot);
 }

@@ -68,6 +68,11 @@ public:
   /// appointments are made with the new courses, none for after `hold_until`.
   void foresee(std::int64_t step, std::int64_t hold_until);
 
+  /// What can be done of these two before, while others are waited for: courses of grains that are
+  /// foreign to none, appointments of candidates that have no foreign grain.
+  void settle_inside(std::int64_t step);
+  void foresee_inside(std::int64_t step, std::int64_t hold_until);
+
   /// Brings what steps need of the slice from memory into the caches.
   void fetch() const;
 
@@ -90,6 +95,7 @@ private:
   void look_at_near_wall(std::uint32_t near_wall, std::int64_t step);
   void step_contacts(std::int64_t step);
   void suffer(std::int64_t step);
+  void let_fly(DeflectedGrains::Place place, std::int64_t step);
   void correct_courses(std::int64_t step);
   void announce(std::int64_t step);
   void lose(const Stray& stray, std::int64_t step);
@@ -107,6 +113,7 @@ private:
   bool is_guest(DeflectedGrains::Place place) const {
     return !border_.owns(deflected_.slot(place));
   }
+  bool at_border(DeflectedGrains::Place place) const { return border_.has(deflected_.slot(place)); }
   struct Position {
     Fixed x, y;
   };

@@ -41,6 +41,16 @@ void Flights::for_each_region(const Member& member, Do something) {
   for (std::size_t i = member.begin; i < member.end; ++i) something(*regions_[i]);
 }
 
+/// What is done with the regions meanwhile concerns nobody else, and can be done later.
+template <class Do>
+void Flights::wait_and_meanwhile(const Member& member, Do something) {
+  TeamBarrier& barrier = airspace_.candidates.team();
+  if (barrier.members() == 1) return;
+  barrier.arrive(member.number);
+  for_each_region(member, something);
+  barrier.wait(member.number);
+}
+
 void Flights::take_off(Member& member, std::int64_t step) {
   if (!member.under_way) {
     begin(member, step, FlightRegion::Kicks::to_come);
@@ -102,15 +112,16 @@ void Flights::heed(Member& member) const {
   }
 }
 
-/// What a step is, in the order in which it happens. Between the barriers all may change their
-/// courses and what they announce, and nobody looks at those of others.
+/// What a step is, in the order in which it happens. Between the barriers all may change what
+/// others know of them, and nobody looks at that of others. What concerns grains inside of a slice,
+/// which are most, is done while news is under way.
 void Flights::step_together(Member& member, std::int64_t step) {
   for_each_region(member, [&](FlightRegion& region) { region.move(step); });
   if (step >= member.hold_until) renew(member, step);
   for_each_region(member, [&](FlightRegion& region) { region.collide(step); });
-  wait(member);
+  wait_and_meanwhile(member, [&](FlightRegion& region) { region.settle_inside(step); });
   for_each_region(member, [&](FlightRegion& region) { region.settle(step); });
-  wait(member);
+  wait_and_meanwhile(member, [&](FlightRegion& r) { r.foresee_inside(step, member.hold_until); });
   heed(member);
   for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
   member.profile.done(Profile::Phase::appointments);

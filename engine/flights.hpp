@@ -83,6 +83,8 @@ private:
   template <class Do>
   void for_each_region(const Member& member, Do something);
   void wait(const Member& member) { airspace_.candidates.team().arrive_and_wait(member.number); }
+  template <class Do>
+  void wait_and_meanwhile(const Member& member, Do something);
 
   Airspace airspace_;
   const std::int64_t most_steps_askew_;

@@ -13,6 +13,7 @@ class Selection {
 public:
   std::span<const std::uint32_t> items() const { return std::span(items_).first(size_); }
 
+  bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
   void add(std::uint32_t item) {
     *room_for(1) = item;

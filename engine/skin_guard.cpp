@@ -7,6 +7,23 @@
 
 namespace riesel {
 
+namespace {
+
+/// Steps for which something at (x, y) stays within `room` of the origin for sure if it goes on by
+/// (ux, uy) in each: before the first s with |(x, y) + s (ux, uy)| = room.
+std::int64_t steps_within(double room, double x, double y, double ux, double uy) {
+  const double left = room * room - x * x - y * y;
+  if (left <= 0.0) return 0;
+  const double speed2 = ux * ux + uy * uy;
+  const double outward = x * ux + y * uy;
+  const double root = std::sqrt(outward * outward + speed2 * left);
+  // Either is the root; this way round nothing cancels.
+  const double steps = outward < 0.0 ? (root - outward) / speed2 : left / (outward + root);
+  return Forecast::whole_steps(steps) - 1;
+}
+
+}  // namespace
+
 double room_in_skin(const Box& box, double skin, double tolerance) {
   const double resolution = box.metres_x(from_upper(1)) + box.metres_y(from_upper(1));
   return (0.5 * skin - tolerance - resolution) / generous;
@@ -16,13 +33,13 @@ SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Cou
                      double room)
     : state_(state), candidates_(candidates), courses_(courses), room_(room) {}
 
-std::int64_t SkinGuard::hold_until(SlotRange slots) {
+void SkinGuard::start_over(SlotRange slots) {
   fastest2_ = 0.0;
   const Grains& g = state_.grains;
   for (std::size_t slot = slots.begin; slot < slots.end; ++slot)
     fastest2_ = std::max(fastest2_, candidates_.squared_speed(state_.box, g.ux[slot], g.uy[slot]));
-  return std::min(candidates_.hold_until(),
-                  courses_.sorted_at() + Forecast::whole_steps(room_ / std::sqrt(fastest2_)) - 1);
+  const std::int64_t steps = Forecast::whole_steps(room_ / std::sqrt(fastest2_));
+  hold_until_ = std::min(candidates_.hold_until(), courses_.sorted_at() + steps - 1);
 }
 
 /// From where it was listed, coarsely, relative to the common motion.
@@ -37,23 +54,17 @@ SkinGuard::Metres SkinGuard::displacement(std::uint32_t slot, const Motion& cour
           state_.box.metres_y(from_there(course.y, then.y[slot], common.y))};
 }
 
-std::int64_t SkinGuard::hold_until(std::uint32_t slot, const Motion& course, std::int64_t now) {
+std::int64_t SkinGuard::note_course(std::uint32_t slot, const Motion& course, std::int64_t now) {
   const auto [x, y] = displacement(slot, course, now);
   const Box& box = state_.box;
   const auto& drift = candidates_.drift();
   const double ux = box.metres_x(wrapped_difference(course.ux, drift.x));
   const double uy = box.metres_y(wrapped_difference(course.uy, drift.y));
 
-  const double speed2 = ux * ux + uy * uy;
-  fastest2_ = std::max(fastest2_, speed2);
-  // The first s with |(x, y) + s (ux, uy)| = room
-  const double left = room_ * room_ - x * x - y * y;
-  if (left <= 0.0) return now;
-  const double outward = x * ux + y * uy;
-  const double root = std::sqrt(outward * outward + speed2 * left);
-  // Either is the root; this way round nothing cancels.
-  const double steps_left = outward < 0.0 ? (root - outward) / speed2 : left / (outward + root);
-  return now + Forecast::whole_steps(steps_left) - 1;
+  fastest2_ = std::max(fastest2_, ux * ux + uy * uy);
+  const std::int64_t hold_until = now + steps_within(room_, x, y, ux, uy);
+  hold_until_ = std::min(hold_until_, hold_until);
+  return hold_until;
 }
 
 }  // namespace riesel

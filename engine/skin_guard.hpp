@@ -24,11 +24,15 @@ public:
   /// `room` as room_in_skin(). Keeps references.
   SkinGuard(const State& state, const Candidates& candidates, const Courses& courses, double room);
 
-  /// The candidates hold for this step for sure if all of these grains, which have just been
-  /// listed, keep to their courses.
-  std::int64_t hold_until(SlotRange slots);
-  /// The same for one grain that goes on like this from step `now` on.
-  std::int64_t hold_until(std::uint32_t slot, const Motion& course, std::int64_t now);
+  /// These grains have just been listed.
+  void start_over(SlotRange slots);
+  /// A grain goes on like this from step `now` on. Returns the step until which the candidates hold
+  /// for it.
+  std::int64_t note_course(std::uint32_t slot, const Motion& course, std::int64_t now);
+
+  /// The step until which the candidates hold for sure if all keep to their courses, and kept to
+  /// those that they had since they were listed.
+  std::int64_t hold_until() const { return hold_until_; }
 
   /// m, how far such a grain has gone by `now` since it was listed.
   double gone(std::uint32_t slot, const Motion& course, std::int64_t now) const {
@@ -36,8 +40,7 @@ public:
     return std::hypot(x, y);
   }
 
-  /// (m per step)^2, relative to the drift, of the fastest of all that has been asked for since the
-  /// grains were listed.
+  /// (m per step)^2, relative to the drift, of the fastest course since the grains were listed.
   double fastest2() const { return fastest2_; }
 
 private:
@@ -51,6 +54,7 @@ private:
   const Courses& courses_;
   const double room_;  // m
   double fastest2_ = 0.0;
+  std::int64_t hold_until_ = 0;
 };
 
 }  // namespace riesel

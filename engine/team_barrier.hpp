@@ -55,10 +55,20 @@ public:
   /// Returns when all members, 0, 1, ..., have called it as often as this one. What each did before
   /// is seen by all afterwards.
   void arrive_and_wait(std::size_t member) {
+    arrive(member);
+    wait(member);
+  }
+
+  /// The two halves of it. What a member does between them nobody else may look at, or write to
+  /// what it looks at; it hides how long news takes from core to core.
+  void arrive(std::size_t member) {
     if (members() == 1) return;
     std::atomic<std::uint32_t>& mine = arrivals_[member].count;
-    const std::uint32_t before = mine.load(std::memory_order_relaxed);
-    mine.store(before + 1, std::memory_order_release);
+    mine.store(mine.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  }
+  void wait(std::size_t member) {
+    if (members() == 1) return;
+    const std::uint32_t before = arrivals_[member].count.load(std::memory_order_relaxed) - 1;
     for (const Arrivals& other : arrivals_) wait_for_more(other, before);
   }
 

@@ -56,3 +56,18 @@ TEST_CASE("a member that comes late finds the others asleep and wakes them") {
   };
   CHECK(out_of_step(members, 20, late) == 0);
 }
+
+TEST_CASE("a member that has arrived can work on while the others pass") {
+  TeamBarrier barrier(2);
+  std::atomic<bool> passed{false};
+  std::thread other([&] {
+    barrier.arrive_and_wait(1);
+    passed = true;
+  });
+  barrier.arrive(0);
+  const auto give_up_at = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!passed && std::chrono::steady_clock::now() < give_up_at) std::this_thread::yield();
+  CHECK(passed);
+  barrier.wait(0);
+  other.join();
+}
