@@ -164,7 +164,7 @@ FAULTS = [
     ("flights askew that expect no wall to shake", "engine/flights.cpp",
      "fastest + 2.0 * airspace_.shaking)", "fastest)"),
     ("strays of flights that nobody knows of", "engine/flight_region.cpp",
-     "if (hold_until < needed_until_) mine.strays.push_back({slot, hold_until});", ""),
+     "if (hold_until < needed_until_) border_.mine().strays.push_back({slot, hold_until});", ""),
     ("strays of flights that nobody looks for in the slice after", "engine/flight_strays.cpp",
      "look_around(stray, {next.begin, next.end}, step);", "static_cast<void>(next);"),
     ("strays of flights that the slice before does not look for", "engine/flight_strays.cpp",
