@@ -230,6 +230,13 @@ FAULTS = [
      "if (told != now) told = now;", "if (told == now) told = now;"),
     ("a foreign grain not moved on from what was announced", "engine/border.cpp",
      "if (announced_ == step) return m;", "return m;"),
+    ("kicks of other slices not counted as straying", "engine/flight_region.cpp",
+     "  suffer(step);\n  profile_.done(Profile::Phase::forces);\n"
+     "  for (const DeflectedGrains::Place place : let_go_) let_fly(place, step);\n"
+     "  let_go_.clear();\n  correct_courses(step);\n",
+     "  profile_.done(Profile::Phase::forces);\n"
+     "  for (const DeflectedGrains::Place place : let_go_) let_fly(place, step);\n"
+     "  let_go_.clear();\n  correct_courses(step);\n  suffer(step);\n"),
     ("foreign grains forgotten while others are waited for", "engine/appointments.cpp",
      "for (const std::uint32_t pair : put_off_.items()) reconsidered_.add(pair);", ""),
     ("contacts looked for where their grains were before the sorting", "engine/candidates.cpp",
