@@ -155,7 +155,6 @@ void Appointments::make_all(std::int64_t now, std::int64_t earliest, std::int64_
 }
 
 void Appointments::make_inside(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
-  if (border_.foreign().empty()) return;
   put_off_.clear();
   reconsidered_.keep_if([&](std::uint32_t candidate) {
     if (candidate >= pair_count() || border_.owns(slice_.pairs.second[candidate])) return true;

@@ -3,7 +3,6 @@
 #include "engine/askew.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace riesel {
 

@@ -39,7 +39,8 @@ struct alignas(cache_line) Announcement {
   std::vector<std::uint32_t> foreign;     ///< slots that are foreign here, increasing
   std::vector<std::uint32_t> border;      ///< own grains that are foreign elsewhere, increasing
   AlignedVector<std::uint8_t> deflected;  ///< whether each of the border is, after the last step
-  AlignedVector<Motion> motions;          ///< of those that are; a cache line each
+  AlignedVector<Motion> motions;          ///< of those that are
+  static_assert(sizeof(Motion) == cache_line);  // each may be written while others are read
 
   alignas(cache_line) std::vector<Deed> deeds;
 
@@ -81,7 +82,7 @@ public:
   }
   std::size_t numbered() const { return slice_.end - slice_.begin + foreign().size(); }
 
-  /// What all grains of the border do after `step`. All slices do that in the same step.
+  /// Announces what the grains of the border do after `step`. All slices announce the same step.
   void announce_motion(const DeflectedGrains& deflected, std::int64_t step);
   /// Of a foreign grain in `step`, that of the announcements or the next; `fallen` is the fall in
   /// this step.
@@ -115,7 +116,7 @@ private:
   std::vector<Announcement>& announcements_;
   const std::size_t index_;
   std::vector<std::size_t> before_, after_;
-  std::int64_t announced_ = 0;  // the step of which all motion is
+  std::int64_t announced_ = 0;  // the last step of which motion was announced, by all slices
 };
 
 }  // namespace riesel

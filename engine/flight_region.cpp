@@ -130,6 +130,7 @@ void FlightRegion::settle_inside(std::int64_t step) {
       let_fly(place, step);
   }
   let_go_.resize(left);
+  profile_.done(Profile::Phase::appointments);
 }
 
 void FlightRegion::foresee(std::int64_t step, std::int64_t hold_until) {

@@ -112,9 +112,9 @@ void Flights::heed(Member& member) const {
   }
 }
 
-/// What a step is, in the order in which it happens. Between the barriers all may change what
-/// others know of them, and nobody looks at that of others. What concerns grains inside of a slice,
-/// which are most, is done while news is under way.
+/// What a step is, in the order in which it happens. Between the barriers all take up what others
+/// have done to their grains, and may change what others know of them, which nobody looks at then.
+/// What concerns grains inside of a slice, which are most, is done while news is under way.
 void Flights::step_together(Member& member, std::int64_t step) {
   for_each_region(member, [&](FlightRegion& region) { region.move(step); });
   if (step >= member.hold_until) renew(member, step);

@@ -30,8 +30,8 @@ public:
   /// for it.
   std::int64_t note_course(std::uint32_t slot, const Motion& course, std::int64_t now);
 
-  /// The step until which the candidates hold for sure if all keep to their courses, and kept to
-  /// those that they had since they were listed.
+  /// The step until which the candidates hold for sure, as far as these grains are concerned, if
+  /// they keep to the courses noted so far.
   std::int64_t hold_until() const { return hold_until_; }
 
   /// m, how far such a grain has gone by `now` since it was listed.

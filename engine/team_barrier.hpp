@@ -52,15 +52,16 @@ public:
 
   std::size_t members() const { return arrivals_.size(); }
 
-  /// Returns when all members, 0, 1, ..., have called it as often as this one. What each did before
-  /// is seen by all afterwards.
+  /// Returns when all members, 0, 1, ..., have arrived as often as this one. What each did before
+  /// it arrived is seen by all afterwards.
   void arrive_and_wait(std::size_t member) {
     arrive(member);
     wait(member);
   }
 
-  /// The two halves of it. What a member does between them nobody else may look at, or write to
-  /// what it looks at; it hides how long news takes from core to core.
+  /// The two halves of it, to be called in turn. Meanwhile others may be anywhere between their last
+  /// arrival and their next: what a member does between the halves must not touch what they use. So
+  /// it has something to do while news goes from core to core.
   void arrive(std::size_t member) {
     if (members() == 1) return;
     std::atomic<std::uint32_t>& mine = arrivals_[member].count;

@@ -77,7 +77,7 @@ class FastState:
 
 
 def fast_states(tables):
-    runs = runs_of_all(tables, ("fig6_fast", "fig6_stiff"))
+    runs = runs_of_all(tables, ("fig6_fast", "fig6_fast_long", "fig6_stiff"))
     return [FastState(*place, of_this) for place, of_this in sorted(grouped(runs, "k_n", "e_n"))]
 
 

@@ -13,7 +13,7 @@ Usage: docs/paper/reproduce.sh FIGURE...
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (some seconds)
   fig6         tube, slow starts of three stiffnesses, ten seeds, and the next one (an hour on two cores)
-  fig6_fast    tube, starts from below and above the fast states (half an hour)
+  fig6_fast    tube, starts from below and above the fast states (an hour)
   fig6_steps   the same, and what time step and attraction make of the fast states (an hour)
   fig6_thresholds  end of the slow branch over spacing, width and length, ten seeds; hysteresis, lifetimes (an hour)
   fig6_map     tube, slow and fast starts over the spacing of the wall grains (ten minutes)
@@ -45,9 +45,9 @@ reproduce() {
       sweep fig6_short
       cp sweeps/fig6_short/sweep.csv docs/paper/fig6_short.csv
       ;;
-    fig6) campaigns fig6_slow fig6_fast fig6_stiff ;;
-    fig6_fast) campaigns fig6_fast fig6_stiff ;;
-    fig6_steps) campaigns fig6_fast fig6_stiff fig6_checks fig6_locking ;;
+    fig6) campaigns fig6_slow fig6_fast fig6_fast_long fig6_stiff ;;
+    fig6_fast) campaigns fig6_fast fig6_fast_long fig6_stiff ;;
+    fig6_steps) campaigns fig6_fast fig6_fast_long fig6_stiff fig6_checks fig6_locking ;;
     fig6_thresholds) campaigns fig6_slow fig6_spacing fig6_narrow fig6_length fig6_choices fig6_clipped
       campaigns fig6_hysteresis fig6_lifetimes ;;
     fig6_map) campaigns fig6_map ;;
