@@ -68,9 +68,9 @@ public:
   /// appointments are made with the new courses, none for after `hold_until`.
   void foresee(std::int64_t step, std::int64_t hold_until);
 
-  /// What can be done of these two before, while others are waited for, or left to them: grains that
-  /// are foreign to none and have been let go, or have been guests, fly on; candidates that have no
-  /// foreign grain get their appointments.
+  /// What can be done of these two before, while others are waited for, or left to them: grains
+  /// that are foreign to none and have been let go, or have been guests, fly on; candidates that
+  /// have no foreign grain get their appointments.
   void settle_inside(std::int64_t step);
   void foresee_inside(std::int64_t step, std::int64_t hold_until);
 

@@ -59,9 +59,9 @@ public:
     wait(member);
   }
 
-  /// The two halves of it, to be called in turn. Meanwhile others may be anywhere between their last
-  /// arrival and their next: what a member does between the halves must not touch what they use. So
-  /// it has something to do while news goes from core to core.
+  /// The two halves of it, to be called in turn. Meanwhile others may be anywhere between their
+  /// last arrival and their next: what a member does between the halves must not touch what they
+  /// use. So it has something to do while news goes from core to core.
   void arrive(std::size_t member) {
     if (members() == 1) return;
     std::atomic<std::uint32_t>& mine = arrivals_[member].count;
