@@ -13,6 +13,12 @@ void sort_and_unite(std::vector<std::uint32_t>& slots) {
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
+/// How many of the slots, which increase, come before this one.
+std::size_t rank_in(const std::vector<std::uint32_t>& slots, std::uint32_t slot) {
+  return static_cast<std::size_t>(std::lower_bound(slots.begin(), slots.end(), slot)
+                                  - slots.begin());
+}
+
 }  // namespace
 
 void Border::find_neighbours(bool slices_are_thick) {
@@ -53,20 +59,16 @@ bool Border::is_foreign(std::uint32_t slot) const {
   return std::binary_search(foreign().begin(), foreign().end(), slot);
 }
 
-std::size_t Border::number_of_foreign(std::uint32_t slot) const {
-  const auto rank = std::lower_bound(foreign().begin(), foreign().end(), slot) - foreign().begin();
-  return slice_.end - slice_.begin + static_cast<std::size_t>(rank);
+bool Border::is_at_border(std::uint32_t slot) const {
+  return std::binary_search(mine().border.begin(), mine().border.end(), slot);
 }
 
-/// Where the grain is among those of that border, if it is one of them.
-std::optional<std::size_t> Border::place_at_border(const Announcement& of, std::uint32_t slot) {
-  const auto found = std::lower_bound(of.border.begin(), of.border.end(), slot);
-  if (found == of.border.end() || *found != slot) return std::nullopt;
-  return static_cast<std::size_t>(found - of.border.begin());
+std::size_t Border::number_of_foreign(std::uint32_t slot) const {
+  return slice_.end - slice_.begin + rank_in(foreign(), slot);
 }
 
 void Border::announce_course(std::uint32_t slot) {
-  if (has(slot)) mine().new_courses.push_back(slot);
+  if (is_at_border(slot)) mine().new_courses.push_back(slot);
 }
 
 void Border::announce_motion(const DeflectedGrains& deflected, std::int64_t step) {
@@ -84,10 +86,10 @@ void Border::announce_motion(const DeflectedGrains& deflected, std::int64_t step
 Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const {
   for (const std::size_t i : after_) {
     const Announcement& other = announcements_[i];
-    const auto place = place_at_border(other, slot);
-    if (!place) continue;
-    if (other.deflected[*place] == 0) break;
-    Motion m = other.motions[*place];
+    const std::size_t place = rank_in(other.border, slot);
+    if (place == other.border.size() || other.border[place] != slot) continue;
+    if (other.deflected[place] == 0) break;
+    Motion m = other.motions[place];
     if (announced_ == step) return m;
     m.take_up_kick();
     m.x = wrapped_sum(m.x, wrapped_sum(m.ux, fallen.x));

@@ -15,7 +15,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace riesel {
@@ -91,7 +90,7 @@ public:
   Announcement& mine() { return announcements_[index_]; }
   const Announcement& mine() const { return announcements_[index_]; }
   /// Whether an own grain is at the border: foreign elsewhere.
-  bool has(std::uint32_t slot) const { return place_at_border(mine(), slot).has_value(); }
+  bool is_at_border(std::uint32_t slot) const;
   /// Announces it if it is.
   void announce_course(std::uint32_t slot);
 
@@ -108,7 +107,6 @@ public:
   const std::vector<std::size_t>& after() const { return after_; }
 
 private:
-  static std::optional<std::size_t> place_at_border(const Announcement& of, std::uint32_t slot);
   std::size_t number_of_foreign(std::uint32_t slot) const;
 
   const Slice& slice_;

@@ -73,7 +73,7 @@ void FlightRegion::set_out(std::int64_t step, Kicks kicks) {
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
     if (is_guest(place)) continue;
     set_course(place, step, kicks);
-    if (deflected_.contacts(place) == 0) let_go_.push_back(place);
+    if (deflected_.contacts(place) == 0) let_go_.add(place);
   }
   announce(step);
 }
@@ -114,7 +114,7 @@ inline void FlightRegion::let_fly(DeflectedGrains::Place place, std::int64_t ste
 void FlightRegion::settle(std::int64_t step) {
   suffer(step);
   profile_.done(Profile::Phase::forces);
-  for (const DeflectedGrains::Place place : let_go_) let_fly(place, step);
+  for (const DeflectedGrains::Place place : let_go_.items()) let_fly(place, step);
   let_go_.clear();
   correct_courses(step);
   announce(step);
@@ -122,14 +122,11 @@ void FlightRegion::settle(std::int64_t step) {
 
 void FlightRegion::settle_inside(std::int64_t step) {
   profile_.done(Profile::Phase::forces);
-  std::size_t left = 0;
-  for (const DeflectedGrains::Place place : let_go_) {
-    if (at_border(place))
-      let_go_[left++] = place;  // perhaps others do something to it
-    else
-      let_fly(place, step);
-  }
-  let_go_.resize(left);
+  let_go_.keep_if([&](DeflectedGrains::Place place) {
+    if (at_border(place)) return true;  // perhaps others do something to it
+    let_fly(place, step);
+    return false;
+  });
   profile_.done(Profile::Phase::appointments);
 }
 
@@ -277,7 +274,7 @@ void FlightRegion::suffer(std::int64_t step) {
       const DeflectedGrains::Place place = deflect(deed.slot, step);
       deflected_.add_kick(place, deed.kick);
       deflected_.contacts(place) += deed.contacts;
-      if (deed.contacts < 0) let_go_.push_back(place);
+      if (deed.contacts < 0) let_go_.add(place);
     }
   });
 }
@@ -335,7 +332,7 @@ DeflectedGrains::Place FlightRegion::invite(std::uint32_t slot) {
 void FlightRegion::let_go(std::int64_t body) {
   const auto place = static_cast<DeflectedGrains::Place>(body);
   change_contacts(place, -1);
-  let_go_.push_back(place);
+  let_go_.add(place);
 }
 
 void FlightRegion::change_contacts(DeflectedGrains::Place place, std::int32_t by) {

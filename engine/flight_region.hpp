@@ -12,6 +12,7 @@
 #include "engine/courses.hpp"
 #include "engine/deflected_grains.hpp"
 #include "engine/profile.hpp"
+#include "engine/selection.hpp"
 #include "engine/skin_guard.hpp"
 #include "engine/state.hpp"
 
@@ -114,7 +115,9 @@ private:
   bool is_guest(DeflectedGrains::Place place) const {
     return !border_.owns(deflected_.slot(place));
   }
-  bool at_border(DeflectedGrains::Place place) const { return border_.has(deflected_.slot(place)); }
+  bool at_border(DeflectedGrains::Place place) const {
+    return border_.is_at_border(deflected_.slot(place));
+  }
   struct Position {
     Fixed x, y;
   };
@@ -129,7 +132,7 @@ private:
   Border border_;
   DeflectedGrains deflected_;
   std::vector<DeflectedGrains::Place> guests_;
-  std::vector<DeflectedGrains::Place> let_go_;  // of this step: a contact has ended
+  Selection let_go_;  // places, of this step: a contact has ended
   SkinGuard skin_guard_;
   std::int64_t needed_until_ = nobody_asks;  // step, the candidates
   Appointments appointments_;

@@ -12,9 +12,9 @@ Usage: docs/paper/reproduce.sh FIGURE...
 
   fig3         single wall grain: stiffness, time step, contact law (seconds)
   fig4_5       row of wall grains (some seconds)
-  fig6         tube, slow starts of three stiffnesses, ten seeds, and the next one (an hour on two cores)
+  fig6         tube, slow starts of three stiffnesses, ten seeds, and the next one (70 minutes on two cores)
   fig6_fast    tube, starts from below and above the fast states (an hour)
-  fig6_steps   the same, and what time step and attraction make of the fast states (an hour)
+  fig6_steps   the same, and what time step and attraction make of the fast states (90 minutes)
   fig6_thresholds  end of the slow branch over spacing, width and length, ten seeds; hysteresis, lifetimes (an hour)
   fig6_map     tube, slow and fast starts over the spacing of the wall grains (ten minutes)
   fig6_short   tube of 100 mm, one seed, 3 s (five minutes)

@@ -231,15 +231,15 @@ FAULTS = [
     ("a foreign grain not moved on from what was announced", "engine/border.cpp",
      "if (announced_ == step) return m;", "return m;"),
     ("a grain at the border that flies on before others have told what they did to it",
-     "engine/flight_region.cpp", "    if (at_border(place))\n", "    if (false)\n"),
+     "engine/flight_region.cpp", "    if (at_border(place)) return true;", ""),
     ("courses set after the sorting not guarded", "engine/skin_guard.cpp",
      "hold_until_ = std::min(hold_until_, hold_until);", ""),
     ("kicks of other slices not counted as straying", "engine/flight_region.cpp",
      "  suffer(step);\n  profile_.done(Profile::Phase::forces);\n"
-     "  for (const DeflectedGrains::Place place : let_go_) let_fly(place, step);\n"
+     "  for (const DeflectedGrains::Place place : let_go_.items()) let_fly(place, step);\n"
      "  let_go_.clear();\n  correct_courses(step);\n",
      "  profile_.done(Profile::Phase::forces);\n"
-     "  for (const DeflectedGrains::Place place : let_go_) let_fly(place, step);\n"
+     "  for (const DeflectedGrains::Place place : let_go_.items()) let_fly(place, step);\n"
      "  let_go_.clear();\n  correct_courses(step);\n  suffer(step);\n"),
     ("foreign grains forgotten while others are waited for", "engine/appointments.cpp",
      "for (const std::uint32_t pair : put_off_.items()) reconsidered_.add(pair);", ""),
