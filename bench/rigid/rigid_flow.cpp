@@ -118,7 +118,7 @@ void RigidFlow::leave_frame(double duration) {
   }
 }
 
-void RigidFlow::come_to_now(Disc& disc) {
+void RigidFlow::come_to_now(Disc& disc) const {
   disc.x += disc.ux * (now_ - disc.since);
   disc.y += disc.uy * (now_ - disc.since);
   disc.since = now_;
@@ -243,7 +243,7 @@ void RigidFlow::foresee(std::size_t i) {
       for (std::size_t j = first_in_cell_[static_cast<std::size_t>(cell)]; j != nobody;
            j = discs_[j].next) {
         if (j == i) continue;
-        const double time = meets(disc, discs_[j], soonest);
+        const double time = meets(disc, discs_[j]);
         if (time >= soonest) continue;
         soonest = time;
         disc.partner = j;
@@ -262,16 +262,18 @@ void RigidFlow::foresee(std::size_t i) {
 /// s from now.
 double RigidFlow::leaves_cell(const Disc& disc) const {
   const auto from = [](double place, double cell, std::int64_t number, double u) {
+    if (u == 0.0) return never;
     const auto border = static_cast<double>(u > 0.0 ? number + 1 : number) * cell;
-    return u == 0.0 ? never : std::max(0.0, (border - place) / u);
+    return std::max(0.0, (border - place) / u);
   };
+  const double up_or_down = from(disc.y, cell_y_, disc.row, disc.uy);
   const bool towards_wall = disc.ux > 0.0 ? disc.column == columns_ - 1 : disc.column == 0;
-  return std::min(towards_wall ? never : from(disc.x, cell_x_, disc.column, disc.ux),
-                  from(disc.y, cell_y_, disc.row, disc.uy));
+  if (towards_wall) return up_or_down;
+  return std::min(from(disc.x, cell_x_, disc.column, disc.ux), up_or_down);
 }
 
-/// s from now; `never` if not within `within`.
-double RigidFlow::meets(const Disc& disc, const Disc& other, double within) const {
+/// s from now; `never` if they do not.
+double RigidFlow::meets(const Disc& disc, const Disc& other) const {
   const double age = now_ - other.since;
   const double dx = other.x + other.ux * age - disc.x;
   double dy = other.y + other.uy * age - disc.y;
@@ -284,8 +286,7 @@ double RigidFlow::meets(const Disc& disc, const Disc& other, double within) cons
   if (apart <= 0.0) return 0.0;
   const double square = closing * closing - u2 * apart;
   if (square <= 0.0) return never;
-  const double time = apart / (closing + std::sqrt(square));
-  return time < within ? time : never;
+  return apart / (closing + std::sqrt(square));
 }
 
 /// A way along the wall is looked at in pieces: nothing, or when it touches, or until when it does

@@ -78,7 +78,7 @@ private:
   void leave_place(std::size_t i);
   std::size_t cell_of(const Disc& disc) const;
 
-  void come_to_now(Disc& disc);
+  void come_to_now(Disc& disc) const;
   void happen(std::size_t i);
   void change_cell(std::size_t i);
   void meet(std::size_t i, std::size_t j);
@@ -87,7 +87,7 @@ private:
 
   void foresee(std::size_t i);
   double leaves_cell(const Disc& disc) const;
-  double meets(const Disc& disc, const Disc& other, double within) const;
+  double meets(const Disc& disc, const Disc& other) const;
   std::optional<WallEvent> meets_wall(const Disc& disc, const Wall& wall, double within) const;
 
   double width_, length_, gravity_, mu_, shortest_interval_;

@@ -16,6 +16,7 @@ import matplotlib
 from fig6 import fig6, fig6_fast
 from fig6_balance import fig6_balance
 from fig6_map import fig6_map
+from fig6_rigid import fig6_rigid
 from fig6_short import fig6_short
 from fig6_steps import fig6_steps
 from fig6_thresholds import fig6_thresholds
@@ -38,6 +39,7 @@ def main():
                "fig6_thresholds": lambda: fig6_thresholds(HERE, out, plt),
                "fig6_short": lambda: fig6_short(HERE, out, plt),
                "fig6_map": lambda: fig6_map(HERE, out, plt),
+               "fig6_rigid": lambda: fig6_rigid(HERE, out, plt),
                "fig6_balance": lambda: fig6_balance(sweeps, HERE, out, plt)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("figures", metavar="FIGURE", nargs="+", choices=figures)

@@ -5,6 +5,7 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 
 riesel=${RIESEL:-build/release/app/riesel}
+rigid=${RIGID:-build/bench/bench/rigid/rigid}
 
 usage() {
   cat <<END
@@ -18,6 +19,7 @@ Usage: docs/paper/reproduce.sh FIGURE...
   fig6_thresholds  end of the slow branch over spacing, width and length, ten seeds; hysteresis, lifetimes (an hour)
   fig6_map     tube, slow and fast starts over the spacing of the wall grains (ten minutes)
   fig6_short   tube of 100 mm, one seed, 3 s (five minutes)
+  fig6_rigid   tube, rigid grains and ever stiffer ones (an hour; wants the program \$RIGID, or else $rigid)
   fig6_balance predicted states from single impacts (seconds; reads the tables and runs of the first two)
 
 The program is \$RIESEL, or else $riesel (./setup.sh build).
@@ -37,6 +39,17 @@ campaigns() {
   done
 }
 
+# The slow branch of rigid grains, and where a fast start ends; then the rule that cuts off series of impacts without end.
+rigid_flows() {
+  local flows=("$rigid" flows scenarios/periodic_tube.yaml --set tube.length='48 mm' --set run.duration='12 s' --seeds 3)
+  local made
+  made=$(mktemp -d)
+  "${flows[@]}" --start 1,100 --restitution 0.60,0.65,0.70,0.74,0.76,0.78,0.80,0.85,0.90,0.95 --out "$made/flows.csv"
+  "${flows[@]}" --start 1 --restitution 0.60,0.80 --shortest-interval 1e-6,1e-8 --out "$made/intervals.csv"
+  { cat "$made/flows.csv" && tail -n +2 "$made/intervals.csv"; } >docs/paper/fig6_rigid.csv
+  rm -r "$made"
+}
+
 reproduce() {
   case $1 in
     fig3) for name in fig3 fig3_time_step fig3_laws; do sweep "$name"; done ;;
@@ -51,6 +64,10 @@ reproduce() {
     fig6_thresholds) campaigns fig6_slow fig6_spacing fig6_narrow fig6_length fig6_choices fig6_clipped
       campaigns fig6_hysteresis fig6_lifetimes ;;
     fig6_map) campaigns fig6_map ;;
+    fig6_rigid)
+      rigid_flows
+      campaigns fig6_slow fig6_stiffer
+      ;;
     fig6_balance)
       sweep fig6_curves
       /usr/bin/python3 -B docs/paper/keep_profiles.py

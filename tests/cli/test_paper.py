@@ -20,7 +20,7 @@ POINTS = {
     "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_slow": 250, "fig6_fast": 42,
     "fig6_fast_long": 6, "fig6_stiff": 16, "fig6_checks": 54, "fig6_locking": 22, "fig6_clipped": 50,
     "fig6_spacing": 190, "fig6_narrow": 210, "fig6_length": 100, "fig6_choices": 230, "fig6_hysteresis": 78,
-    "fig6_lifetimes": 150, "fig6_map": 180, "fig6_curves": 4,
+    "fig6_lifetimes": 150, "fig6_map": 180, "fig6_curves": 4, "fig6_stiffer": 24,
 }
 
 
@@ -56,7 +56,8 @@ class Paper(CommandTest):
         self.assert_quoted("fig3")
 
     def test_the_numbers_of_fig_6_are_those_of_the_kept_tables(self):
-        for figure in ("fig6", "fig6_fast", "fig6_steps", "fig6_thresholds", "fig6_short", "fig6_map"):
+        for figure in ("fig6", "fig6_fast", "fig6_steps", "fig6_thresholds", "fig6_short", "fig6_map",
+                       "fig6_rigid"):
             with self.subTest(figure):
                 self.assert_quoted(figure)
 
