@@ -96,7 +96,8 @@ def row_of(sweep, row):
              "entry_rate": visits["entry_rate"]["value"],
              "entry_slip": visits["entry_slip"]["value"], "verdict": summary["validity"]["verdict"],
              "brake_failure": summary["validity"]["brake_failure_fraction"],
-             "steps_per_contact": finding(summary, "steps_per_contact"), "commit": summary["commit"][:7]}
+             "steps_per_contact": finding(summary, "steps_per_contact"),
+             "wall_speed": finding(summary, "wall_speed_over_v_crit"), "commit": summary["commit"][:7]}
     return kept | windows_of(series, mass, grains, gravity)
 
 

@@ -39,12 +39,13 @@ campaigns() {
   done
 }
 
-# The slow branch of rigid grains, and where a fast start ends; then the rule that cuts off series of impacts without end.
+# Rigid grains from slow and fast starts; then what cutting off series of impacts without end makes of it.
 rigid_flows() {
   local flows=("$rigid" flows scenarios/periodic_tube.yaml --set tube.length='48 mm' --set run.duration='12 s' --seeds 3)
+  local e_n=0.60,0.65,0.70,0.74,0.76,0.78,0.80,0.85,0.87,0.88,0.89,0.90,0.95,0.96,0.97
   local made
   made=$(mktemp -d)
-  "${flows[@]}" --start 1,100 --restitution 0.60,0.65,0.70,0.74,0.76,0.78,0.80,0.85,0.90,0.95 --out "$made/flows.csv"
+  "${flows[@]}" --start 1,100 --restitution "$e_n" --out "$made/flows.csv"
   "${flows[@]}" --start 1 --restitution 0.60,0.80 --shortest-interval 1e-6,1e-8 --out "$made/intervals.csv"
   { cat "$made/flows.csv" && tail -n +2 "$made/intervals.csv"; } >docs/paper/fig6_rigid.csv
   rm -r "$made"

@@ -83,7 +83,7 @@ TEST_CASE("each threshold separates two verdicts") {
   const Case c = GENERATE(Case{&Evidence::max_overlap_ratio, 0.2, 0.5},
                           Case{&Evidence::brake_failure_fraction, 0.1, 0.5},
                           Case{&Evidence::passages_per_visit, 0.5, 2.0},
-                          Case{&Evidence::wall_speed_ratio, 1.0, 3.0},
+                          Case{&Evidence::wall_speed_ratio, 0.5, 3.0},
                           Case{&Evidence::energy_error_ratio, 0.01, 0.1});
   CHECK(verdict_with(c.member, 0.99 * c.suspect) == Validity::valid);
   CHECK(verdict_with(c.member, 1.01 * c.suspect) == Validity::suspect);
