@@ -19,7 +19,7 @@ Usage: docs/paper/reproduce.sh FIGURE...
   fig6_thresholds  end of the slow branch over spacing, width and length, ten seeds; hysteresis, lifetimes (an hour)
   fig6_map     tube, slow and fast starts over the spacing of the wall grains (ten minutes)
   fig6_short   tube of 100 mm, one seed, 3 s (five minutes)
-  fig6_rigid   tube, rigid grains and ever stiffer ones (an hour; wants the program \$RIGID, or else $rigid)
+  fig6_rigid   tube, rigid grains and stiffer ones (40 minutes; wants the program \$RIGID, or else $rigid)
   fig6_balance predicted states from single impacts (seconds; reads the tables and runs of the first two)
 
 The program is \$RIESEL, or else $riesel (./setup.sh build).
@@ -67,7 +67,7 @@ reproduce() {
     fig6_map) campaigns fig6_map ;;
     fig6_rigid)
       rigid_flows
-      campaigns fig6_slow fig6_stiffer
+      campaigns fig6_stiffer
       ;;
     fig6_balance)
       sweep fig6_curves
