@@ -24,6 +24,7 @@ SHORTER = [
     (r"cmake -S (examples/\w+) .*|cmake --build build/cooling|build/cooling/cooling run .*", "test -f tests/package/test_example.py"),
     (r"cmake --preset (\w+) && cmake --build --preset .*", r"cmake --list-presets | grep '\"\1\"'"),
     (r"build/bench/bench/speed( .*)?", "build/bench/bench/speed list"),
+    (r"build/bench/bench/rigid/rigid speed STATE\.h5", "test -x build/bench/bench/rigid/rigid"),
     (r"build/bench/bench/simd/simd STATE\.h5", "test -x build/bench/bench/simd/simd"),
     (r"bench/compare\.py \w+\.json", f"bench/compare.py {KEPT}"),
     (r"bench/compare\.py A\.json B\.json (.*)", rf"bench/compare.py {KEPT} {KEPT} \1"),
