@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
+#include <string>
+#include <variant>
 
 namespace riesel::bench {
 
@@ -21,8 +22,7 @@ void reject_unless(bool known, const char* what) {
 }  // namespace
 
 RigidFlow::RigidFlow(const State& state, const ContactModel& model, double shortest_interval)
-    : width_(state.box.width),
-      length_(state.box.length),
+    : length_(state.box.length),
       gravity_(state.gravity.y),
       mu_(model.friction),
       shortest_interval_(shortest_interval),
@@ -60,10 +60,10 @@ RigidFlow::RigidFlow(const State& state, const ContactModel& model, double short
                       .wall = {}});
     largest = std::max(largest, 2.0 * g.radius);
   }
-  columns_ = static_cast<std::int64_t>(width_ / largest);
+  columns_ = static_cast<std::int64_t>(state.box.width / largest);
   rows_ = static_cast<std::int64_t>(length_ / largest);
   reject_unless(columns_ >= 3 && rows_ >= 3, "the box is too small");
-  cell_x_ = width_ / static_cast<double>(columns_);
+  cell_x_ = state.box.width / static_cast<double>(columns_);
   cell_y_ = length_ / static_cast<double>(rows_);
 }
 
@@ -227,7 +227,8 @@ void RigidFlow::touch_wall(std::size_t i) {
 
 // --- What will happen ---
 
-/// Its next event, if nobody who touches it meanwhile changes that. Whoever does foresees it anew.
+/// Its next event, as things are now. Who is hit meanwhile foresees anew; that its partner has been
+/// is noticed when they would meet.
 void RigidFlow::foresee(std::size_t i) {
   Disc& disc = discs_[i];
   come_to_now(disc);
@@ -243,7 +244,7 @@ void RigidFlow::foresee(std::size_t i) {
       for (std::size_t j = first_in_cell_[static_cast<std::size_t>(cell)]; j != nobody;
            j = discs_[j].next) {
         if (j == i) continue;
-        const double time = meets(disc, discs_[j]);
+        const double time = meets(disc, discs_[j], row);
         if (time >= soonest) continue;
         soonest = time;
         disc.partner = j;
@@ -272,12 +273,12 @@ double RigidFlow::leaves_cell(const Disc& disc) const {
   return std::min(from(disc.x, cell_x_, disc.column, disc.ux), up_or_down);
 }
 
-/// s from now; `never` if they do not.
-double RigidFlow::meets(const Disc& disc, const Disc& other) const {
+/// s from now; `never` if they do not. `row` is that of the other one's nearest image.
+double RigidFlow::meets(const Disc& disc, const Disc& other, std::int64_t row) const {
   const double age = now_ - other.since;
+  const double periods = static_cast<double>(row - other.row) * cell_y_;
   const double dx = other.x + other.ux * age - disc.x;
-  double dy = other.y + other.uy * age - disc.y;
-  dy -= length_ * std::nearbyint(dy / length_);
+  const double dy = other.y + other.uy * age + periods - disc.y;
   const double ux = other.ux - disc.ux, uy = other.uy - disc.uy;
   const double closing = -(dx * ux + dy * uy);
   if (closing <= 0.0) return never;

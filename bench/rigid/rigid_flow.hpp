@@ -35,7 +35,7 @@ class RigidFlow {
 public:
   /// The grains of `state`. Throws std::invalid_argument where there is more to it than this
   /// program knows: other laws than the linear one with capped slip, rotation, smooth or moving
-  /// walls, gravity across the tube, or a box of less than three grains.
+  /// walls, gravity across the tube, or a box less than three grains wide or long.
   RigidFlow(const State& state, const ContactModel& model, double shortest_interval);
 
   /// By `duration` (s), some milliseconds: for so long the grains are seen from a frame that falls
@@ -87,10 +87,10 @@ private:
 
   void foresee(std::size_t i);
   double leaves_cell(const Disc& disc) const;
-  double meets(const Disc& disc, const Disc& other) const;
+  double meets(const Disc& disc, const Disc& other, std::int64_t row) const;
   std::optional<WallEvent> meets_wall(const Disc& disc, const Wall& wall, double within) const;
 
-  double width_, length_, gravity_, mu_, shortest_interval_;
+  double length_, gravity_, mu_, shortest_interval_;
   LinearLaw law_;
   Attraction attraction_;
   std::vector<Wall> walls_;

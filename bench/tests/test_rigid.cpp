@@ -176,6 +176,23 @@ TEST_CASE("two rigid grains meet when their gap is closed, across the seam too",
   CHECK(flow.grain(1).vy == Approx(1.0 + 10.0 * 0.81e-3));
 }
 
+TEST_CASE("rigid grains that go round the seam many times meet whom they come to", "[rigid]") {
+  State state = empty_tube(0.0);
+  add_grain(state, grain_of(4e-3, 5e-3, 0.0, 60.0));
+  add_grain(state, grain_of(6e-3, 5e-3, -0.5, -60.0));  // level with the first each 80 us
+  RigidFlow flow(state, model_of(2000.0, 1.0, 0.0), shortest);
+  flow.advance(1.9e-3);  // 24 times past each other, 1 mm and more apart in x
+  CHECK(flow.counts().impacts == 0);
+  flow.advance(0.2e-3);
+  CHECK(flow.counts().impacts > 0);
+
+  RigidFlow at_once(state, model_of(2000.0, 1.0, 0.0), shortest);
+  at_once.advance(2.1e-3);
+  CHECK(at_once.counts().impacts == flow.counts().impacts);
+  CHECK(at_once.grain(0).vx == Approx(flow.grain(0).vx).epsilon(1e-6));
+  CHECK(deepest_overlap(at_once, state) < 1e-12);
+}
+
 TEST_CASE("a meeting that somebody has prevented does not happen", "[rigid]") {
   State state = empty_tube(0.0);
   add_grain(state, grain_of(3e-3, 5e-3, 0.0, 0.0));
