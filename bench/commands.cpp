@@ -1,5 +1,6 @@
 #include "bench/commands.hpp"
 
+#include "bench/kept_model.hpp"
 #include "bench/memory.hpp"
 #include "bench/timing.hpp"
 #include "engine/observables.hpp"
@@ -29,11 +30,6 @@ Json memory_since(const Memory& before, std::size_t grains) {
   };
   return {{"bytes_per_grain", per_grain(now.resident)},
           {"peak_bytes_per_grain", per_grain(now.peak)}};
-}
-
-ContactModel model_of(const io::Checkpoint& checkpoint) {
-  return scenarios::contact_model(
-      io::Settings::from_text(checkpoint.settings, "checkpoint", scenarios::settings_tables()));
 }
 
 /// Each contact between grains counts for both.

@@ -29,7 +29,7 @@ set(app_external     "CLI/" "fmt/" "omp.h" "unistd.h" "fcntl.h" "poll.h" "spawn.
 set(tests_rooms      "engine/" "io/" "scenarios/" "app/" "tests/")
 set(tests_external   ".")
 
-set(bench_rooms      "engine/" "io/" "scenarios/" "app/" "bench/")
+set(bench_rooms      "engine/" "io/" "scenarios/" "app/" "tests/" "bench/")
 set(bench_external   ".")
 
 function(matches_any text patterns result)

@@ -1,12 +1,10 @@
 #include "bench/rigid/beside_windows.hpp"
 
-#include "bench/rigid/flows.hpp"
+#include "bench/kept_model.hpp"
 #include "bench/rigid/rigid_flow.hpp"
 #include "bench/timing.hpp"
 #include "engine/simulation.hpp"
 #include "io/checkpoint.hpp"
-#include "io/settings.hpp"
-#include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 
@@ -23,8 +21,7 @@ std::int64_t impacts(const RigidCounts& counts) { return counts.impacts + counts
 
 void beside_windows(const std::filesystem::path& path, double duration, int rounds) {
   const io::Checkpoint checkpoint = io::read_checkpoint(path);
-  const ContactModel model = scenarios::contact_model(
-      io::Settings::from_text(checkpoint.settings, "checkpoint", scenarios::settings_tables()));
+  const ContactModel model = model_of(checkpoint);
   RigidFlow rigid(checkpoint.state, model, usual_interval);
   Simulation soft(checkpoint.state, model, 1, Stepping::windows);
   const auto steps = static_cast<std::int64_t>(duration / checkpoint.state.time_step);

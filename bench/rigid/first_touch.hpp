@@ -54,6 +54,20 @@ double zero_between(const Polynomial<Terms>& f, double from, double to) {
   return t;
 }
 
+template <std::size_t Terms>
+Times<Terms - 1> zeros(const Polynomial<Terms>& f, double end);
+
+/// Between which times within [0, end] f is monotonic: 0, where it turns, and `end`.
+template <std::size_t Terms>
+Times<Terms> turns(const Polynomial<Terms>& f, double end) {
+  Times<Terms> result;
+  result.add(0.0);
+  const Times<Terms - 2> inside = zeros(f.derivative(), end);
+  for (std::size_t i = 0; i < inside.count; ++i) result.add(inside.t[i]);
+  result.add(end);
+  return result;
+}
+
 /// Where f changes its sign within [0, end].
 template <std::size_t Terms>
 Times<Terms - 1> zeros(const Polynomial<Terms>& f, double end) {
@@ -62,12 +76,10 @@ Times<Terms - 1> zeros(const Polynomial<Terms>& f, double end) {
     const double t = -f.c[0] / f.c[1];
     if (t > 0.0 && t < end) result.add(t);
   } else {
-    Times<Terms - 2> turns = zeros(f.derivative(), end);
-    double from = 0.0;
-    for (std::size_t i = 0; i <= turns.count; ++i) {
-      const double to = i < turns.count ? turns.t[i] : end;
+    const Times<Terms> ends = turns(f, end);
+    for (std::size_t i = 1; i < ends.count; ++i) {
+      const double from = ends.t[i - 1], to = ends.t[i];
       if ((f.at(from) > 0.0) != (f.at(to) > 0.0)) result.add(zero_between(f, from, to));
-      from = to;
     }
   }
   return result;
@@ -78,13 +90,11 @@ Times<Terms - 1> zeros(const Polynomial<Terms>& f, double end) {
 /// up to rounding only.
 template <std::size_t Terms>
 std::optional<double> first_touch(const Polynomial<Terms>& f, double end) {
-  const Times<Terms - 2> turns = zeros(f.derivative(), end);
-  double from = 0.0;
-  for (std::size_t i = 0; i <= turns.count; ++i) {
-    const double to = i < turns.count ? turns.t[i] : end;
+  const Times<Terms> ends = turns(f, end);
+  for (std::size_t i = 1; i < ends.count; ++i) {
+    const double from = ends.t[i - 1], to = ends.t[i];
     const double before = f.at(from), after = f.at(to);
     if (after < before && after <= 0.0) return before > 0.0 ? zero_between(f, from, to) : from;
-    from = to;
   }
   return std::nullopt;
 }

@@ -1,6 +1,5 @@
 #include "bench/rigid/flows.hpp"
 
-#include "bench/rigid/rigid_flow.hpp"
 #include "bench/rigid/rigid_record.hpp"
 #include "io/build_info.hpp"
 #include "io/durable_file.hpp"

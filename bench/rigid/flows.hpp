@@ -1,14 +1,13 @@
 // Steady states of a tube of rigid grains over e_N, start and seed: a table.
 #pragma once
 
+#include "bench/rigid/rigid_flow.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace riesel::bench {
-
-/// s, usually the shortest time between two impacts of a grain that lose energy.
-inline constexpr double usual_interval = 1e-7;
 
 struct FlowsOptions {
   std::filesystem::path settings;            ///< of a tube; its stiffness does not count

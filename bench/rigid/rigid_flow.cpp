@@ -22,7 +22,7 @@ void reject_unless(bool known, const char* what) {
 }  // namespace
 
 RigidFlow::RigidFlow(const State& state, const ContactModel& model, double shortest_interval)
-    : length_(state.box.length),
+    : box_(state.box),
       gravity_(state.gravity.y),
       mu_(model.friction),
       shortest_interval_(shortest_interval),
@@ -60,11 +60,11 @@ RigidFlow::RigidFlow(const State& state, const ContactModel& model, double short
                       .wall = {}});
     largest = std::max(largest, 2.0 * g.radius);
   }
-  columns_ = static_cast<std::int64_t>(state.box.width / largest);
-  rows_ = static_cast<std::int64_t>(length_ / largest);
+  columns_ = static_cast<std::int64_t>(box_.width / largest);
+  rows_ = static_cast<std::int64_t>(box_.length / largest);
   reject_unless(columns_ >= 3 && rows_ >= 3, "the box is too small");
-  cell_x_ = state.box.width / static_cast<double>(columns_);
-  cell_y_ = length_ / static_cast<double>(rows_);
+  cell_x_ = box_.width / static_cast<double>(columns_);
+  cell_y_ = box_.length / static_cast<double>(rows_);
 }
 
 void RigidFlow::advance(double duration) {
@@ -114,7 +114,7 @@ void RigidFlow::leave_frame(double duration) {
     disc.last_impact -= duration;
     disc.uy += frame_velocity_ + gravity_ * duration;
     disc.y += (frame_velocity_ + 0.5 * gravity_ * duration) * duration;
-    disc.y -= length_ * std::floor(disc.y / length_);
+    disc.y = box_.wrapped(disc.y);
   }
 }
 
@@ -190,7 +190,7 @@ void RigidFlow::meet(std::size_t i, std::size_t j) {
   come_to_now(b);
   const double dx = b.x - a.x;
   double dy = b.y - a.y;
-  dy -= length_ * std::nearbyint(dy / length_);
+  dy -= box_.length * std::nearbyint(dy / box_.length);
   const double distance = std::hypot(dx, dy);
   const double reduced_mass = a.mass * b.mass / (a.mass + b.mass);
   const Impulse impulse = impulse_of(rule_for(a, b.last_impact, reduced_mass), reduced_mass,

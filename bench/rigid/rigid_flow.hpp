@@ -31,6 +31,9 @@ struct RigidCounts {
   double wall_impulse_y = 0.0;    ///< kg m/s, given to the grains by the walls
 };
 
+/// s, usually the shortest time between two impacts of a grain that lose energy.
+inline constexpr double usual_interval = 1e-7;
+
 class RigidFlow {
 public:
   /// The grains of `state`. Throws std::invalid_argument where there is more to it than this
@@ -90,7 +93,8 @@ private:
   double meets(const Disc& disc, const Disc& other, std::int64_t row) const;
   std::optional<WallEvent> meets_wall(const Disc& disc, const Wall& wall, double within) const;
 
-  double length_, gravity_, mu_, shortest_interval_;
+  Box box_;
+  double gravity_, mu_, shortest_interval_;
   LinearLaw law_;
   Attraction attraction_;
   std::vector<Wall> walls_;

@@ -6,12 +6,11 @@
 // The engine's own loops (`omp simd`, cloned for each instruction set) and those of kernels.hpp do
 // the same work on the pairs and contacts of that state, in turns. Exit status: 1 if a way comes to
 // other bits than the engine, 2 for a wrong command line.
+#include "bench/kept_model.hpp"
 #include "bench/simd/problems.hpp"
 #include "bench/simd/ways.hpp"
 #include "bench/timing.hpp"
 #include "io/checkpoint.hpp"
-#include "io/settings.hpp"
-#include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 
@@ -93,8 +92,7 @@ bool steps_alike(const Way& way, const State& state, const ContactModel& model) 
 int compare(const std::string& path) {
   constexpr auto engine_name = "engine: omp simd, clones";
   const io::Checkpoint checkpoint = io::read_checkpoint(path);
-  const ContactModel model = scenarios::contact_model(
-      io::Settings::from_text(checkpoint.settings, "checkpoint", scenarios::settings_tables()));
+  const ContactModel model = model_of(checkpoint);
   const std::vector<Way> all = ways();
   Original engine(at_rest(checkpoint.state), model);
 

@@ -7,14 +7,7 @@
 #include "bench/traffic.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
-
-#if __has_include(<catch2/catch_test_macros.hpp>)
-#include <catch2/catch_approx.hpp>
-#include <catch2/catch_test_macros.hpp>
-using Catch::Approx;
-#else
-#include <catch2/catch.hpp>
-#endif
+#include "tests/catch.hpp"
 
 #include <cmath>
 #include <numbers>

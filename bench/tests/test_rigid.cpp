@@ -6,14 +6,7 @@
 #include "bench/rigid/tournament.hpp"
 #include "engine/random.hpp"
 #include "engine/simulation.hpp"
-
-#if __has_include(<catch2/catch_test_macros.hpp>)
-#include <catch2/catch_approx.hpp>
-#include <catch2/catch_test_macros.hpp>
-using Catch::Approx;
-#else
-#include <catch2/catch.hpp>
-#endif
+#include "tests/catch.hpp"
 
 #include <algorithm>
 #include <cmath>

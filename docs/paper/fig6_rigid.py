@@ -1,6 +1,6 @@
 """Fig. 6 with rigid grains, of which a program of its own tells (bench/rigid), beside ever stiffer ones."""
 from results import print_table, save
-from tube import grouped, mean_text, plus_minus, runs_of
+from tube import grouped, mean_text, plus_minus, runs_of, stay_cells
 
 import riesel  # by way of tube
 
@@ -21,7 +21,7 @@ def cell(runs):
 
 def slow_cell(runs):
     """The same, of those that stay on the slow branch."""
-    return cell([run for run in runs if run.stays]) or ("lost" if runs else "")
+    return stay_cells(runs)[1] or ("lost" if runs else "")
 
 
 def fig6_rigid(tables, out, plt):
