@@ -17,7 +17,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-FORMAT, FORMAT_VERSION = "riesel benchmark", 1
+SUITE, PEERS = "riesel benchmark", "riesel peers"  # formats of results
+FORMAT_VERSION = 1  # of both
 
 # name of the ratio, numerator, denominator
 RATIOS = [("plain / scalar", "plain 1", "scalar"),
@@ -60,18 +61,19 @@ def unpaired_ratio(row, base):
     return Ratio(median / base_median, slow / base_fast, fast / base_slow)
 
 
-def load(path):
-    """The results in a file, rows by (case, size, variant)."""
+def load(path, formats=(SUITE,)):
+    """The results in a file of one of these formats, rows by (case, size, variant)."""
     try:
         results = json.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise BadInput(f"{path}: cannot be read ({error})") from error
-    if not isinstance(results, dict) or results.get("format") != FORMAT:
-        raise BadInput(f"{path}: is no result of the benchmark suite")
+    if not isinstance(results, dict) or results.get("format") not in formats:
+        raise BadInput(f"{path}: is no result of the benchmark suite{' nor beside LAMMPS' if PEERS in formats else ''}")
     if results["format_version"] != FORMAT_VERSION:
         raise BadInput(f"{path}: has version {results['format_version']} of the format, "
                        f"known is {FORMAT_VERSION}")
-    results["rows"] = {(r["case"], r["size"], r["variant"]): r for r in results["rows"]}
+    rows = results["rows"] if "rows" in results else [row for case in results["cases"] for row in case["rows"]]
+    results["rows"] = {(r["case"], r["size"], r["variant"]): r for r in rows}
     return results
 
 

@@ -17,7 +17,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from compare import paired_ratio  # noqa: E402
+from compare import FORMAT_VERSION, PEERS, paired_ratio  # noqa: E402
 from lammps import Lammps, NotInstalled  # noqa: E402
 from lammps_data import read_state, write_lammps_data  # noqa: E402
 
@@ -176,7 +176,7 @@ def main():
     options = parse()
     riesel, lammps = Riesel(options.speed), Lammps(pinned)
     origin = riesel.ask("origin")
-    results = {"format": "riesel peers", "format_version": 1,
+    results = {"format": PEERS, "format_version": FORMAT_VERSION,
                "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
                **origin, "lammps": lammps.version, "cases": []}
     print(f"riesel {origin['build']['commit'][:7]}, LAMMPS {lammps.version}\n{origin['machine']['cpu']}, "

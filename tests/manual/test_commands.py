@@ -28,6 +28,7 @@ SHORTER = [
     (r"build/bench/bench/simd/simd STATE\.h5", "test -x build/bench/bench/simd/simd"),
     (r"bench/compare\.py \w+\.json", f"bench/compare.py {KEPT}"),
     (r"bench/compare\.py A\.json B\.json (.*)", rf"bench/compare.py {KEPT} {KEPT} \1"),
+    (r"bench/goals\.py FILE\.json\.\.\.", f"bench/goals.py {KEPT}"),
     (r"bench/peers/run\.py", "/usr/bin/python3 bench/peers/run.py --help"),
     (r"RIESEL_KILLS=\w+ (python3 -m unittest -v test_faults)", "test -f tests/reliability/test_faults.py"),
     (r"(build/ci/tests/reliability/every_bit).*", r"\1 9973"),
