@@ -44,12 +44,27 @@ double bytes_of_series(double rows) {
   return rows * static_cast<double>(series_columns().size() * sizeof(double));
 }
 
+/// Bytes of a trajectory, and of its index, which is made anew in memory with each save.
+struct TrajectorySize {
+  double frames = 0.0, file = 0.0, index = 0.0;
+};
+
+TrajectorySize size_of_trajectory(const State& state, std::int64_t steps_per_frame, double steps) {
+  if (steps_per_frame == 0) return {};
+  const io::FrameSize frame = io::size_of_frame(state);
+  const double frames = std::floor(steps / static_cast<double>(steps_per_frame)) + 1.0;
+  return {.frames = frames,
+          .file = frames * static_cast<double>(frame.file),
+          .index = frames * static_cast<double>(frame.index)};
+}
+
 /// Memory that a save takes besides what stepping does: a copy of the state, both files as they are
-/// written, and the series, which grow. Measured: 140 to 390 bytes per grain, fewest where grains
-/// are many; 1.3 times the series.
-double bytes_to_save(std::size_t grains, double rows) {
+/// written, and what grows, the series and the index of the trajectory. Measured: 140 to 390 bytes
+/// per grain, fewest where grains are many; 1.3 times the series.
+double bytes_to_save(std::size_t grains, double rows, const TrajectorySize& trajectory) {
   constexpr double per_grain = 200.0, per_byte_of_series = 1.3;
-  return per_grain * static_cast<double>(grains) + per_byte_of_series * bytes_of_series(rows);
+  return per_grain * static_cast<double>(grains) + per_byte_of_series * bytes_of_series(rows)
+         + trajectory.index;
 }
 
 /// Only if it is worth a thought. `duration`: s, simulated.
@@ -67,11 +82,14 @@ void print_series(double rows, double duration) {
          duration / few, few);
 }
 
-void print_trajectory(const State& state, std::int64_t steps_per_frame, double steps) {
-  if (steps_per_frame == 0) return;
-  const double frames = std::floor(steps / static_cast<double>(steps_per_frame)) + 1.0;
-  line("trajectory", "{:.0f} frames, {:.1f} MB", frames,
-       frames * static_cast<double>(io::bytes_per_frame(state)) / 1e6);
+void print_trajectory(const TrajectorySize& size) {
+  if (size.frames == 0.0) return;
+  constexpr double large_index = 100e6;
+  line("trajectory", "{:.0f} frames, {:.1f} MB, and {:.1f} MB in {}", size.frames, size.file / 1e6,
+       size.index / 1e6, io::trajectory_index_name);
+  if (size.index > large_index)
+    warn("each save writes all of {}: choose output.trajectory_interval longer, or several runs",
+         io::trajectory_index_name);
 }
 
 /// One restitution is that of one mass.
@@ -163,9 +181,11 @@ void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
   line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
        precision ? "at most " : "", readable_time(seconds), threads, threads == 1 ? "" : "s",
        speed / 1e6);
-  print_memory(bytes_to_save(grains, rows));
+  const TrajectorySize trajectory =
+      size_of_trajectory(flow.state, schedule.steps_per_frame, steps);
+  print_memory(bytes_to_save(grains, rows, trajectory));
   print_series(rows, steps * flow.state.time_step);
-  print_trajectory(flow.state, schedule.steps_per_frame, steps);
+  print_trajectory(trajectory);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/interrupt.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <initializer_list>
 #include <string_view>
@@ -9,7 +10,9 @@ namespace riesel::app {
 
 namespace {
 
-volatile std::sig_atomic_t received = 0;
+/// The handler runs on any thread of the program.
+std::atomic<int> received = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 /// Only calls that a signal handler may make.
 void end(int signal) {

@@ -71,14 +71,23 @@ std::string explanation(const Finding& f) {
                      f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
 }
 
+void add_count(std::string& text, std::int64_t count, std::string_view name) {
+  if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+}
+
+std::string counted(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) add_count(text, count, name);
+  return text;
+}
+
 namespace {
 
 template <class Point>
 std::string verdicts_of(const std::vector<Point>& points) {
   std::string text;
   for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
-    if (const auto count = std::ranges::count(points, validity, &Point::verdict))
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name(validity));
+    add_count(text, std::ranges::count(points, validity, &Point::verdict), name(validity));
   return text;
 }
 
@@ -90,6 +99,15 @@ std::string count_of_verdicts(const io::CurveSummary& summary) {
 
 std::string count_of_verdicts(const io::ColumnSummary& summary) {
   return verdicts_of(summary.column);
+}
+
+LeftOut left_out_of(const io::CurveSummary& summary) {
+  LeftOut all;
+  for (const io::CurvePoint& point : summary.curve) {
+    all.passed += point.passed;
+    all.stuck += point.stuck;
+  }
+  return all;
 }
 
 namespace {

@@ -4,7 +4,9 @@
 #include "engine/validity.hpp"
 #include "io/summary.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,9 +39,20 @@ Digits digits_of(const io::Measured& measured, int digits = 4, int error_digits 
 /// What speaks against a run: the value, the threshold it passed, what it means and what helps.
 std::string explanation(const Finding& finding);
 
+/// Adds to "3 steady" that there are so many of another kind: "3 steady, 1 too_short". Nothing for
+/// none.
+void add_count(std::string& text, std::int64_t count, std::string_view name);
+std::string counted(const std::map<std::string, int>& counts);
+
 /// "40 valid, 2 suspect, 18 unphysical", of the points of a curve.
 std::string count_of_verdicts(const io::CurveSummary& summary);
 std::string count_of_verdicts(const io::ColumnSummary& summary);
+
+/// Impacts that are left out of the means of a curve: through the wall, or never away from it.
+struct LeftOut {
+  int passed = 0, stuck = 0;
+};
+LeftOut left_out_of(const io::CurveSummary& summary);
 
 /// Why points of a curve are not valid.
 struct CurveReason {

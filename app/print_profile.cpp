@@ -8,6 +8,10 @@
 namespace riesel::app {
 
 void print_profile(const Simulation& simulation, const RunTimes& times, std::int64_t steps) {
+  if (steps == 0) {
+    fmt::print("no steps were done, so that there is no profile\n");
+    return;
+  }
   using Phase = Profile::Phase;
   const Profile& profile = simulation.profile();
   struct Row {

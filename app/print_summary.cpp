@@ -98,11 +98,7 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
 }
 
 void print_summary(const io::CurveSummary& s, const std::filesystem::path& directory) {
-  int passed = 0, stuck = 0;
-  for (const io::CurvePoint& point : s.curve) {
-    passed += point.passed;
-    stuck += point.stuck;
-  }
+  const auto [passed, stuck] = left_out_of(s);
   fmt::print("{}: {} points\n", s.run.scenario, s.curve.size());
   if (passed > 0)
     fmt::print("  {:<22}{} impacts, left out of the means\n", "through the wall", passed);

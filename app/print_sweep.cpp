@@ -1,6 +1,7 @@
 #include "app/print_sweep.hpp"
 
 #include "app/cost.hpp"
+#include "app/plain_words.hpp"
 #include "app/sweep_directory.hpp"
 #include "io/file_error.hpp"
 #include "io/summary_reader.hpp"
@@ -66,10 +67,7 @@ void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& s
       ++verdicts["unreadable"];
     }
   }
-  std::string text;
-  for (const auto& [verdict, count] : verdicts)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, verdict);
-  if (!text.empty()) fmt::print("  flows: {}\n", text);
+  if (!verdicts.empty()) fmt::print("  flows: {}\n", counted(verdicts));
 }
 
 }  // namespace
@@ -93,8 +91,7 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
   std::string summary;
   for (const auto status : {RunStatus::done, RunStatus::running, RunStatus::failed,
                             RunStatus::interrupted, RunStatus::waiting})
-    if (const auto count = counts.find(to_string(status)); count != counts.end())
-      summary += fmt::format("{}{} {}", summary.empty() ? "" : ", ", count->second, count->first);
+    add_count(summary, counts[to_string(status)], to_string(status));
   fmt::print("{}: {} points: {}\n", sweep.string(), manifest.points.size(), summary);
   print_verdicts(manifest, sweep);
   for (const io::ManifestPoint& point : manifest.points)

@@ -2,7 +2,6 @@
 
 #include "app/terminal.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -18,6 +17,12 @@ using namespace std::chrono_literals;
 
 constexpr auto between_updates_of_a_line = 200ms;
 constexpr auto between_lines = 10s;
+
+/// Hours, minutes and seconds; there may be more than a day of them.
+std::string as_on_a_clock(std::chrono::seconds time) {
+  const auto seconds = time.count();
+  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
 
 /// Over what stood in the line before. A line that reached the edge would go on in the next one.
 void show_in_place(const std::string& line) {
@@ -39,7 +44,7 @@ std::string Progress::time_left(double done) const {
   const std::chrono::duration<double> spent = Clock::now() - start_;
   const auto left =
       std::chrono::duration_cast<std::chrono::seconds>(spent * (1.0 - done) / progress);
-  return fmt::format("{:%H:%M:%S}", left);
+  return as_on_a_clock(left);
 }
 
 void Progress::show(double done, const std::string& text) {

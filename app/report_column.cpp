@@ -12,15 +12,11 @@ namespace riesel::app {
 
 namespace {
 
-Validity worst_of(const io::ColumnSummary& summary) {
-  return std::ranges::max(summary.column, {}, &io::ColumnPoint::verdict).verdict;
-}
-
 void tell_result(const io::ColumnSummary& s, io::HtmlPage& page) {
   page.paragraph(fmt::format("{} beads, {} drops.", s.run.grains, s.column.size()));
   page.paragraph(fmt::format("Hard beads: {}.", description_of(s.rigid)));
   page.paragraph(fmt::format("Validity of the drops: {}. {}", count_of_verdicts(s), where_hard(s)),
-                 class_of(worst_of(s)));
+                 class_of(worst_of(s.column)));
 }
 
 /// Against the gap ratio, with the level of hard beads.

@@ -11,26 +11,16 @@ namespace riesel::app {
 
 namespace {
 
-Validity worst_of(const io::CurveSummary& summary) {
-  Validity worst = Validity::valid;
-  for (const io::CurvePoint& point : summary.curve) worst = std::max(worst, point.verdict);
-  return worst;
-}
-
 void tell_result(const io::CurveSummary& summary, io::HtmlPage& page) {
   page.paragraph(
       fmt::format("{} points, each the mean over its starting places.", summary.curve.size()));
   page.paragraph("Validity of the points: " + count_of_verdicts(summary) + ".",
-                 class_of(worst_of(summary)));
+                 class_of(worst_of(summary.curve)));
   for (const CurveReason& reason : reasons_of(summary)) {
     page.paragraph(fmt::format("{}: {}.", name(reason.verdict), reason.text));
     page.list(reason.places);
   }
-  int passed = 0, stuck = 0;
-  for (const io::CurvePoint& point : summary.curve) {
-    passed += point.passed;
-    stuck += point.stuck;
-  }
+  const auto [passed, stuck] = left_out_of(summary);
   if (passed + stuck > 0)
     page.paragraph(fmt::format("{} impacts went through the wall and {} never came away from it: "
                                "they are left out of the means.",

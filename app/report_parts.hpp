@@ -8,6 +8,7 @@
 #include "io/summary.hpp"
 #include "io/svg.hpp"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +66,12 @@ std::string with_error(const io::Measured& measured, const std::string& unit);
 
 /// "spacing (m)"; without a unit if that is empty or "1".
 std::string with_unit(const std::string& name, const std::string& unit);
+
+/// The worst verdict on points, of which there is one at least.
+template <class Point>
+Validity worst_of(const std::vector<Point>& points) {
+  return std::ranges::max(points, {}, &Point::verdict).verdict;
+}
 
 /// The class of a paragraph, see io::HtmlPage.
 std::string class_of(Validity validity);

@@ -15,14 +15,6 @@ namespace riesel::app {
 
 namespace {
 
-/// "3 steady, 1 too_short"
-std::string counted(const std::map<std::string, int>& counts) {
-  std::string text;
-  for (const auto& [name, count] : counts)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
-  return text;
-}
-
 /// Below the head: no branches, no legs.
 io::HtmlRows without_empty_columns(const io::HtmlRows& rows) {
   io::HtmlRows kept(rows.size());
@@ -203,10 +195,9 @@ private:
   }
 
   static void add_curve(const io::CurveSummary& s, std::vector<io::HtmlCell>& row) {
-    int left_out = 0;
-    for (const io::CurvePoint& point : s.curve) left_out += point.passed + point.stuck;
+    const LeftOut left_out = left_out_of(s);
     row.emplace_back(std::to_string(s.curve.size()));
-    row.emplace_back(std::to_string(left_out));
+    row.emplace_back(std::to_string(left_out.passed + left_out.stuck));
     row.emplace_back(count_of_verdicts(s));
   }
 

@@ -33,9 +33,6 @@ struct ImpactPanel {
 /// The impacts of a sweep: a line for each point and v_x.
 std::vector<ImpactPanel> impact_panels(const SweepRecord& record);
 
-/// Of a dotted key.
-std::string last_part(const std::string& key);
-
 /// A value of a table with its unit; empty for nothing.
 std::string text_of(const io::Cell& cell, const std::string& unit);
 

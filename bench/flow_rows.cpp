@@ -1,11 +1,10 @@
 #include "bench/flow_rows.hpp"
 
 #include "bench/child.hpp"
+#include "bench/kept_model.hpp"
 #include "bench/scalar_reference.hpp"
 #include "bench/traffic.hpp"
 #include "io/checkpoint.hpp"
-#include "io/settings.hpp"
-#include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 
@@ -60,8 +59,7 @@ public:
         size_(size.name),
         path_(states.checkpoint(one, size)),
         start_(io::read_checkpoint(path_)),
-        model_(scenarios::contact_model(
-            io::Settings::from_text(start_.settings, one.name, scenarios::settings_tables()))),
+        model_(model_of(start_)),
         grains_(start_.state.grains.size()),
         plan_(one, effort, static_cast<double>(grains_)),
         reference_(start_.state, model_) {

@@ -6,6 +6,7 @@
 #include "engine/require.hpp"
 #include "engine/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,9 +14,10 @@ namespace riesel {
 
 namespace {
 
-/// The system looks whether an impact is over every so many steps: what happens meanwhile is free
-/// flight.
-constexpr std::int64_t steps_between_looks = 16;
+/// It is looked whether an impact is over every so many steps, or before a grain that is very fast
+/// may have gone so far (a grain that flies on leaves the system in the end).
+constexpr std::int64_t most_steps_between_looks = 16;
+constexpr double reaches_between_looks = 8.0;
 
 /// An impact is given up after so many collision times, plus the time to cross so many wall grains
 /// and to get to the wall.
@@ -49,6 +51,12 @@ State start(const ImpactSetup& setup, const Impact& impact) {
 
 double speed_of(const Impact& impact) { return std::hypot(impact.v_x, impact.v_y); }
 
+std::int64_t steps_between_looks(const ImpactSetup& setup, const Impact& impact) {
+  const double steps = reaches_between_looks * setup.reach() / (speed_of(impact) * impact.time_step);
+  const auto most = static_cast<double>(most_steps_between_looks);
+  return static_cast<std::int64_t>(std::clamp(steps, 1.0, most));
+}
+
 /// Whether the grain can never touch the wall again.
 bool gone(const ImpactSetup& setup, const State& state, const Grain& grain) {
   if (!state.contacts.empty()) return false;
@@ -77,10 +85,11 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
   const double patience = time_to_wall(setup, impact)
                           + patience_in_collisions * setup.collision_time
                           + patience_in_reaches * setup.reach() / speed_of(impact);
+  const std::int64_t steps = steps_between_looks(setup, impact);
   Simulation simulation(start(setup, impact), setup.model, 1);
   ImpactEnd end = ImpactEnd::stuck;
   while (simulation.state().time() < patience) {
-    simulation.advance(steps_between_looks);
+    simulation.advance(steps);
     const Grain grain = grain_at(simulation.state(), 0);
     if (grain.x < -setup.reach()) {
       end = ImpactEnd::passed;

@@ -121,7 +121,8 @@ void Simulation::advance_piece(std::int64_t last) {
   const auto now = std::chrono::steady_clock::now;
   const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
   const auto begin = now();
-  if (!candidates_->in_trouble() && prepared_ != wanted()) {
+  const bool in_trouble = prepared_ && candidates_->in_trouble();
+  if (!in_trouble && prepared_ != wanted()) {
     prepare();
     step_up_to(std::min(last, state_.step + 1));  // in which flights make all their appointments
   }
@@ -151,6 +152,7 @@ void Simulation::prepare() {
   prepared_.reset();  // until all of it is there: the system may grant no more threads
   flights_.reset();
   plain_steps_.reset();
+  candidates_.reset();  // before the next ones are listed: memory
   const auto [by_flights, threads] = next.way;
   candidates_ = std::make_unique<Candidates>(
       state_, model_.slip, threads, by_flights ? Flights::purpose : Candidates::plain_stepping,

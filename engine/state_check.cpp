@@ -21,8 +21,6 @@ std::string joined(const Parts&... parts) {
   return text.str();
 }
 
-bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
-
 /// Of steps and of contacts: more than any run can come to, and far from where counters overflow.
 constexpr std::int64_t most_of_anything = std::int64_t{1} << 61;
 

@@ -229,7 +229,7 @@ void check_version(const StoredGroup& root, const fs::path& path) {
 }
 
 Checkpoint read_sealed(const fs::path& path) {
-  const auto root = open_sealed_hdf5(path, kind, Unsealed::refused);
+  const auto root = open_sealed_hdf5(path, kind);
   check_version(root, path);
   return read_contents(root);
 }

@@ -240,7 +240,7 @@ RunFile RunFile::create(const fs::path& path, const Provenance& provenance,
 RunFile RunFile::reopen(const fs::path& path, const Provenance& provenance,
                         const std::vector<Column>& series, std::int64_t rows) {
   try {
-    const auto old = open_sealed_hdf5(path, run_file_kind, Unsealed::refused);
+    const auto old = open_sealed_hdf5(path, run_file_kind);
     require_same_run(old.group("provenance"), provenance);
     RunFile file(path, series);
     file.contents_->take_rows(old.group("series"), rows);

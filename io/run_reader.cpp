@@ -68,8 +68,6 @@ std::vector<Grain> read_grains(const StoredGroup& group) {
   return grains;
 }
 
-bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
-
 bool is_sound(const Grain& grain) {
   return std::isfinite(grain.x) && std::isfinite(grain.y) && std::isfinite(grain.vx)
          && std::isfinite(grain.vy) && is_positive(grain.radius);
@@ -199,7 +197,7 @@ const Named& find(const std::vector<Named>& all, const std::string& name, const 
 template <class Read>
 auto read_file(const std::filesystem::path& path, Read read) {
   try {
-    return read(open_sealed_hdf5(path, run_file_kind, Unsealed::allowed));
+    return read(open_sealed_hdf5(path, run_file_kind));
   } catch (const Hdf5Error& error) {
     throw FileError(path, fmt::format("is damaged, or of another kind of run ({})", error.what()),
                     "restore the file, or make the run again");

@@ -10,10 +10,8 @@
 namespace riesel::io {
 namespace {
 
-constexpr std::string_view beginning = "riesel ";
-
 /// The first line of the seal.
-std::string title(std::string_view kind) { return fmt::format("{}{}\n", beginning, kind); }
+std::string title(std::string_view kind) { return fmt::format("riesel {}\n", kind); }
 
 std::string_view text_of(std::span<const char> image) { return {image.data(), image.size()}; }
 
@@ -34,8 +32,6 @@ std::string seal_text(std::span<const char> image, std::string_view kind) {
 void seal(std::span<char> image, std::string_view kind) {
   seal_text(image, kind).copy(image.data(), seal_size);
 }
-
-bool is_sealed(std::span<const char> image) { return text_of(image).starts_with(beginning); }
 
 std::string flaw_of_seal(std::span<const char> image, std::string_view kind) {
   if (!text_of(image).starts_with(title(kind)))

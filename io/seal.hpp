@@ -18,9 +18,6 @@ inline constexpr std::size_t seal_size = 512;  ///< bytes
 /// Writes the seal into the first bytes of the image of a file. `kind` is what it is: "checkpoint".
 void seal(std::span<char> image, std::string_view kind);
 
-/// Whether the file claims to be sealed, as a file of any kind.
-bool is_sealed(std::span<const char> image);
-
 /// How a file differs from what was sealed; empty if it does not.
 std::string flaw_of_seal(std::span<const char> image, std::string_view kind);
 

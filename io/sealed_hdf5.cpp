@@ -14,10 +14,8 @@ void write_sealed_hdf5(const std::filesystem::path& path, Hdf5File& file, std::s
   write_durably(path, std::string_view(image.data(), image.size()), previous);
 }
 
-StoredGroup open_sealed_hdf5(const std::filesystem::path& path, std::string_view kind,
-                             Unsealed unsealed) {
+StoredGroup open_sealed_hdf5(const std::filesystem::path& path, std::string_view kind) {
   auto bytes = read_whole_file(path);
-  if (unsealed == Unsealed::allowed && !is_sealed(bytes)) return stored_hdf5(std::move(bytes), 0);
   if (const auto flaw = flaw_of_seal(bytes, kind); !flaw.empty()) throw Hdf5Error(flaw);
   return stored_hdf5(std::move(bytes), seal_size);
 }

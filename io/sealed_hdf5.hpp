@@ -15,13 +15,8 @@ namespace riesel::io {
 void write_sealed_hdf5(const std::filesystem::path& path, Hdf5File& file, std::string_view kind,
                        Previous previous);
 
-/// Whether a file without a seal may be opened, too: run files of riesel 0.3.0 and before have
-/// none.
-enum class Unsealed { refused, allowed };
-
 /// The root of a file whose seal is whole. Throws FileError if it cannot be read, Hdf5Error if it
 /// is damaged or of another kind.
-StoredGroup open_sealed_hdf5(const std::filesystem::path& path, std::string_view kind,
-                             Unsealed unsealed);
+StoredGroup open_sealed_hdf5(const std::filesystem::path& path, std::string_view kind);
 
 }  // namespace riesel::io

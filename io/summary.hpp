@@ -18,7 +18,7 @@
 namespace riesel::io {
 
 /// Of what stands in the file: raised when a name that a reader needs changes its meaning, goes, or
-/// comes. Version 1 had no number.
+/// comes. Version 1 had no number; in version 2 names have come until riesel 0.5.0.
 inline constexpr int summary_format = 2;
 
 /// What every summary tells.

@@ -1,5 +1,6 @@
 #include "io/summary_reader.hpp"
 
+#include "io/build_info.hpp"
 #include "io/file_error.hpp"
 #include "io/json_file.hpp"
 
@@ -42,26 +43,17 @@ FlowSummary::Balance read_balance(const Json& json) {
           .gravity = number(json, "gravity")};
 }
 
-// Some values are not in files of riesel 0.3.0 and before.
-
-Measured read_grain_contact_rate(const Json& summary) {
-  const auto found = summary.find("grain_contact_rate");
-  return found == summary.end() ? Measured{unknown, unknown} : measured(*found);
-}
-
-FlowSummary::BrakingForce read_braking_force(const Json& summary) {
-  const auto found = summary.find("braking_force");
-  if (found == summary.end()) return {};
+FlowSummary::BrakingForce read_braking_force(const Json& json) {
   FlowSummary::BrakingForce force{
-      .left = measured(found->at("left")), .right = {}, .weight = number(*found, "weight")};
-  if (found->contains("right")) force.right = measured(found->at("right"));
+      .left = measured(json.at("left")), .right = {}, .weight = number(json, "weight")};
+  if (json.contains("right")) force.right = measured(json.at("right"));
   return force;
 }
 
 FlowSummary::Energy read_energy(const Json& json) {
   return {.initial = number(json, "initial"),
           .kinetic = number(json, "kinetic"),
-          .rotational = json.contains("rotational") ? number(json, "rotational") : 0.0,
+          .rotational = number(json, "rotational"),
           .elastic = number(json, "elastic"),
           .gravity_work = number(json, "gravity_work"),
           .wall_work = number(json, "wall_work"),
@@ -133,10 +125,6 @@ ValidityVerdict read_verdict(const Json& json) {
   return verdict;
 }
 
-double read_t_col(const Json& validity, const char* of) {
-  return validity.contains("t_col") ? number(validity.at("t_col"), of) : unknown;
-}
-
 CurveSummary read_curve(const Json& json) {
   CurveSummary summary{.run = read_run(json), .curve = {}};
   for (const auto& point : json.at("curve"))
@@ -183,9 +171,9 @@ FlowSummary read_flow(const Json& json) {
   return {.run = read_run(json),
           .time = number(json, "time"),
           .transient_end = number(json, "transient_end"),
-          .ended_by = json.value("ended_by", "duration"),  // once all runs did
+          .ended_by = json.at("ended_by"),
           .state = json.at("state"),
-          .judged_by = json.value("judged_by", "mean_vy"),  // once all flows were
+          .judged_by = json.at("judged_by"),
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
           .independent_samples = number(json, "independent_samples"),
           .granular_temperature = number(json, "granular_temperature"),
@@ -194,28 +182,39 @@ FlowSummary read_flow(const Json& json) {
           .core = read_zone(json.at("profiles").at("core")),
           .wall_layers = read_zone(json.at("profiles").at("wall_layers")),
           .balance = read_balance(json.at("balance")),
-          .grain_contact_rate = read_grain_contact_rate(json),
-          .braking_force = read_braking_force(json),
+          .grain_contact_rate = measured(json.at("grain_contact_rate")),
+          .braking_force = read_braking_force(json.at("braking_force")),
           .energy = read_energy(json.at("energy")),
           .wall_visits = read_wall_visits(json.at("wall_visits")),
           .validity = {.verdict = read_verdict(validity),
                        .v_crit = number(validity, "v_crit"),
-                       .t_col_grains = read_t_col(validity, "grains"),
-                       .t_col_walls = read_t_col(validity, "walls"),
+                       .t_col_grains = number(validity.at("t_col"), "grains"),
+                       .t_col_walls = number(validity.at("t_col"), "walls"),
                        .friction_failure_fraction = number(validity, "friction_failure_fraction"),
                        .warnings = validity.value("warnings", std::vector<std::string>{})}};
 }
 
+/// Of riesel, which wrote it; empty if it does not tell.
+std::string version_in(const Json& json) {
+  const bool tells = json.is_object() && json.contains("version") && json["version"].is_string();
+  return tells ? json["version"].get<std::string>() : "";
+}
+
+FileError of_another_version(const std::filesystem::path& path, const std::string& difference,
+                             const std::string& version) {
+  return {path, difference, "use riesel " + version + ", which wrote it, or make the run again"};
+}
+
 /// Throws FileError for the summary of another program or of another time.
 void require_this_format(const std::filesystem::path& path, const Json& json) {
-  if (!json.is_object() || !json.contains("version") || !json["version"].is_string()) return;
+  const std::string version = version_in(json);
+  if (version.empty()) return;
   const Json format = json.value("format", Json(1));
   if (format == summary_format) return;
-  throw FileError(path,
-                  fmt::format("has format {}, and this version of riesel reads {}", format.dump(),
-                              summary_format),
-                  "use riesel " + json["version"].get<std::string>()
-                      + ", which wrote it, or make the run again");
+  throw of_another_version(path,
+                           fmt::format("has format {}, and this version of riesel reads {}",
+                                       format.dump(), summary_format),
+                           version);
 }
 
 }  // namespace
@@ -230,6 +229,11 @@ Summary read_summary(const std::filesystem::path& path) {
     if (json.contains("column")) return read_column(json);
     return read_flow(json);
   } catch (const std::exception& error) {
+    // The format has stayed the same while some names came.
+    const std::string version = version_in(json);
+    if (!version.empty() && version != build_info().version)
+      throw of_another_version(
+          path, fmt::format("does not fit this version of riesel ({})", flaw_of(error)), version);
     throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)),
                     "restore the file, or make the run again");
   }

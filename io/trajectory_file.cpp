@@ -146,6 +146,18 @@ struct Frame {
   }
 };
 
+/// `interval`: s, between two frames.
+std::string index_of(const fs::path& trajectory, const TrajectoryFacts& facts, std::uint64_t frames,
+                     double interval) {
+  return trajectory_index({.file = trajectory.filename().string(),
+                           .grains = facts.grains,
+                           .wall_grains = facts.wall_grains,
+                           .frames = frames,
+                           .walls_move = facts.walls_move,
+                           .grains_rotate = facts.grains_rotate,
+                           .interval = interval});
+}
+
 }  // namespace
 
 class TrajectoryFile::Contents {
@@ -295,15 +307,9 @@ private:
   }
 
   void write_index() const {
-    write_durably(
-        fs::path(path_).replace_filename(trajectory_index_name),
-        trajectory_index({.file = path_.filename().string(),
-                          .grains = facts_.grains,
-                          .wall_grains = facts_.wall_grains,
-                          .frames = head_.frames,
-                          .walls_move = facts_.walls_move,
-                          .grains_rotate = facts_.grains_rotate,
-                          .interval = static_cast<double>(head_.steps_per_frame) * time_step_}));
+    const double interval = static_cast<double>(head_.steps_per_frame) * time_step_;
+    write_durably(fs::path(path_).replace_filename(trajectory_index_name),
+                  index_of(path_, facts_, head_.frames, interval));
   }
 
   fs::path path_;
@@ -364,8 +370,12 @@ std::int64_t TrajectoryFile::frames() const {
 }
 void TrajectoryFile::commit() { contents_->commit(); }
 
-std::uint64_t bytes_per_frame(const State& state) {
-  return FrameBlocks(facts_of(state, {}), 1).size;
+FrameSize size_of_frame(const State& state) {
+  const TrajectoryFacts facts = facts_of(state, {});
+  const auto index = [&](std::uint64_t frames) {
+    return index_of(trajectory_name, facts, frames, 1.0).size();
+  };
+  return {.file = FrameBlocks(facts, 1).size, .index = index(2) - index(1)};
 }
 
 }  // namespace riesel::io

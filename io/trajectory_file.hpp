@@ -72,7 +72,10 @@ private:
   std::unique_ptr<Contents> contents_;
 };
 
-/// Bytes that a frame of `state` takes.
-std::uint64_t bytes_per_frame(const State& state);
+/// Bytes that a frame of `state` takes in the file, and in the index.
+struct FrameSize {
+  std::uint64_t file, index;
+};
+FrameSize size_of_frame(const State& state);
 
 }  // namespace riesel::io

@@ -32,6 +32,13 @@ class Profile(CommandTest):
         unprofiled = self.state_hash(self.run_small_tube("unprofiled"))
         self.assertEqual({hash_of_plain, hash_of_windows}, {unprofiled})
 
+    def test_a_run_that_is_at_its_end_has_none(self):
+        out = self.run_small_tube("out")
+        result = self.riesel("resume", out, "--profile")
+        self.assert_done(result)
+        self.assertIn("no steps were done, so that there is no profile", result.stdout)
+        self.assertNotIn("nan", result.stdout)
+
     def test_it_is_refused_where_nothing_is_profiled(self):
         for scenario in ("single_wall_grain", "bead_column"):
             with self.subTest(scenario):

@@ -136,6 +136,18 @@ class Terminal(CommandTest):
         self.assertEqual(process.communicate(timeout=PATIENCE)[0], b"")
         self.assertEqual(process.returncode, 130)
 
+    def test_days_that_are_left_are_told_in_hours(self):
+        self.write("tube.yaml", SMALL_TUBE.replace("5 ms", "1e8 s"))
+        keyboard, screen = self.open_terminal()
+        process = self.start("run", "tube.yaml", "--out", "out", "--threads", 1, stderr=screen, text=False)
+        os.close(screen)
+        shown = self.read_until(keyboard, lambda text: text.count(b"\r") >= 4)
+        process.kill()
+        for hours, minutes, seconds in re.findall(rb"(\d+):(\d+):(\d+) left", shown):
+            self.assertGreater(int(hours), 24)
+            self.assertLess(max(int(minutes), int(seconds)), 60)
+        self.assertRegex(shown, rb"\d left")
+
     def read_until(self, terminal, enough):
         deadline = time.monotonic() + 30
         text = b""

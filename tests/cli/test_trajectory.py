@@ -249,4 +249,4 @@ class Trajectory(TrajectoryTest):
                 out = self.run_to_end(tube, duration.replace(" ", ""), *options)
                 with h5py.File(out / "trajectory.h5") as file:
                     written = len(file["particles/grains/position/value"])
-                self.assertRegex(told, rf"\n  trajectory +{written} frames, 0.\d MB\n")
+                self.assertRegex(told, rf"\n  trajectory +{written} frames, 0.\d MB, and 0.\d MB in trajectory.xdmf2\n")

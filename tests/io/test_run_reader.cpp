@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 
 using namespace riesel;
@@ -162,18 +161,6 @@ TEST_CASE("One wrong bit in a run file is told") {
   bytes[place] = static_cast<char>(bytes[place] ^ 1);
   overwrite(path, bytes);
   CHECK(complaint(path).find("(its length or checksum is wrong)") != std::string::npos);
-}
-
-TEST_CASE("A run file of riesel 0.3.0, without a seal, is read") {
-  const ScratchDirectory directory;
-  const auto path = directory / run_file_name;
-  write_run(path, special_state());
-  auto bytes = contents(path).substr(512);
-  const std::uint64_t begin = 0, size = bytes.size();
-  std::memcpy(&bytes[24], &begin, 8);  // where HDF5 begins in the file
-  std::memcpy(&bytes[40], &size, 8);
-  overwrite(path, bytes);
-  CHECK(read_run_file(path).series_of("time").values.size() == 3);
 }
 
 TEST_CASE("Histograms that cannot be are refused") {

@@ -190,17 +190,17 @@ TEST_CASE("A column that is read back and written again is the same text") {
   CHECK(to_json(std::get<ColumnSummary>(read_summary(path))) == to_json(summary));
 }
 
-TEST_CASE("A summary from before some values were told is read, and they are not known") {
+TEST_CASE("A whole summary of an older version that lacks a value is not called damaged") {
   const ScratchDirectory directory;
   const auto path = directory / summary_name;
-  auto text = to_json(special_summary());
-  for (const char* name : {"grain_contact_rate", "braking_force", "t_col"})
-    text = with(text, "\"" + std::string(name) + "\"", "\"" + std::string(name) + "_of_later\"");
-  overwrite(path, text);
-  const auto summary = std::get<FlowSummary>(read_summary(path));
-  CHECK(std::isnan(summary.grain_contact_rate.value));
-  CHECK(std::isnan(summary.braking_force.left.value));
-  CHECK(std::isnan(summary.braking_force.weight));
-  CHECK(std::isnan(summary.validity.t_col_walls));
-  CHECK(summary.energy.kinetic == 2.1);
+  const auto lacking =
+      with(to_json(special_summary()), "\"wall_work\"", "\"wall_work_of_later\"");
+  overwrite(path, lacking);
+  CHECK(complaint(path).find("is damaged (key 'wall_work' not found)") != std::string::npos);
+  const auto version = "\"version\": \"" + std::string(build_info().version) + "\"";
+  overwrite(path, with(lacking, version, "\"version\": \"0.4.0\""));
+  CHECK(complaint(path)
+        == path.string()
+               + ": does not fit this version of riesel (key 'wall_work' not found); use riesel "
+                 "0.4.0, which wrote it, or make the run again");
 }

@@ -181,7 +181,7 @@ TEST_CASE("outlines leave no more behind than they are long") {
     file.append(state_of_frame(frame));
     if (frame % 10 == 0) file.commit();
   }
-  const auto needed = 3000 * bytes_per_frame(state_of_frame(0));
+  const auto needed = 3000 * size_of_frame(state_of_frame(0)).file;
   CHECK(fs::file_size(path) < needed + needed / 2 + 300'000);
 }
 

@@ -108,6 +108,14 @@ TEST_CASE("a grain that comes from afar has not stuck before it arrives") {
   CHECK(result.contacts >= 1.0);
 }
 
+TEST_CASE("a grain that is far too fast for any contact has gone through the wall") {
+  const double v_x = GENERATE(1e3, 1e4, 3e4);  // m/s
+  const ImpactSetup setup = wall_array(paper_model(), wall_collision_time());
+  const ImpactResult result = follow(
+      setup, {.x = 1.1 * reach, .y = 0.0, .v_x = v_x, .v_y = 1.0, .time_step = setup.collision_time / 50});
+  CHECK(result.end == ImpactEnd::passed);
+}
+
 TEST_CASE("an impact on the wall array is one visit") {
   // Until the grain is away for good, by the scenario's own rule; then nothing comes any more.
   const double v_x = GENERATE(0.1, 0.3, 0.5);
