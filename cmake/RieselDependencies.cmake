@@ -15,7 +15,6 @@ endmacro()
 # What the libraries link: a program that uses the installed riesel needs these too.
 riesel_require(Threads libc6-dev)
 riesel_require(OpenMP g++ COMPONENTS CXX)
-riesel_require(Eigen3 libeigen3-dev 3.4)
 riesel_require(HDF5 libhdf5-dev 1.10 COMPONENTS C)
 riesel_require(yaml-cpp libyaml-cpp-dev)
 riesel_require(fmt libfmt-dev 9)
@@ -23,6 +22,7 @@ riesel_require(UDUNITS2 libudunits2-dev)
 
 # Headers and programs that only the build of riesel itself needs.
 if(NOT RIESEL_DEPENDENCIES_FOR_PACKAGE)
+  riesel_require(Eigen3 libeigen3-dev 3.4)
   riesel_require(nlohmann_json nlohmann-json3-dev 3.10)
   riesel_require(CLI11 libcli11-dev 2.1)
   riesel_require(Random123 librandom123-dev)

@@ -13,15 +13,15 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(engine_rooms     "engine/")
-set(engine_external  "Eigen/" "omp.h" "Random123/" "experimental/simd" "immintrin.h")
+set(engine_external  "Eigen/" "omp.h" "Random123/")
 set(engine_not       "fstream" "iostream" "filesystem" "cstdio" "print")   # no files, no printing
 
 set(io_rooms         "engine/" "io/")
-set(io_external      "hdf5.h" "yaml-cpp/" "udunits2.h" "nlohmann/" "fmt/" "omp.h"
-                     "unistd.h" "fcntl.h" "sys/" "sched.h")
+set(io_external      "hdf5.h" "yaml-cpp/" "udunits2.h" "nlohmann/" "fmt/"
+                     "unistd.h" "fcntl.h" "sys/")
 
 set(scenarios_rooms     "engine/" "io/" "scenarios/")
-set(scenarios_external  "Eigen/" "fmt/")
+set(scenarios_external  "fmt/")
 
 set(app_rooms        "engine/" "io/" "scenarios/" "app/")
 set(app_external     "CLI/" "fmt/" "omp.h" "unistd.h" "fcntl.h" "poll.h" "spawn.h" "sys/")
