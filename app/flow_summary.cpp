@@ -47,9 +47,9 @@ io::Measured mean_of(const io::RunFile& file, const std::string& name, std::size
 
 /// The core of the tube, and the layers at the walls.
 std::pair<io::FlowSummary::Zone, io::FlowSummary::Zone>
-zones(const TimeBlocks& blocks, const Strips& strips, std::int64_t first) {
+zones(const TimeBlocks& blocks, const Strips& strips, std::size_t walls, std::int64_t first) {
   const auto profiles =
-      tube_profiles(blocks, strips, {core_of(strips), wall_layers_of(strips)}, first);
+      tube_profiles(blocks, strips, {core_of(strips), wall_layers_of(strips, walls)}, first);
   const auto zone = [&](std::size_t i) {
     const auto measured = [&](std::string_view name) {
       const auto found = std::ranges::find(profiles, name, &TubeProfile::name);
@@ -191,7 +191,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
     s.structure_factor[n - 1] =
         mean_of(file, "structure_factor_" + std::to_string(n), steady.transient_end);
   std::tie(s.core, s.wall_layers) =
-      zones(profiles, strips, static_cast<std::int64_t>(steady.transient_end));
+      zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(steady.transient_end));
   const std::vector<double> mean_vy = file.series("mean_vy");
   s.balance =
       balance(series, state,

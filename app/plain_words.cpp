@@ -48,7 +48,7 @@ double sufficient_duration(const io::FlowSummary& s) {
 std::string explanation_of_end(const std::string& ended_by) {
   if (ended_by == "duration") return "its duration was over";
   if (ended_by == "precision") return "the mean is known as well as was asked for";
-  return "the time was up before the mean was known as well as was asked for";
+  return "the time was up before two looks in a row found the mean as precise as was asked for";
 }
 
 Digits digits_of(const io::Measured& m, int digits, int error_digits) {

@@ -138,7 +138,7 @@ private:
   }
 
   void show_profiles() {
-    page().heading("Across the tube");
+    page().heading("Across the flow");
     const auto add = [&](const std::string& file, const std::string& label,
                          const std::vector<std::string>& names) {
       draft_.add_figure(file, draw_profiles(record_->run.profiles, names, label),
@@ -150,10 +150,12 @@ private:
     add("velocity", "Mean axial velocity (m/s)", {"mean_axial_velocity"});
     add("temperature", "Granular temperature (m^2/s^2)", {"temperature_x", "temperature_y"});
     add("stress", "Stress (N/m)", {"stress_xx", "stress_yy", "stress_xy"});
-    page().paragraph(
-        "Stresses are positive in compression; in a steady state stress_xx is the same everywhere, "
-        "and stress_xy carries the weight of the grains to the walls. The bars know nothing of a "
-        "drift: of a flow that is not steady these are means over what was seen.");
+    page().paragraph(fmt::format(
+        "Stresses are positive in compression{}. The bars know nothing of a drift: of a flow that "
+        "is not steady these are means over what was seen.",
+        summary().braking_force.weight == 0.0
+            ? ""
+            : "; in a steady state stress_xy carries the weight of the grains to the walls"));
   }
 
   void show_energy() {

@@ -71,11 +71,13 @@ private:
 
   void tell_result() {
     std::map<std::string, int> statuses, states, verdicts;
+    int imprecise = 0;
     for (std::size_t i = 0; i < record_->results.size(); ++i) {
       ++statuses[manifest().points[i].status];
       const auto* summary = flow(i);
       if (summary == nullptr) continue;
       ++states[summary->state];
+      if (summary->ended_by == "at_most") ++imprecise;
       ++verdicts[std::string(name(summary->validity.verdict.verdict))];
     }
     page().paragraph(fmt::format("{} points: {}.", manifest().points.size(), counted(statuses)));
@@ -88,6 +90,11 @@ private:
                                          : " Only a steady and valid mean is a property of the "
                                            "flow of hard grains."),
                      is_good ? "good" : "doubtful");
+    if (imprecise > 0)
+      page().paragraph(fmt::format("{} of them ended because their time was up: they are less "
+                                   "precise than was asked for.",
+                                   imprecise),
+                       "doubtful");
   }
 
   /// The name of the file of one of several figures.

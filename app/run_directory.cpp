@@ -74,9 +74,17 @@ void RunDirectory::go_on(const io::Settings& settings) const {
   // First that of the shorter run: no result stands beside settings that are not its own.
   const fs::path summary = file(io::summary_name);
   std::error_code error;
-  fs::remove(summary, error);
-  if (error) throw io::system_failure(summary, "cannot be removed", error.value());
+  fs::rename(summary, io::previous_generation(summary), error);
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw io::system_failure(summary, "cannot be set aside", error.value());
   write_settings(settings);
+}
+
+void RunDirectory::write_summary(const std::string& text) const {
+  const fs::path summary = file(io::summary_name);
+  io::write_durably(summary, text);
+  std::error_code ignored;  // what is left is no harm
+  fs::remove(io::previous_generation(summary), ignored);
 }
 
 }  // namespace riesel::app

@@ -30,8 +30,11 @@ public:
   static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
   /// The directory of a run that is to go on. Nothing in it is changed.
   static RunDirectory reopen(const std::filesystem::path& path);
-  /// Nothing is in the way of the run: its settings may have changed, and it has no result now.
+  /// Nothing is in the way of the run: its settings may have changed, and it has no result now but
+  /// summary.json.previous.
   void go_on(const io::Settings& settings) const;
+  /// The result. Throws io::FileError.
+  void write_summary(const std::string& text) const;
 
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }

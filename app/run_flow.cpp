@@ -313,7 +313,7 @@ private:
         histogram_tables(simulation_.state().tally, measurements_.histograms(), first, interval()),
         s.transient_end);
     files_.record().flush();
-    io::write_durably(files_.directory().file(io::summary_name), io::to_json(s));
+    files_.directory().write_summary(io::to_json(s));
     if (verbosity_ != Verbosity::quiet) print_summary(s, files_.directory().path());
     if (simulation_.profile().on())
       print_profile(simulation_, times_, simulation_.state().step - first_step_);

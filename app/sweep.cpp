@@ -195,6 +195,8 @@ int sweep(const SweepOptions& options) {
                                  .max_walltime = options.max_walltime,
                                  .prolongation = prolongation,
                                  .on_change = write_manifest});
+  refresh(plan.manifest, directory);  // a result stays one, although its run was to go on
+  write_manifest(plan.manifest);
   write_table(plan.manifest, directory);
   print_status(plan.manifest, directory);
   if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");

@@ -7,6 +7,8 @@
 #include <functional>
 #include <initializer_list>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace riesel {
@@ -19,6 +21,7 @@ constexpr Estimate not_known{unknown, unknown};
 struct Part {
   StripSum sum;
   double derivative;
+  std::optional<std::size_t> strip = std::nullopt;  // that of all strips of the zone if it is none
 };
 
 /// The blocks of one zone.
@@ -28,27 +31,36 @@ public:
       : blocks_(blocks), zone_(zone), first_(first), size_(means(StripSum::grains).size()) {}
 
   std::size_t size() const { return size_; }
+  const Zone& strips() const { return zone_; }
 
-  double mean(StripSum sum) const {
-    const std::vector<double> of_blocks = means(sum);
-    return std::accumulate(of_blocks.begin(), of_blocks.end(), 0.0) / static_cast<double>(size_);
-  }
+  double mean(StripSum sum) const { return mean_of(means(sum)); }
+  double mean(StripSum sum, std::size_t strip) const { return mean_of(means(sum, strip)); }
 
   /// A function of the means; its error is that of its linear part.
-  Estimate estimate(double value, std::initializer_list<Part> parts) const {
+  Estimate estimate(double value, std::span<const Part> parts) const {
     std::vector<double> linear(size_, 0.0);
     for (const Part& part : parts) {
-      const std::vector<double> of_blocks = means(part.sum);
+      const std::vector<double> of_blocks =
+          part.strip ? means(part.sum, *part.strip) : means(part.sum);
       for (std::size_t i = 0; i < size_; ++i) linear[i] += part.derivative * of_blocks[i];
     }
     return {value, size_ > 1 ? estimate_mean(linear).error : unknown};
   }
+  Estimate estimate(double value, std::initializer_list<Part> parts) const {
+    return estimate(value, std::span(parts));
+  }
 
 private:
+  double mean_of(const std::vector<double>& of_blocks) const {
+    return std::accumulate(of_blocks.begin(), of_blocks.end(), 0.0) / static_cast<double>(size_);
+  }
+  std::vector<double> means(StripSum sum, std::size_t strip) const {
+    return blocks_.means(Strips::column(strip, sum), first_);
+  }
   std::vector<double> means(StripSum sum) const {
     std::vector<double> total;
     for (const std::size_t strip : zone_) {
-      const std::vector<double> of_strip = blocks_.means(Strips::column(strip, sum), first_);
+      const std::vector<double> of_strip = means(sum, strip);
       total.resize(of_strip.size());
       std::transform(total.begin(), total.end(), of_strip.begin(), total.begin(), std::plus<>());
     }
@@ -78,29 +90,51 @@ Estimate per_grain(const ZoneBlocks& b, StripSum sum) {
   return b.estimate(ratio, {{sum, 1.0 / grains}, {StripSum::grains, -ratio / grains}});
 }
 
-/// Variance over the grains of w: <w^2> - <w>^2.
+/// The sums of weights, of weights times w and of weights times w^2.
+struct Moments {
+  StripSum zeroth, first, second;
+};
+constexpr Moments of_grains{StripSum::grains, StripSum::w, StripSum::w2};
+constexpr Moments of_mass{StripSum::mass, StripSum::mass_w, StripSum::mass_w2};
+
+/// The sum of weights times w^2 without that of the mean motion of each strip.
+struct RandomPart {
+  double sum = 0.0;
+  std::vector<Part> parts;
+};
+
+RandomPart random_part(const ZoneBlocks& b, const Moments& moments) {
+  RandomPart random;
+  for (const std::size_t strip : b.strips()) {
+    const double weight = b.mean(moments.zeroth, strip);
+    const double mean = weight > 0.0 ? b.mean(moments.first, strip) / weight : 0.0;
+    random.sum += b.mean(moments.second, strip) - weight * mean * mean;
+    random.parts.push_back({moments.second, 1.0, strip});
+    random.parts.push_back({moments.first, -2.0 * mean, strip});
+    random.parts.push_back({moments.zeroth, mean * mean, strip});
+  }
+  return random;
+}
+
+/// Mean over the grains of the squares of w about the mean of their strip.
 Estimate variance_of_w(const ZoneBlocks& b) {
   const double grains = b.mean(StripSum::grains);
   if (grains == 0.0) return not_known;
-  const double mean = b.mean(StripSum::w) / grains;
-  const double variance = b.mean(StripSum::w2) / grains - mean * mean;
-  return b.estimate(variance, {{StripSum::w2, 1.0 / grains},
-                               {StripSum::w, -2.0 * mean / grains},
-                               {StripSum::grains, (mean * mean - variance) / grains}});
+  RandomPart random = random_part(b, of_grains);
+  const double variance = random.sum / grains;
+  random.parts.push_back({StripSum::grains, -variance});
+  for (Part& part : random.parts) part.derivative /= grains;
+  return b.estimate(variance, random.parts);
 }
 
-/// Sum of m w^2 without that of the mean motion, (sum of m w)^2 / (sum of m); with that of contacts
-/// if it is asked for.
+/// With that of contacts if it is asked for.
 Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
-  const double mass = b.mean(StripSum::mass);
-  const double mean = mass > 0.0 ? b.mean(StripSum::mass_w) / mass : 0.0;
+  RandomPart random = random_part(b, of_mass);
   const double contact = with_contacts ? 1.0 : 0.0;
-  const double sum =
-      b.mean(StripSum::mass_w2) - mass * mean * mean + contact * b.mean(StripSum::contact_yy);
-  return b.estimate(sum / area, {{StripSum::mass_w2, 1.0 / area},
-                                 {StripSum::mass_w, -2.0 * mean / area},
-                                 {StripSum::mass, mean * mean / area},
-                                 {StripSum::contact_yy, contact / area}});
+  const double sum = random.sum + contact * b.mean(StripSum::contact_yy);
+  random.parts.push_back({StripSum::contact_yy, contact});
+  for (Part& part : random.parts) part.derivative /= area;
+  return b.estimate(sum / area, random.parts);
 }
 
 struct Quantity {
@@ -120,7 +154,7 @@ constexpr std::array<Quantity, 16> quantities = {{
      [](const B& b, double) { return per_grain(b, S::vy); }},
     {"temperature_x", "m^2/s^2", "Mean of v_x^2 of the grains.",
      [](const B& b, double) { return per_grain(b, S::vx2); }},
-    {"temperature_y", "m^2/s^2", "Variance of v_y of the grains about the mean of the strip.",
+    {"temperature_y", "m^2/s^2", "Variance of v_y of the grains about the mean of their strip.",
      [](const B& b, double) { return variance_of_w(b); }},
     {"stress_xx", "N/m", "Normal stress across the tube, positive in compression.",
      [](const B& b, double a) { return density(b, a, S::mass_vx2, S::contact_xx); }},
@@ -160,8 +194,8 @@ Zone core_of(const Strips& strips) {
   return zone;
 }
 
-Zone wall_layers_of(const Strips& strips) {
-  return strips.count > 1 ? Zone{0, strips.count - 1} : Zone{0};
+Zone wall_layers_of(const Strips& strips, std::size_t walls) {
+  return strips.count > 1 && walls > 1 ? Zone{0, strips.count - 1} : Zone{0};
 }
 
 std::vector<TubeProfile> tube_profiles(const TimeBlocks& blocks, const Strips& strips,

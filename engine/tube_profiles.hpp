@@ -7,8 +7,9 @@
 // Stresses are momentum fluxes, positive in compression: an ideal gas has sigma_xx = density times
 // temperature_x. The kinetic part is what flying grains carry, the contact part what forces carry.
 // v_x counts in full, as walls keep its mean at zero: where the grains sway together it is a
-// stress. v_y counts relative to its mean in the strip. Contacts may have sigma_xy unlike sigma_yx:
-// grains that do not rotate take any torque, and others hand it on.
+// stress. v_y counts relative to its mean in the strip, also where strips are taken together: what
+// differs from strip to strip is the profile of the velocity, and nothing random. Contacts may have
+// sigma_xy unlike sigma_yx: grains that do not rotate take any torque, and others hand it on.
 #pragma once
 
 #include "engine/estimate.hpp"
@@ -25,8 +26,10 @@ namespace riesel {
 using Zone = std::vector<std::size_t>;
 
 std::vector<Zone> each_strip(const Strips& strips);
-Zone core_of(const Strips& strips);         ///< the middle half of the tube
-Zone wall_layers_of(const Strips& strips);  ///< the strip at either wall
+/// The middle half of the width.
+Zone core_of(const Strips& strips);
+/// The strips at the walls, of which there is at least the left one.
+Zone wall_layers_of(const Strips& strips, std::size_t walls);
 
 struct TubeProfile {
   std::string_view name, unit, meaning;

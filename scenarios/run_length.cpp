@@ -53,7 +53,8 @@ RunLength run_length(const io::Settings& settings) {
   if (until && settings.has(duration_key))
     settings.reject(
         duration_key, "excludes run.until, and both are given",
-        "remove one of the two, on the command line by --set run.duration= or --set run.until=");
+        "remove one of the two: on the command line by --set run.duration= or --set run.until=, in "
+        "a sweep file by 'run.duration:' without a value, below 'set:'");
   if (until) return until_precise(settings);
   if (!settings.has(duration_key))
     settings.reject(duration_key, "is missing", "give a time such as '2 s', or run.until");

@@ -236,10 +236,12 @@ class Prolonged(SweepTest):
         process.send_signal(signal.SIGTERM)
         output, _ = process.communicate(timeout=100.0)
         self.assertEqual(process.returncode, 128 + signal.SIGTERM)
-        self.assertIn("2 interrupted", output)
+        self.assertIn("2 points: 1 done, 1 interrupted", output)
+        self.assertEqual(sorted(row["mean_axial_velocity.value"] == "" for row in self.rows()), [False, True])
         begun = [point for point in (self.home / "out/points").iterdir()
                  if not (point / "summary.json").exists()]
         self.assertEqual(len(begun), 1)
+        self.assertTrue((begun[0] / "summary.json.previous").exists())
         # The sweep file alone lets what was begun come to its new end, and leaves the other as it was.
         shutil.copytree(self.home / "out", self.home / "other")
         self.assert_done(self.sweep(TWO, "other"))
