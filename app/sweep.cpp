@@ -14,6 +14,7 @@
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/shell_words.hpp"
+#include "io/summary.hpp"
 
 #include <fmt/core.h>
 
@@ -144,6 +145,14 @@ SweepPlan plan_in(const fs::path& sweep) {
   return plan;
 }
 
+/// What was to go on, and has not begun to, has the result that it had.
+void let_results_stand(io::Manifest& manifest, const fs::path& sweep) {
+  for (io::ManifestPoint& point : manifest.points)
+    if (point.status == to_string(RunStatus::interrupted)
+        && fs::exists(point_directory(sweep, point.name) / io::summary_name))
+      point.status = to_string(RunStatus::done);
+}
+
 void reject_options_in_vain(const SweepOptions& options, bool begun) {
   if (begun && options.directory)
     throw UnusableInput("--out: the sweep in " + options.file.string()
@@ -195,7 +204,7 @@ int sweep(const SweepOptions& options) {
                                  .max_walltime = options.max_walltime,
                                  .prolongation = prolongation,
                                  .on_change = write_manifest});
-  refresh(plan.manifest, directory);  // a result stays one, although its run was to go on
+  let_results_stand(plan.manifest, directory);
   write_manifest(plan.manifest);
   write_table(plan.manifest, directory);
   print_status(plan.manifest, directory);

@@ -285,10 +285,11 @@ class Faults(FaultTest):
                     self.assertEqual(result.returncode, -signal.SIGKILL, result)
                 self.assert_goes_on_as_uninterrupted()
 
-    def test_the_summary_of_a_shorter_run_cannot_be_removed(self):
+    def test_the_summary_of_a_shorter_run_cannot_be_set_aside(self):
         self.assert_done(self.faulty("run", "tube.yaml", "--out", "out", "--set", "run.duration=3 ms"))
-        result = self.faulty("resume", "out", *AS_IN_TUBE, fault=f"unlink:1:{errno.EIO}")
+        result = self.faulty("resume", "out", *AS_IN_TUBE, fault=f"rename:1:{errno.EIO}")
         self.assert_fails_with_word(result, errno.EIO)
+        self.assertIn("out/summary.json: cannot be set aside", result.stderr)
         self.assert_done(self.faulty("resume", "out", *AS_IN_TUBE))
         self.assert_came_to_the_same()
 
