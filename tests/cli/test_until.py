@@ -107,7 +107,9 @@ class Until(UntilTest):
     def test_of_a_runaway_in_a_sweep_the_table_has_no_error(self):
         self.write("sweep.yaml", "base: until.yaml\nset: {run.until.at_most: 0.5 s}\n"
                                  "axes: {start.axial_velocity: [20 m/s, 25 m/s]}\n")
-        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
+        result = self.riesel("sweep", "sweep.yaml", "--out", "out")
+        self.assert_done(result)
+        self.assertRegex(result.stdout, r"\n  flows: 2 accelerating and \w+ \(less precise than asked for\)\n")
         with open(self.home / "out/sweep.csv", newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["state"] for row in rows], ["accelerating"] * 2)
@@ -117,6 +119,7 @@ class Until(UntilTest):
             self.assertTrue(np.isnan(file["points/mean_axial_velocity.error"][()]).all())
         self.assert_done(self.riesel("report", "out"))
         page = (self.home / "out/report.html").read_text(encoding="utf-8")
+        self.assertIn("2 of them ended because their time was up", page)
         self.assertRegex(page, r"[0-9.]+ \(error not known\)</td><td[^>]*>accelerating")
         self.assertRegex(page, r"[0-9.]+ \(error not known\) m/s, accelerating")
 
