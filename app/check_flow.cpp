@@ -181,8 +181,7 @@ void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
   line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
        precision ? "at most " : "", readable_time(seconds), threads, threads == 1 ? "" : "s",
        speed / 1e6);
-  const TrajectorySize trajectory =
-      size_of_trajectory(flow.state, schedule.steps_per_frame, steps);
+  const TrajectorySize trajectory = size_of_trajectory(flow.state, schedule.steps_per_frame, steps);
   print_memory(bytes_to_save(grains, rows, trajectory));
   print_series(rows, steps * flow.state.time_step);
   print_trajectory(trajectory);

@@ -52,7 +52,8 @@ State start(const ImpactSetup& setup, const Impact& impact) {
 double speed_of(const Impact& impact) { return std::hypot(impact.v_x, impact.v_y); }
 
 std::int64_t steps_between_looks(const ImpactSetup& setup, const Impact& impact) {
-  const double steps = reaches_between_looks * setup.reach() / (speed_of(impact) * impact.time_step);
+  const double steps =
+      reaches_between_looks * setup.reach() / (speed_of(impact) * impact.time_step);
   const auto most = static_cast<double>(most_steps_between_looks);
   return static_cast<std::int64_t>(std::clamp(steps, 1.0, most));
 }

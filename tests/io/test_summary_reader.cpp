@@ -193,8 +193,7 @@ TEST_CASE("A column that is read back and written again is the same text") {
 TEST_CASE("A whole summary of an older version that lacks a value is not called damaged") {
   const ScratchDirectory directory;
   const auto path = directory / summary_name;
-  const auto lacking =
-      with(to_json(special_summary()), "\"wall_work\"", "\"wall_work_of_later\"");
+  const auto lacking = with(to_json(special_summary()), "\"wall_work\"", "\"wall_work_of_later\"");
   overwrite(path, lacking);
   CHECK(complaint(path).find("is damaged (key 'wall_work' not found)") != std::string::npos);
   const auto version = "\"version\": \"" + std::string(build_info().version) + "\"";

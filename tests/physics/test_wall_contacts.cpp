@@ -112,7 +112,8 @@ TEST_CASE("a grain that is far too fast for any contact has gone through the wal
   const double v_x = GENERATE(1e3, 1e4, 3e4);  // m/s
   const ImpactSetup setup = wall_array(paper_model(), wall_collision_time());
   const ImpactResult result = follow(
-      setup, {.x = 1.1 * reach, .y = 0.0, .v_x = v_x, .v_y = 1.0, .time_step = setup.collision_time / 50});
+      setup,
+      {.x = 1.1 * reach, .y = 0.0, .v_x = v_x, .v_y = 1.0, .time_step = setup.collision_time / 50});
   CHECK(result.end == ImpactEnd::passed);
 }
 
