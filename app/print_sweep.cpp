@@ -62,9 +62,9 @@ void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& s
       const io::Summary any =
           io::read_summary(point_directory(sweep, point.name) / io::summary_name);
       if (const auto* flow = std::get_if<io::FlowSummary>(&any))
-        ++verdicts[fmt::format("{} and {}{}", flow->state, name(flow->validity.verdict.verdict),
-                               flow->ended_by == "at_most" ? " (less precise than asked for)"
-                                                           : "")];
+        ++verdicts[fmt::format(
+            "{} and {}{}", flow->state, name(flow->validity.verdict.verdict),
+            flow->ended_by == "at_most" ? " (not known as precisely as asked for)" : "")];
     } catch (const io::FileError&) {
       ++verdicts["unreadable"];
     }

@@ -91,8 +91,8 @@ private:
                                            "flow of hard grains."),
                      is_good ? "good" : "doubtful");
     if (imprecise > 0)
-      page().paragraph(fmt::format("{} of them ended because their time was up: they are less "
-                                   "precise than was asked for.",
+      page().paragraph(fmt::format("{} of them ended because their time was up, before they were "
+                                   "known as precisely as was asked for.",
                                    imprecise),
                        "doubtful");
   }

@@ -24,7 +24,6 @@
 #include "engine/steady_state.hpp"
 #include "engine/stopping_rule.hpp"
 #include "engine/tube_profiles.hpp"
-#include "io/durable_file.hpp"
 #include "io/provenance.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_limits.hpp"

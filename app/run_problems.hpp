@@ -7,7 +7,6 @@
 #include "app/run_directory.hpp"
 #include "app/stepping.hpp"
 #include "app/verbosity.hpp"
-#include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 
@@ -51,7 +50,7 @@ int run_problems(const io::Settings& settings, int grains, const RunDirectory& d
   auto file = io::RunFile::create(directory.file(io::run_file_name), provenance, {});
   write_table(file, summary);
   file.flush();
-  io::write_durably(directory.file(io::summary_name), io::to_json(summary));
+  directory.write_summary(io::to_json(summary));
   if (verbosity != Verbosity::quiet) print_summary(summary, directory.path());
   return exit_done;
 }

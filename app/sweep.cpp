@@ -14,7 +14,6 @@
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/shell_words.hpp"
-#include "io/summary.hpp"
 
 #include <fmt/core.h>
 
@@ -145,14 +144,6 @@ SweepPlan plan_in(const fs::path& sweep) {
   return plan;
 }
 
-/// What was to go on, and has not begun to, has the result that it had.
-void let_results_stand(io::Manifest& manifest, const fs::path& sweep) {
-  for (io::ManifestPoint& point : manifest.points)
-    if (point.status == to_string(RunStatus::interrupted)
-        && fs::exists(point_directory(sweep, point.name) / io::summary_name))
-      point.status = to_string(RunStatus::done);
-}
-
 void reject_options_in_vain(const SweepOptions& options, bool begun) {
   if (begun && options.directory)
     throw UnusableInput("--out: the sweep in " + options.file.string()
@@ -204,8 +195,6 @@ int sweep(const SweepOptions& options) {
                                  .max_walltime = options.max_walltime,
                                  .prolongation = prolongation,
                                  .on_change = write_manifest});
-  let_results_stand(plan.manifest, directory);
-  write_manifest(plan.manifest);
   write_table(plan.manifest, directory);
   print_status(plan.manifest, directory);
   if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");

@@ -290,8 +290,8 @@ private:
     refresh(manifest_, sweep_);
     for (io::ManifestPoint& point : manifest_.points) {
       const auto job = by_name_.find(point.name);
-      if (job == by_name_.end() || point.status != to_string(RunStatus::done)) continue;
-      point.status = to_string(job->second->status);  // it may be to go on
+      if (job == by_name_.end() || job->second->status != RunStatus::failed) continue;
+      point.status = to_string(RunStatus::failed);  // also if it was done, and cannot go on
       point.reason = job->second->reason;
     }
     options_.on_change(manifest_);

@@ -22,7 +22,8 @@ KEPT = Path(__file__).resolve().parent / "results"
 SIZES = ("1.4k", "10k", "100k", "1M")
 
 STATES = {"tube_start": "start", "tube_slow": "slow tube", "tube_stiff": "stiff tube", "tube_fast": "fast tube",
-          "dense_cold": "dense and cold", "dense_sheared": "dense and sheared"}
+          "dense_cold": "dense and cold", "dense_sheared": "dense and sheared", "ensemble": "ensemble",
+          "start_up": "start-up"}
 
 
 class Goal(NamedTuple):
@@ -30,7 +31,7 @@ class Goal(NamedTuple):
     name: str
     state: str
     source: str  # format of the results that tell
-    value: Callable  # of (rows of one size by variant, all rows): a number, or None if it was not measured
+    value: Callable  # of row(variant, size=that of the cell), None if there is none: a number, or None
     limit: Callable  # of the size: what the value is to reach, None if it is asked of other sizes only
     digits: int = 2
     at_most: bool = False
@@ -41,36 +42,38 @@ class Goal(NamedTuple):
 
 def ratio(over, under):
     """How much faster one variant is than another."""
-    def value(rows, _):
-        return paired_ratio(rows[over], rows[under]).value if over in rows and under in rows else None
+    def value(row):
+        return paired_ratio(row(over), row(under)).value if row(over) and row(under) else None
     return value
 
 
-def automatic_beside_one_thread(rows, _):
+def speed(row):
+    return row["per_second"]["median"]
+
+
+def automatic_beside_one_thread(row):
     """`auto` over the faster of plain stepping and windows on one thread."""
-    alone = [rows[v] for v in ("plain 1", "windows 1") if v in rows]
-    if "automatic" not in rows or not alone:
-        return None
-    return paired_ratio(rows["automatic"], max(alone, key=lambda row: row["per_second"]["median"])).value
+    alone = [row(variant) for variant in ("plain 1", "windows 1") if row(variant)]
+    return paired_ratio(row("automatic"), max(alone, key=speed)).value if row("automatic") and alone else None
 
 
 def growth(variant):
     """Cost of a particle-step over that with 1.4 k grains."""
-    def value(rows, all_rows):
-        small = all_rows["1.4k"].get(variant)
-        return small["per_second"]["median"] / rows[variant]["per_second"]["median"] if small and variant in rows else None
+    def value(row):
+        small, large = row(variant, "1.4k"), row(variant)
+        return speed(small) / speed(large) if small and large else None
     return value
 
 
 def column(variant, name, factor=1.0):
-    def value(rows, _):
-        number = rows.get(variant, {}).get(name)
+    def value(row):
+        number = (row(variant) or {}).get(name)
         return None if number is None else factor * number
     return value
 
 
 def seconds(variant):
-    return lambda rows, _: rows[variant]["seconds"]["median"] if variant in rows else None
+    return lambda row: row(variant)["seconds"]["median"] if row(variant) else None
 
 
 def everywhere(limit):
@@ -122,27 +125,18 @@ def goals():
     return rows
 
 
-def by_size(results, state):
-    """{size: {variant: row}} of one case."""
-    found = {size: {} for size in SIZES}
-    for (case, size, variant), row in results["rows"].items():
-        if case == state and size in found:
-            found[size][variant] = row
-    return found
+def value_in(results, goal, cell_size):
+    def row(variant, size=cell_size):
+        return results["rows"].get((goal.state, size, variant))
+    return goal.value(row)
 
 
 def values(goal, size, files):
     """One of each result in which it was measured."""
     if goal.limit(size) is None:
         return []
-    found = []
-    for results in files:
-        if results["format"] == goal.source:
-            rows = by_size(results, goal.state)
-            value = goal.value(rows[size], rows)
-            if value is not None:
-                found.append(value)
-    return found
+    all_values = [value_in(results, goal, size) for results in files if results["format"] == goal.source]
+    return [value for value in all_values if value is not None]
 
 
 def cell(goal, size, files):
@@ -170,7 +164,7 @@ def table(files):
         cells = [cell(goal, size, files) for size in SIZES]
         if any(cells):
             name = goal.name if goal.name != before else ""
-            lines.append(f"| {name} | {STATES.get(goal.state, goal.state.replace('_', '-'))} | {' | '.join(cells)} |")
+            lines.append(f"| {name} | {STATES[goal.state]} | {' | '.join(cells)} |")
             before = goal.name
     return "\n".join(lines)
 

@@ -109,7 +109,7 @@ class Until(UntilTest):
                                  "axes: {start.axial_velocity: [20 m/s, 25 m/s]}\n")
         result = self.riesel("sweep", "sweep.yaml", "--out", "out")
         self.assert_done(result)
-        self.assertRegex(result.stdout, r"\n  flows: 2 accelerating and \w+ \(less precise than asked for\)\n")
+        self.assertRegex(result.stdout, r"\n  flows: 2 accelerating and \w+ \(not known as precisely as asked for\)\n")
         with open(self.home / "out/sweep.csv", newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["state"] for row in rows], ["accelerating"] * 2)
