@@ -111,6 +111,7 @@ public:
     Fixed x, y;  ///< quanta
   };
   const Displacement& drift() const { return drift_; }  ///< per step
+  std::int64_t sorted_at() const { return sorted_at_; }  ///< step
   /// From when they were listed to `step`.
   Displacement common_motion(std::int64_t step) const;
 

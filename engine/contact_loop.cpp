@@ -62,7 +62,7 @@ void note_over(Slice& slice, const Meeting& meeting) {
 }
 
 void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting) {
-  ++slice.tally.of(meeting.name).begun;
+  if (slice.counts(meeting.name)) ++slice.tally.of(meeting.name).begun;
   note_lasting(slice, meeting);
   contacts.begin(meeting);
 }
@@ -86,6 +86,7 @@ void count_work_of_walls(Slice& slice, const StepUnits& units) {
   const LiveContacts& contacts = slice.wall_contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Meeting& m = contacts.meeting(i);
+    if (!slice.counts(m.name)) continue;
     const BodyMotion& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
     const BodyKick kick = contacts.kick_of_first(i);
     const double x = work_along(kick.x, wall.ux, wall.kick_x, units.velocity_x);

@@ -51,8 +51,9 @@ void complete_step(Slice& slice, LiveContacts& contacts, const StepUnits& units,
     slice.trouble =
         first_of(slice.trouble, Trouble{static_cast<std::int64_t>(units.step), *contact});
   for (const std::size_t i : contacts.ended()) {
-    slice.tally.end(contacts.contact(i), contacts.meeting(i).reach());
-    note_over(slice, contacts.meeting(i));
+    const Meeting& meeting = contacts.meeting(i);
+    if (slice.counts(meeting.name)) slice.tally.end(contacts.contact(i), meeting.reach());
+    note_over(slice, meeting);
     ended(i);
     contacts.remove(i);
   }

@@ -129,7 +129,7 @@ void Candidates::end_lost_contacts(const State& state, std::int64_t step) {
       if (!is_lost(contact, slots)) continue;
       const Meeting meeting = meeting_of(contact.name, state, slots);
       add_last_loss(contact, meeting, bodies(state.grains), slip_, units);
-      owner.tally.end(contact, meeting.reach());
+      if (owner.counts(contact.name)) owner.tally.end(contact, meeting.reach());
     }
 }
 

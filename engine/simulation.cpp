@@ -1,10 +1,10 @@
 #include "engine/simulation.hpp"
 
-#include "engine/flights.hpp"
 #include "engine/observables.hpp"
 #include "engine/require.hpp"
 #include "engine/state_check.hpp"
 #include "engine/team.hpp"
+#include <cstdlib>
 
 #include <omp.h>
 
@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#define APART(threads) (threads > 1 && getenv("APART"))
 namespace riesel {
 
 namespace {
@@ -52,25 +53,14 @@ std::vector<Way> ways(Stepping stepping, const State& state, int threads, const 
   const bool flights_first =
       stepping == Stepping::windows
       || (stepping == Stepping::automatic && flights_look_faster(state, threads, askew));
-  std::vector<Way> all{{.by_flights = flights_first, .threads = threads}};
+  std::vector<Way> all{{.by_flights = flights_first, .threads = threads, .apart = APART(threads)}};
   if (stepping != Stepping::automatic) return all;
-  all.push_back({.by_flights = !flights_first, .threads = threads});
+  all.push_back({.by_flights = !flights_first, .threads = threads, .apart = APART(threads)});
   if (threads > 1)
     for (const bool by_flights : {flights_first, !flights_first})
-      all.push_back({.by_flights = by_flights, .threads = 1});
+      all.push_back({.by_flights = by_flights, .threads = 1, .apart = false});
   return all;
 }
-
-std::string partners(const ContactName& name) {
-  const std::string grain = "grain " + std::to_string(name.grain);
-  const std::string partner = std::to_string(name.partner);
-  return name.wall == no_wall
-             ? grain + " and grain " + partner
-             : grain + " and grain " + partner + " of wall " + std::to_string(name.wall);
-}
-
-/// Not each side has a wall.
-bool has_open_side(const State& state) { return state.walls.size() < 2; }
 
 }  // namespace
 
@@ -95,11 +85,7 @@ Simulation::~Simulation() = default;
 
 void Simulation::start_profile() {
   profile_ = Profile(true);
-  profile_first_thread();
-}
-
-void Simulation::profile_first_thread() {
-  candidates_->slices().front().profile = Profile(profile_.on());
+  if (stepper_) stepper_->start_profile();
 }
 
 void Simulation::advance(std::int64_t steps) {
@@ -121,7 +107,7 @@ void Simulation::advance_piece(std::int64_t last) {
   const auto now = std::chrono::steady_clock::now;
   const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
   const auto begin = now();
-  const bool in_trouble = prepared_ && candidates_->in_trouble();
+  const bool in_trouble = stepper_ && stepper_->candidates().in_trouble();
   if (!in_trouble && prepared_ != wanted()) {
     prepare();
     step_up_to(std::min(last, state_.step + 1));  // in which flights make all their appointments
@@ -131,81 +117,43 @@ void Simulation::advance_piece(std::int64_t last) {
   step_up_to(last);
   if (state_.step > first)
     choice_.note(state_.step - first, seconds(now() - start), seconds(start - begin));
-  collect();
-  fail_if_in_trouble();
+  if (stepper_) stepper_->fail_if_in_trouble();
 }
 
 Simulation::Preparation Simulation::wanted() const {
-  const Way way = choice_.way();
-  const std::size_t slices = askew_.slices_per_thread(state_, way.threads);
+  const auto [by_flights, threads, apart] = choice_.way();
+  const std::size_t slices = askew_.slices_per_thread(state_, threads);
   constexpr double ample = 0.6;  // so that it is not now one, now the other
-  const bool before = prepared_ && prepared_->slices_per_thread > 1;
+  const bool before = prepared_ && prepared_->manner.slices_per_thread > 1;
   const double enough =
       (before ? ample : 1.0) * askew_.contacts * static_cast<double>(state_.grains.size());
-  const bool askew = !way.by_flights || static_cast<double>(state_.contacts.size()) >= enough;
-  return {way, askew ? slices : 1};
+  const bool askew = !by_flights || static_cast<double>(state_.contacts.size()) >= enough;
+  return {{by_flights, threads, askew ? slices : 1}, apart};
 }
 
 /// Whoever is to step the grains starts from the state alone, as after a checkpoint.
 void Simulation::prepare() {
   const Preparation next = wanted();
   prepared_.reset();  // until all of it is there: the system may grant no more threads
-  flights_.reset();
-  plain_steps_.reset();
-  candidates_.reset();  // before the next ones are listed: memory
-  const auto [by_flights, threads] = next.way;
-  candidates_ = std::make_unique<Candidates>(
-      state_, model_.slip, threads, by_flights ? Flights::purpose : Candidates::plain_stepping,
-      next.slices_per_thread);
-  if (by_flights)
-    flights_ = std::make_unique<Flights>(state_, model_, *candidates_, askew_);
+  stepper_.reset();   // before the next candidates are listed: memory
+  parts_.reset();
+  if (next.apart)
+    parts_ = std::make_unique<Parts>(state_, model_, next.manner.by_flights, next.manner.threads);
   else
-    plain_steps_ = std::make_unique<PlainSteps>(state_, model_, *candidates_, askew_);
+    stepper_.emplace(state_, model_, next.manner, askew_);
   prepared_ = next;
-  profile_first_thread();
+  if (stepper_ && profile_.on()) stepper_->start_profile();
 }
 
 void Simulation::step_up_to(std::int64_t last) {
-  const std::int64_t now = state_.step;  // before the team starts, which changes it
-  as_a_team(prepared_->way.threads, [&](std::size_t member) {
-    if (flights_)
-      flights_->advance(member, now, last);
-    else
-      plain_steps_->advance(member, now, last);
-  });
-}
-
-/// Completes the state with what the slices know of contacts.
-void Simulation::collect() {
-  state_.contacts = candidates_->contacts();
-  for (Slice& slice : candidates_->slices()) {
-    state_.tally.merge(slice.tally);
-    slice.tally = {};
-    profile_.merge(slice.profile);
-    slice.profile = Profile(slice.profile.on());
+  if (parts_) {
+    parts_->advance(last, profile_);
+  } else {
+    stepper_->advance(last);
+    state_.contacts = stepper_->candidates().contacts();
+    stepper_->hand_over(state_.tally, profile_);
   }
   wall_watch_.look(state_);
-}
-
-void Simulation::fail_if_in_trouble() const {
-  std::optional<Trouble> trouble;
-  std::optional<LostGrain> lost;
-  for (const Slice& slice : candidates_->slices()) {
-    trouble = first_of(trouble, slice.trouble);
-    lost = first_of(lost, slice.lost);
-  }
-  if (trouble && !(lost && lost->step < trouble->step))
-    throw RunFailure("the force between " + partners(trouble->contact) + " is not finite "
-                     + when(trouble->step, state_.time_step) + "; a shorter time step may help");
-  if (!lost) return;
-  const bool through_open_side = !lost->thrown && has_open_side(state_);
-  throw RunFailure("grain " + std::to_string(lost->id)
-                   + (lost->thrown
-                          ? " was thrown farther within a few steps than its neighbours look "
-                          : " has left the system ")
-                   + when(lost->step, state_.time_step)
-                   + (through_open_side ? "; more room at the open side or a slower start may help"
-                                        : "; stiffer contacts or a shorter time step may help"));
 }
 
 }  // namespace riesel

@@ -1,11 +1,11 @@
 // Steps a State: the integrator loop and what it needs between two steps.
 #pragma once
 
-#include "engine/candidates.hpp"
 #include "engine/contact_law.hpp"
-#include "engine/plain_steps.hpp"
+#include "engine/parts.hpp"
 #include "engine/run_failure.hpp"
 #include "engine/state.hpp"
+#include "engine/stepper.hpp"
 #include "engine/stepping_choice.hpp"
 #include "engine/wall_watch.hpp"
 
@@ -14,8 +14,6 @@
 #include <optional>
 
 namespace riesel {
-
-class Flights;
 
 /// Threads that pay for this many grains on this machine, when the user leaves the choice to us.
 int useful_threads(std::size_t grains);
@@ -55,29 +53,26 @@ public:
 
 private:
   struct Preparation {
-    Way way;
-    std::size_t slices_per_thread;
+    Stepper::Manner manner;
+    bool apart;
+
     bool operator==(const Preparation&) const = default;
   };
   Preparation wanted() const;
   std::int64_t piece() const;
   void advance_piece(std::int64_t last);
   void prepare();
-  void profile_first_thread();
   void step_up_to(std::int64_t last);
-  void collect();
-  void fail_if_in_trouble() const;
 
   State state_;
   ContactModel model_;
   const int threads_;
   const Askew askew_;
   SteppingChoice choice_;
-  std::optional<Preparation> prepared_;  // of the candidates and of one of the two below
   Profile profile_;
-  std::unique_ptr<Candidates> candidates_;
-  std::unique_ptr<PlainSteps> plain_steps_;
-  std::unique_ptr<Flights> flights_;  // while stepping by windows
+  std::optional<Preparation> prepared_;  // of one of the two
+  std::optional<Stepper> stepper_;
+  std::unique_ptr<Parts> parts_;
   const WallWatch wall_watch_;
 };
 

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace riesel {
@@ -72,6 +73,7 @@ struct alignas(cache_line) Slice {
   std::size_t kept = 0;        ///< how many of all those the slice has after it
   Profile profile;             ///< of what its thread does with it
   Tally tally;                 ///< of contacts that began or ended in the last advance
+  std::span<const std::uint8_t> counted;  ///< whether those of a grain are, by id; none: all are
 
   alignas(cache_line) std::vector<Kick> given_away;  ///< of this step, on grains of other slices
   std::uint32_t given_first = 0, given_last = 0;     ///< the lowest and the highest slot of them
@@ -83,6 +85,10 @@ struct alignas(cache_line) Slice {
   std::optional<LostGrain> lost;   ///< the first
 
   bool owns(std::uint32_t slot) const { return slot - begin < end - begin; }
+  /// Whether the contact is to be in the tally.
+  bool counts(const ContactName& name) const {
+    return counted.empty() || counted[static_cast<std::size_t>(name.grain)] != 0;
+  }
   /// Whether the grain is listed as near the wall; a look at all.
   bool has_near(std::uint32_t slot, std::int32_t wall) const {
     return std::any_of(near_walls.begin(), near_walls.end(), [&](const NearWall& near) {

@@ -19,6 +19,7 @@ namespace riesel {
 struct Way {
   bool by_flights;
   int threads;
+  bool apart = false;  ///< each with a part of its own
 
   bool operator==(const Way&) const = default;
 };
