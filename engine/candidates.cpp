@@ -47,6 +47,19 @@ std::vector<ContactSlots> slots_of_contacts(const State& state) {
 
 }  // namespace
 
+/// So that none has a large speed relative to it; counted from the first grain, as velocities in
+/// the falling frame may wrap.
+Fixed middle_velocity(const Grains& grains) {
+  Fixed least = 0, most = 0;
+  for (const Fixed uy : grains.uy) {
+    const Fixed from_first = wrapped_difference(uy, grains.uy.front());
+    least = std::min(least, from_first);
+    most = std::max(most, from_first);
+  }
+  const Fixed middle = wrapped_sum(least, wrapped_difference(most, least) / 2);
+  return wrapped_sum(grains.uy.front(), middle);
+}
+
 Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
                        std::size_t slices_per_thread)
     : slip_(slip),
@@ -75,8 +88,14 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Pur
       throw std::invalid_argument("the grains of a wall are too close together");
 
   for (Slice& slice : slices_) slice.pairs.searched = purpose.searched;
+  start_from(state, std::nullopt);
+}
+
+void Candidates::start_from(State& state, std::optional<Fixed> drift) {
+  given_drift_ = drift;
+  for (Slice& slice : slices_) slice.forget_life();
   const std::vector<ContactSlots> before = slots_of_contacts(state);
-  as_a_team(threads, [&](std::size_t member) {
+  as_a_team(static_cast<int>(team_.members()), [&](std::size_t member) {
     const std::span<Slice> mine = share(member);
     renew(state, mine, state.step);
     keep(state, mine, before, state.contacts);
@@ -147,7 +166,10 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
 }
 
 void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t step) {
-  for (Slice& mine : share) set_contacts_aside(mine);
+  for (Slice& mine : share) {
+    set_contacts_aside(mine);
+    note_wandering(state, mine, step);
+  }
   wait(share);  // all grains are at this step
   renew(state, share, step);
   for (const Slice& slice : slices_)
@@ -198,16 +220,7 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   sorted_at_ = step;
   hold_until_ = step + steps_to_walls_;
   drift_.x = wrapped_difference(0, fall_.times(step).x);
-  // Half-way between the slowest and the fastest grain, so that none has a large speed relative to
-  // it; counted from the first grain, as velocities in the falling frame may wrap.
-  Fixed least = 0, most = 0;
-  for (const Fixed uy : grains.uy) {
-    const Fixed from_first = wrapped_difference(uy, grains.uy.front());
-    least = std::min(least, from_first);
-    most = std::max(most, from_first);
-  }
-  const Fixed middle = wrapped_sum(least, wrapped_difference(most, least) / 2);
-  drift_.y = wrapped_sum(grains.uy.front(), middle);
+  drift_.y = given_drift_.value_or(middle_velocity(grains));
 }
 
 /// First the pairs within the longest reach, a few at a time, then of them those within their own;
@@ -285,9 +298,23 @@ void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& min
   const CoarseMotion common = coarse_motion(step);
   float farthest2 = 0.0F;
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    farthest2 = std::max(farthest2, squared_displacement(coarse, i, common));
+    farthest2 = std::max(farthest2, squared_displacement(coarse.x[i], coarse.y[i], i, common));
   mine.farthest = distance(farthest2);
 }
+
+/// The candidates are about to be listed anew. Until now each grain was within half the skin, or
+/// went farther in the last step.
+void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t step) const {
+  const CoarseMotion common = coarse_motion(step);
+  const Grains& g = state.grains;
+  float farthest2 = 0.0F;
+  for (std::size_t i = mine.begin; i < mine.end; ++i)
+    farthest2 = std::max(farthest2, squared_displacement(upper_half(g.x[i]), upper_half(g.y[i]), i,
+                                                         common));
+  mine.wandered += std::max(0.5 * skin_, distance(farthest2));
+}
+
+double Candidates::wandered() const { return largest(slices_, &Slice::wandered) + 0.5 * skin_; }
 
 /// With or without the kicks in the store: in the middle of a step the last ones are taken up
 /// already, at its end the next step will.

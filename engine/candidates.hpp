@@ -25,10 +25,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace riesel {
+
+/// Quanta per step along y, half-way between the slowest and the fastest grain.
+Fixed middle_velocity(const Grains& grains);
 
 class Candidates {
 public:
@@ -47,6 +51,11 @@ public:
   /// the state cannot be one.
   Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
              std::size_t slices_per_thread = 1);
+
+  /// The state has become another one, of the same system or of a part of it: starts from it anew,
+  /// as the constructor does. With a `drift` (quanta per step along y) displacements are counted
+  /// from that from now on.
+  void start_from(State& state, std::optional<Fixed> drift);
 
   /// How many rows of cells plain stepping has, about.
   static double rows(const State& state);
@@ -112,6 +121,9 @@ public:
   };
   const Displacement& drift() const { return drift_; }  ///< per step
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
+  /// m, no grain has been farther from where it was when the first were listed, relative to a drift
+  /// that was always the same.
+  double wandered() const;
   /// From when they were listed to `step`.
   Displacement common_motion(std::int64_t step) const;
 
@@ -128,7 +140,14 @@ public:
     mine.fastest2 = std::max(mine.fastest2, squared_speed(state.box, g.ux[slot], g.uy[slot]));
   }
 
-  /// Contacts of all slices, ordered by name.
+  /// Calls visit(contact) for the contacts of all slices.
+  template <class Visit>
+  void for_each_contact(Visit visit) const {
+    for (const Slice& slice : slices_)
+      for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
+        for (std::size_t i = 0; i < live->size(); ++i) visit(live->contact(i));
+  }
+  /// Of all slices, ordered by name.
   std::vector<Contact> contacts() const;
 
 private:
@@ -152,13 +171,14 @@ private:
     return {upper_half(common.x), upper_half(common.y)};
   }
   /// m^2, from where the grain was when sorted, relative to the common motion.
-  float squared_displacement(const CoarsePositions& coarse, std::size_t slot,
+  float squared_displacement(std::int32_t now_x, std::int32_t now_y, std::size_t slot,
                              const CoarseMotion& common) const {
-    const std::int32_t x = coarse_difference(coarse.x[slot], when_sorted_.x[slot]);
-    const std::int32_t y = coarse_difference(coarse.y[slot], when_sorted_.y[slot]);
+    const std::int32_t x = coarse_difference(now_x, when_sorted_.x[slot]);
+    const std::int32_t y = coarse_difference(now_y, when_sorted_.y[slot]);
     return units_.square(coarse_difference(x, common.x), coarse_difference(y, common.y));
   }
   double distance(float squared_displacement) const;
+  void note_wandering(const State& state, Slice& mine, std::int64_t step) const;
   void measure_speeds(const State& state, Slice& mine) const;
 
   // kept_contacts.cpp
@@ -185,6 +205,7 @@ private:
 
   Fall fall_;                        // in a step
   std::int64_t steps_to_walls_ = 0;  // that the common fall takes for the room it has at walls
+  std::optional<Fixed> given_drift_;
   Displacement drift_{};             // across the tube: at rest when the candidates were listed
   std::int64_t sorted_at_ = 0, hold_until_ = 0;  // steps
 };

@@ -41,6 +41,8 @@ public:
   explicit Courses(State& state)
       : grains_(state.grains), fall_(fall_per_step(state)), place_(grains_.size()) {}
 
+  /// There are more grains, or fewer.
+  void resize() { place_.resize(grains_.size()); }
   /// The grains have just been sorted; all are at `step`. To be called once for all.
   void start_over(std::int64_t step) {
     sorted_at_ = step;

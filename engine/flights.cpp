@@ -21,6 +21,11 @@ Flights::Flights(State& state, const ContactModel& model, Candidates& candidates
   }
 }
 
+void Flights::start_over() {
+  airspace_.courses.resize();
+  for (Member& member : members_) member.trouble = member.under_way = false;
+}
+
 void Flights::advance(std::size_t number, std::int64_t now, std::int64_t last) {
   Member& member = members_[number];
   take_off(member, now);

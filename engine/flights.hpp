@@ -45,6 +45,9 @@ public:
   /// Nobody else uses the candidates afterwards. Keeps references.
   Flights(State& state, const ContactModel& model, Candidates& candidates, const Askew& askew);
 
+  /// The candidates have started from another state.
+  void start_over();
+
   /// From step `now`, that of the state, to `last`, or until the run cannot go on: then perhaps
   /// some steps beyond the trouble. To be called by all threads of a team with the same steps;
   /// `number` is that of the thread.

@@ -73,9 +73,7 @@ void keep_one(const State& state, Slice& mine, const Contact& contact, ContactSl
 
 std::vector<Contact> Candidates::contacts() const {
   std::vector<Contact> all;
-  for (const Slice& slice : slices_)
-    for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
-      for (std::size_t i = 0; i < live->size(); ++i) all.push_back(live->contact(i));
+  for_each_contact([&](const Contact& contact) { all.push_back(contact); });
   std::sort(all.begin(), all.end(),
             [](const Contact& a, const Contact& b) { return a.name < b.name; });
   return all;

@@ -28,7 +28,7 @@ public:
   /// Whether parts of this state are much larger than their margins.
   static bool pay(const State& state, bool by_flights, int threads);
 
-  /// Sorts the grains by id, and nobody else sorts them afterwards. Keeps references.
+  /// Sorts the grains now and then. Keeps references.
   Parts(State& state, const ContactModel& model, bool by_flights, int threads);
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -47,21 +47,28 @@ private:
 
   std::uint64_t quanta(double metres) const;
   std::uint64_t farthest_that_matters() const;
+  void sort();
   void plan(std::int64_t last);
   void conclude(Profile& profile);
-  void keep(Profile& profile);
+  void keep();
+  bool all_agree() const;
+  std::vector<double> weight_;
   void do_together(Profile& profile);
 
   State& state_;
   const ContactModel& model_;
   const bool by_flights_;
-  const double reach_;          // m
-  const std::uint64_t margin_;  // quanta of y
+  const double reach_, diameter_;  // m
+  const double skin_, most_buffer_;
+  double buffer_ = 5.0;
+  std::uint64_t margin_ = 0;  // quanta of y
+  Fixed drift_ = 0;
+  std::int64_t resorted_ = 0;
   TeamBarrier team_;
   std::vector<std::unique_ptr<Part>> parts_;
   std::vector<std::uint8_t> agreed_;
   std::vector<std::uint64_t> borders_;  // quanta of y; parts begin there
-  Grains next_;                         // in the order of their ids
+  Grains next_;                         // of the stretch; ordered as those of the state
   double steps_ = 16.0;                 // of the next stretch
   std::int64_t until_ = 0;              // step, of this stretch
   bool over_ = false;

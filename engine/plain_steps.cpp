@@ -49,9 +49,13 @@ PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& cand
       candidates_(candidates),
       units_(state),
       most_steps_askew_(askew.most_steps(state)),
-      coarse_(candidates.when_sorted()),
       progress_(candidates.slices().size()) {
-  for (Slice& slice : candidates.slices())
+  start_over();
+}
+
+void PlainSteps::start_over() {
+  coarse_ = candidates_.when_sorted();
+  for (Slice& slice : candidates_.slices())
     for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts})
       contacts->pad_with(static_cast<std::int64_t>(slice.begin));
 }

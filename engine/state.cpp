@@ -2,6 +2,7 @@
 
 #include "engine/hash.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 namespace riesel {
@@ -124,7 +125,8 @@ GrainView::GrainView(const State& state)
       to_spin_(quantum_of_angle / state.time_step) {}
 
 std::vector<std::size_t> slots_by_id(const Grains& grains) {
-  std::vector<std::size_t> slots(grains.size());
+  const auto last = std::max_element(grains.id.begin(), grains.id.end());
+  std::vector<std::size_t> slots(last == grains.id.end() ? 0 : static_cast<std::size_t>(*last) + 1);
   for (std::size_t slot = 0; slot < grains.size(); ++slot)
     slots[static_cast<std::size_t>(grains.id[slot])] = slot;
   return slots;

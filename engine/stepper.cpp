@@ -38,6 +38,14 @@ Stepper::Stepper(State& state, const ContactModel& model, const Manner& manner, 
 
 Stepper::~Stepper() = default;
 
+void Stepper::start_from(State& state, Fixed drift) {
+  candidates_.start_from(state, drift);
+  if (flights_)
+    flights_->start_over();
+  else
+    plain_steps_->start_over();
+}
+
 void Stepper::advance(std::int64_t last) {
   const std::int64_t now = state_.step;  // before the team starts, which changes it
   as_a_team(manner_.threads, [&](std::size_t member) {

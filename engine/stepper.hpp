@@ -35,6 +35,9 @@ public:
   Stepper& operator=(const Stepper&) = delete;
   ~Stepper();
 
+  /// The state has become another one: as Candidates::start_from().
+  void start_from(State& state, Fixed drift);
+
   /// Up to step `last`, or until the run cannot go on.
   void advance(std::int64_t last);
 
