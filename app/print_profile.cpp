@@ -41,7 +41,10 @@ void print_profile(const Simulation& simulation, const RunTimes& times, std::int
   const Way way = simulation.preferred_way();
   fmt::print("stepped {} on {} thread{} at the end; one step in {} was looked at in detail, on the "
              "first thread\n",
-             way.by_flights ? "by windows" : "plainly", way.threads, way.threads == 1 ? "" : "s",
+             way.by_flights ? "by windows" : "plainly", way.threads,
+             way.threads == 1 ? ""
+             : way.apart      ? "s apart"
+                              : "s",
              Profile::steps_per_sample);
 }
 

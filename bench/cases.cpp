@@ -1,5 +1,7 @@
 #include "bench/cases.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -74,21 +76,38 @@ const std::vector<ImpactCase>& impact_cases() {
 const std::vector<Variant>& timed_variants() {
   static const std::vector<Variant> table = {
       {.name = "plain 1", .stepping = Stepping::plain, .threads = 1},
-      {.name = "plain 2", .stepping = Stepping::plain, .threads = 2},
+      {.name = "plain 2", .stepping = Stepping::plain, .threads = 2, .sharing = Sharing::together},
+      {.name = "plain 2 apart",
+       .stepping = Stepping::plain,
+       .threads = 2,
+       .sharing = Sharing::apart},
       {.name = "windows 1", .stepping = Stepping::windows, .threads = 1},
-      {.name = "windows 2", .stepping = Stepping::windows, .threads = 2},
+      {.name = "windows 2",
+       .stepping = Stepping::windows,
+       .threads = 2,
+       .sharing = Sharing::together},
+      {.name = "windows 2 apart",
+       .stepping = Stepping::windows,
+       .threads = 2,
+       .sharing = Sharing::apart},
       {.name = "automatic", .stepping = Stepping::automatic, .threads = 0},
   };
   return table;
 }
 
 const std::vector<Variant>& further_variants() {
-  static const std::vector<Variant> table = {
-      {.name = "plain 3", .stepping = Stepping::plain, .threads = 3},
-      {.name = "plain 4", .stepping = Stepping::plain, .threads = 4},
-      {.name = "windows 3", .stepping = Stepping::windows, .threads = 3},
-      {.name = "windows 4", .stepping = Stepping::windows, .threads = 4},
-  };
+  static const std::vector<Variant> table = [] {
+    std::vector<Variant> all;
+    for (const auto& [sharing, shared] : sharings())
+      for (const auto& [stepping, stepped] : steppings())
+        for (const int threads : {3, 4})
+          if (stepped != Stepping::automatic && shared != Sharing::automatic)
+            all.push_back({.name = fmt::format("{} {} {}", stepping, threads, sharing),
+                           .stepping = stepped,
+                           .threads = threads,
+                           .sharing = shared});
+    return all;
+  }();
   return table;
 }
 
@@ -109,6 +128,13 @@ const std::map<std::string, Stepping>& steppings() {
   static const std::map<std::string, Stepping> table = {{"plain", Stepping::plain},
                                                         {"windows", Stepping::windows},
                                                         {"automatic", Stepping::automatic}};
+  return table;
+}
+
+const std::map<std::string, Sharing>& sharings() {
+  static const std::map<std::string, Sharing> table = {{"together", Sharing::together},
+                                                       {"apart", Sharing::apart},
+                                                       {"automatic", Sharing::automatic}};
   return table;
 }
 

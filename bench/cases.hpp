@@ -40,6 +40,12 @@ struct Variant {
   std::string name;
   Stepping stepping;
   int threads;  ///< 0: as many as riesel takes by itself
+  Sharing sharing = Sharing::automatic;
+
+  /// Where memory is what counts the threads have parts of another kind: slices that go askew.
+  bool suits(std::size_t grains) const {
+    return sharing != Sharing::apart || grains < Askew{}.fewest;
+  }
 };
 
 const std::vector<FlowCase>& flow_cases();
@@ -56,5 +62,7 @@ Size size_named(const std::string& name);
 
 /// The names of the steppings: "plain", "windows", "automatic".
 const std::map<std::string, Stepping>& steppings();
+/// Those of how threads share the steps: "together", "apart", "automatic".
+const std::map<std::string, Sharing>& sharings();
 
 }  // namespace riesel::bench

@@ -76,7 +76,8 @@ void advance(const AdvanceOptions& options) {
   const std::size_t grains = checkpoint.state.grains.size();
   const int threads =
       options.variant.threads > 0 ? options.variant.threads : useful_threads(grains);
-  Simulation simulation(std::move(checkpoint.state), model, threads, options.variant.stepping);
+  Simulation simulation(std::move(checkpoint.state), model, threads, options.variant.stepping,
+                        Askew{}, options.variant.sharing);
   simulation.advance(options.warm_up);
   const double seconds = seconds_of([&] { simulation.advance(options.steps); });
   const auto steps = static_cast<double>(options.steps);

@@ -24,7 +24,9 @@ FORMAT_VERSION = 1  # of both
 RATIOS = [("plain / scalar", "plain 1", "scalar"),
           ("windows / plain", "windows 1", "plain 1"),
           ("plain, 2 threads / 1", "plain 2", "plain 1"),
+          ("plain, 2 apart / 1", "plain 2 apart", "plain 1"),
           ("windows, 2 threads / 1", "windows 2", "windows 1"),
+          ("windows, 2 apart / 1", "windows 2 apart", "windows 1"),
           ("automatic / plain", "automatic", "plain 1"),
           ("2 threads / 1", "threads 2", "threads 1"),
           ("2 jobs / 1", "jobs 2", "jobs 1")]

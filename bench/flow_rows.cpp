@@ -45,9 +45,9 @@ struct Plan {
                                                                 : 5)) {}
 };
 
-std::string name_of(Stepping stepping) {
-  const auto& all = steppings();
-  return std::find_if(all.begin(), all.end(), [&](auto& one) { return one.second == stepping; })
+template <class Choice>
+std::string name_in(const std::map<std::string, Choice>& all, Choice choice) {
+  return std::find_if(all.begin(), all.end(), [&](auto& one) { return one.second == choice; })
       ->first;
 }
 
@@ -63,9 +63,11 @@ public:
         grains_(start_.state.grains.size()),
         plan_(one, effort, static_cast<double>(grains_)),
         reference_(start_.state, model_) {
-    for (const Variant& variant : timed_variants())
+    for (const Variant& variant : timed_variants()) {
+      if (!variant.suits(grains_)) continue;
       contenders_.push_back(variant.stepping == Stepping::automatic ? chosen(variant)
                                                                     : warmed_up(variant));
+    }
     reference_.advance(plan_.warm_up);
   }
 
@@ -94,13 +96,15 @@ private:
     const Way way = trial.preferred_way();
     return warmed_up({.name = variant.name,
                       .stepping = way.by_flights ? Stepping::windows : Stepping::plain,
-                      .threads = way.threads});
+                      .threads = way.threads,
+                      .sharing = way.apart ? Sharing::apart : Sharing::together});
   }
 
   Contender warmed_up(const Variant& variant) const {
     Contender contender{.variant = variant, .simulation = {}};
-    contender.simulation = std::make_unique<Simulation>(
-        start_.state, model_, contender.variant.threads, variant.stepping);
+    contender.simulation =
+        std::make_unique<Simulation>(start_.state, model_, contender.variant.threads,
+                                     variant.stepping, Askew{}, variant.sharing);
     contender.simulation->advance(plan_.warm_up);
     contender.hash_after_warm_up = state_hash(contender.simulation->state());
     return contender;
@@ -141,8 +145,9 @@ private:
   void add_memory(const Variant& variant, Row& row) const {
     if (grains_ < fewest_for_memory) return;
     const auto answer =
-        ask_child({"advance", path_.string(), "--stepping", name_of(variant.stepping), "--threads",
-                   std::to_string(variant.threads), "--steps", "20"});
+        ask_child({"advance", path_.string(), "--stepping", name_in(steppings(), variant.stepping),
+                   "--threads", std::to_string(variant.threads), "--sharing",
+                   name_in(sharings(), variant.sharing), "--steps", "20"});
     row.bytes_per_grain = answer["memory"]["bytes_per_grain"].get<double>();
     row.peak_bytes_per_grain = answer["memory"]["peak_bytes_per_grain"].get<double>();
   }
@@ -166,7 +171,7 @@ private:
       if (state_hash(other.simulation->state()) != late) complain(other.variant.name, "at the end");
     }
     for (const Variant& variant : further_variants())
-      if (warmed_up(variant).hash_after_warm_up != early)
+      if (variant.suits(grains_) && warmed_up(variant).hash_after_warm_up != early)
         complain(variant.name, "after the warm-up");
   }
 

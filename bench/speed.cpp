@@ -190,6 +190,8 @@ private:
     command.add_option("checkpoint", advance_.checkpoint)->required();
     command.add_option("--stepping", advance_.variant.stepping)
         ->transform(CLI::CheckedTransformer(steppings()));
+    command.add_option("--sharing", advance_.variant.sharing, "How threads share the steps")
+        ->transform(CLI::CheckedTransformer(sharings()));
     command.add_option("--threads", advance_.variant.threads, "0: as many as pay");
     command.add_option("--warm-up", advance_.warm_up, "Steps before those that are timed");
     command.add_option("--steps", advance_.steps)->check(CLI::PositiveNumber);

@@ -309,8 +309,8 @@ void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t st
   const Grains& g = state.grains;
   float farthest2 = 0.0F;
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    farthest2 = std::max(farthest2, squared_displacement(upper_half(g.x[i]), upper_half(g.y[i]), i,
-                                                         common));
+    farthest2 = std::max(farthest2,
+                         squared_displacement(upper_half(g.x[i]), upper_half(g.y[i]), i, common));
   mine.wandered += std::max(0.5 * skin_, distance(farthest2));
 }
 

@@ -119,7 +119,7 @@ public:
   struct Displacement {
     Fixed x, y;  ///< quanta
   };
-  const Displacement& drift() const { return drift_; }  ///< per step
+  const Displacement& drift() const { return drift_; }   ///< per step
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
   /// m, no grain has been farther from where it was when the first were listed, relative to a drift
   /// that was always the same.
@@ -206,7 +206,7 @@ private:
   Fall fall_;                        // in a step
   std::int64_t steps_to_walls_ = 0;  // that the common fall takes for the room it has at walls
   std::optional<Fixed> given_drift_;
-  Displacement drift_{};             // across the tube: at rest when the candidates were listed
+  Displacement drift_{};  // across the tube: at rest when the candidates were listed
   std::int64_t sorted_at_ = 0, hold_until_ = 0;  // steps
 };
 

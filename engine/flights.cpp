@@ -58,7 +58,9 @@ void Flights::wait_and_meanwhile(const Member& member, Do something) {
 
 void Flights::take_off(Member& member, std::int64_t step) {
   if (!member.under_way) {
+    member.profile.begin_build();
     begin(member, step, FlightRegion::Kicks::to_come);
+    member.profile.done_build();
     member.under_way = true;
     return;
   }

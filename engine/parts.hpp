@@ -1,15 +1,15 @@
 // The tube in parts: each thread does many steps with a part of its own, without a word to others.
 //
-// For that it has, besides the grains of its part, those of a margin on either side, as they were
-// at the beginning: copies of grains that belong to its neighbours. At the end it compares. If the
-// copies close to its own grains came to the same bits as their originals, nothing that the margin
-// does not know of has reached the part, and its own grains are right. Else nothing of these steps
-// is kept, and one thread does them with all grains together.
+// For that it has, besides the grains of its part, copies of those in a margin. At the end of such
+// a stretch it compares: if the copies close to the part have come to the same bits as their
+// originals, nothing that the part does not know of has reached it, and its own grains are right.
+// Else nothing of the stretch is kept, and one thread does it with all grains.
 //
-// Why that is enough, and what it gives: docs/architecture-parallel.md.
+// Why that is enough: docs/architecture-parallel.md. What it gives: docs/performance.md.
 #pragma once
 
 #include "engine/contact_law.hpp"
+#include "engine/part.hpp"
 #include "engine/profile.hpp"
 #include "engine/state.hpp"
 #include "engine/stepper.hpp"
@@ -25,55 +25,67 @@ namespace riesel {
 
 class Parts {
 public:
-  /// Whether parts of this state are much larger than their margins.
-  static bool pay(const State& state, bool by_flights, int threads);
+  /// What stretches are like, learned on the way. The results do not depend on it.
+  struct Habits {
+    double steps = 16.0;  ///< of a stretch
+    /// Mean diameters of a margin, beyond what a grain may meet: so long is the way of news to the
+    /// part.
+    double buffer = 5.0;
+    bool steps_known = false;  ///< parts have had to sort within a stretch
+  };
 
-  /// Sorts the grains now and then. Keeps references.
-  Parts(State& state, const ContactModel& model, bool by_flights, int threads);
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
-  ~Parts();
+  /// Whether the parts of so many threads are much longer than their margins.
+  static bool pay(const State& state, int threads);
 
-  /// Up to step `last`, or until the run cannot go on: then throws RunFailure. The state is
-  /// complete, but for what WallWatch does.
+  /// Keeps references; `habits` are those of before, and change. Throws as Stepper does.
+  Parts(State& state, const ContactModel& model, bool by_flights, int threads, Habits& habits);
+
+  /// Up to step `last`, or until the run cannot go on: then throws RunFailure. Nothing is done if
+  /// the system grants fewer threads.
   void advance(std::int64_t last, Profile& profile);
 
-  /// How often steps were done together, of how many stretches.
+  bool in_trouble() const { return whole_.has_value(); }
+
   std::int64_t stretches() const { return stretches_; }
+  /// Stretches of which nothing was kept.
   std::int64_t in_vain() const { return in_vain_; }
 
 private:
-  class Part;
-
-  std::uint64_t quanta(double metres) const;
-  std::uint64_t farthest_that_matters() const;
-  void sort();
+  void do_stretches(std::size_t member, std::int64_t last, Profile& profile);
+  void do_stretch(std::size_t member);
   void plan(std::int64_t last);
-  void conclude(Profile& profile);
-  void keep();
+  void sort();
+  void share_out();
+  Extent extent_of(std::size_t part) const;
+  std::uint64_t quanta(double metres) const;
+  std::uint64_t farthest_met() const;
   bool all_agree() const;
-  std::vector<double> weight_;
-  void do_together(Profile& profile);
+  void conclude(std::int64_t last, Profile& profile);
+  void learn_from_success();
+  void learn_from_failure();
+  void do_together(std::int64_t last, Profile& profile);
 
   State& state_;
   const ContactModel& model_;
   const bool by_flights_;
-  const double reach_, diameter_;  // m
-  const double skin_, most_buffer_;
-  double buffer_ = 5.0;
-  std::uint64_t margin_ = 0;  // quanta of y
-  Fixed drift_ = 0;
-  std::int64_t resorted_ = 0;
+  Habits& habits_;
+  const double reach_;     // m, of the largest pair
+  const double diameter_;  // m, mean
   TeamBarrier team_;
   std::vector<std::unique_ptr<Part>> parts_;
-  std::vector<std::uint8_t> agreed_;
-  std::vector<std::uint64_t> borders_;  // quanta of y; parts begin there
-  Grains next_;                         // of the stretch; ordered as those of the state
-  double steps_ = 16.0;                 // of the next stretch
-  std::int64_t until_ = 0;              // step, of this stretch
+  std::vector<double> weights_;         // of parts: what share of the grains they get
+  std::vector<std::uint64_t> borders_;  // quanta of y, where parts begin; and the end of the last
+  std::vector<double> seconds_;         // that parts took for the stretch
+  std::vector<std::uint8_t> agreed_;    // of parts
+
+  std::int64_t until_ = 0;    // step: the end of the stretch
+  std::uint64_t margin_ = 0;  // quanta of y
+  Fixed drift_ = 0;           // quanta per step along y
   bool over_ = false;
-  std::optional<Stepper> whole_;  // if the run cannot go on
+  Grains next_;  // those of the state at the end of the stretch, in the same places
+  std::optional<Stepper> whole_;  // with which the run could not go on
   std::int64_t stretches_ = 0, in_vain_ = 0;
+  int failures_ = 0;  // in a row
 };
 
 }  // namespace riesel

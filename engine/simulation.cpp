@@ -4,7 +4,6 @@
 #include "engine/require.hpp"
 #include "engine/state_check.hpp"
 #include "engine/team.hpp"
-#include <cstdlib>
 
 #include <omp.h>
 
@@ -14,7 +13,6 @@
 #include <string>
 #include <utility>
 
-#define APART(threads) (threads > 1 && getenv("APART"))
 namespace riesel {
 
 namespace {
@@ -48,16 +46,33 @@ bool flights_look_faster(const State& state, int threads, const Askew& askew) {
   return price * contacts < static_cast<double>(state.grains.size());
 }
 
-/// The ways that `stepping` allows, the one to begin with first.
-std::vector<Way> ways(Stepping stepping, const State& state, int threads, const Askew& askew) {
+/// How so many threads may share the steps, what to try first first. If they go askew they have
+/// their parts already.
+std::vector<bool> ways_apart(Sharing sharing, Stepping stepping, const State& state, int threads,
+                             const Askew& askew) {
+  if (threads == 1 || sharing == Sharing::together) return {false};
+  if (sharing == Sharing::apart) return {true};
+  if (state.grains.size() >= askew.fewest || !Parts::pay(state, threads)) return {false};
+  // So few that one thread is better than several that wait for each other in each step.
+  constexpr std::size_t too_few_per_thread = 2000;
+  const bool few = state.grains.size() < too_few_per_thread * static_cast<std::size_t>(threads);
+  return few && stepping == Stepping::automatic ? std::vector{true} : std::vector{true, false};
+}
+
+/// The ways that are allowed, the one to begin with first.
+std::vector<Way> ways(Stepping stepping, Sharing sharing, const State& state, int threads,
+                      const Askew& askew) {
   const bool flights_first =
       stepping == Stepping::windows
       || (stepping == Stepping::automatic && flights_look_faster(state, threads, askew));
-  std::vector<Way> all{{.by_flights = flights_first, .threads = threads, .apart = APART(threads)}};
-  if (stepping != Stepping::automatic) return all;
-  all.push_back({.by_flights = !flights_first, .threads = threads, .apart = APART(threads)});
-  if (threads > 1)
-    for (const bool by_flights : {flights_first, !flights_first})
+  std::vector<bool> steppings{flights_first};
+  if (stepping == Stepping::automatic) steppings.push_back(!flights_first);
+  std::vector<Way> all;
+  for (const bool apart : ways_apart(sharing, stepping, state, threads, askew))
+    for (const bool by_flights : steppings)
+      all.push_back({.by_flights = by_flights, .threads = threads, .apart = apart});
+  if (stepping == Stepping::automatic && threads > 1)
+    for (const bool by_flights : steppings)
       all.push_back({.by_flights = by_flights, .threads = 1, .apart = false});
   return all;
 }
@@ -65,18 +80,18 @@ std::vector<Way> ways(Stepping stepping, const State& state, int threads, const 
 }  // namespace
 
 int useful_threads(std::size_t grains) {
-  constexpr std::size_t grains_per_thread = 2000;  // fewer do not pay for the barriers of a step
+  constexpr std::size_t grains_per_thread = 600;  // fewer do not pay for the margins of their parts
   const auto most = static_cast<std::size_t>(omp_get_max_threads());
   return static_cast<int>(std::clamp<std::size_t>(grains / grains_per_thread, 1, most));
 }
 
 Simulation::Simulation(State state, const ContactModel& model, int threads, Stepping stepping,
-                       const Askew& askew)
+                       const Askew& askew, Sharing sharing)
     : state_(ready(std::move(state))),
       model_(model),
       threads_(team_size(threads)),
       askew_(sound(askew)),
-      choice_(ways(stepping, state_, threads_, askew_)),
+      choice_(ways(stepping, sharing, state_, threads_, askew_)),
       wall_watch_(state_, model_) {
   prepare();
 }
@@ -107,7 +122,8 @@ void Simulation::advance_piece(std::int64_t last) {
   const auto now = std::chrono::steady_clock::now;
   const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
   const auto begin = now();
-  const bool in_trouble = stepper_ && stepper_->candidates().in_trouble();
+  const bool in_trouble =
+      parts_ ? parts_->in_trouble() : stepper_ && stepper_->candidates().in_trouble();
   if (!in_trouble && prepared_ != wanted()) {
     prepare();
     step_up_to(std::min(last, state_.step + 1));  // in which flights make all their appointments
@@ -138,7 +154,8 @@ void Simulation::prepare() {
   stepper_.reset();   // before the next candidates are listed: memory
   parts_.reset();
   if (next.apart)
-    parts_ = std::make_unique<Parts>(state_, model_, next.manner.by_flights, next.manner.threads);
+    parts_ = std::make_unique<Parts>(state_, model_, next.manner.by_flights, next.manner.threads,
+                                     habits_);
   else
     stepper_.emplace(state_, model_, next.manner, askew_);
   prepared_ = next;

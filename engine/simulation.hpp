@@ -25,12 +25,20 @@ enum class Stepping {
   automatic  ///< whatever is fastest, on one thread or on all
 };
 
+/// How threads share the steps. The results are the same, bit by bit.
+enum class Sharing {
+  together,  ///< all do each step together
+  apart,     ///< each does many steps with a part of its own
+  automatic  ///< whatever is faster
+};
+
 class Simulation {
 public:
   /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its
   /// invariants do not hold or the box is too small for the nearest image to be unique.
   Simulation(State state, const ContactModel& model, int threads,
-             Stepping stepping = Stepping::automatic, const Askew& askew = {});
+             Stepping stepping = Stepping::automatic, const Askew& askew = {},
+             Sharing sharing = Sharing::automatic);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
@@ -72,6 +80,7 @@ private:
   Profile profile_;
   std::optional<Preparation> prepared_;  // of one of the two
   std::optional<Stepper> stepper_;
+  Parts::Habits habits_;
   std::unique_ptr<Parts> parts_;
   const WallWatch wall_watch_;
 };

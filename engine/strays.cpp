@@ -39,7 +39,8 @@ void Candidates::catch_strays(const State& state, const CoarsePositions& coarse,
   };
   for (const Slice* home : {static_cast<const Slice*>(&mine), &next})
     for (auto slot = static_cast<std::uint32_t>(home->begin); slot < home->end; ++slot) {
-      const double gone = distance(squared_displacement(coarse.x[slot], coarse.y[slot], slot, common));
+      const double gone =
+          distance(squared_displacement(coarse.x[slot], coarse.y[slot], slot, common));
       if (gone <= 0.5 * skin_) continue;
       // Farther than a row of cells it may be where no neighbour of its slice looks.
       if (gone > range()) mine.lost = first_of(mine.lost, LostGrain{step, g.id[slot], true});

@@ -25,11 +25,12 @@ from lammps_data import read_state, write_lammps_data  # noqa: E402
 CASES = {"tube_start": 2e5, "tube_slow": 2e5, "tube_stiff": 2e6, "dense_sheared": 2e5}
 SIZES = ("1.4k", "10k", "100k", "1M")
 
-RIESEL = {"riesel plain 1": ("plain", 1), "riesel plain 2": ("plain", 2), "riesel windows 1": ("windows", 1),
-          "riesel windows 2": ("windows", 2)}
+RIESEL = {"riesel plain 1": ("plain", 1, "together"), "riesel plain 2": ("plain", 2, "together"),
+          "riesel plain 2 apart": ("plain", 2, "apart"), "riesel windows 1": ("windows", 1, "together"),
+          "riesel windows 2": ("windows", 2, "together"), "riesel windows 2 apart": ("windows", 2, "apart")}
 LAMMPS_RANKS = {"lammps 1": 1, "lammps 2": 2}
-RATIOS = [("riesel plain 1", "lammps 1"), ("riesel plain 2", "lammps 2"), ("riesel windows 1", "lammps 1"),
-          ("riesel windows 2", "lammps 2")]
+RATIOS = [("riesel plain 1", "lammps 1"), ("riesel plain 2", "lammps 2"), ("riesel plain 2 apart", "lammps 2"),
+          ("riesel windows 1", "lammps 1"), ("riesel windows 2", "lammps 2"), ("riesel windows 2 apart", "lammps 2")]
 
 SKINS = (0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3)  # m
 LOOKS = (1, 5, 10)  # steps between two looks at the neighbour list
@@ -56,8 +57,8 @@ class Riesel:
                         "--set", f"contact.slip_damping={CASES[case]!r}")
 
     def advance(self, start, variant, warm_up, steps):
-        stepping, threads = RIESEL[variant]
-        return self.ask("advance", start["checkpoint"], "--stepping", stepping, "--threads", threads,
+        stepping, threads, sharing = RIESEL[variant]
+        return self.ask("advance", start["checkpoint"], "--stepping", stepping, "--threads", threads, "--sharing", sharing,
                         "--warm-up", warm_up, "--steps", steps, pin=threads == 1)
 
 

@@ -52,7 +52,7 @@ class Suite(unittest.TestCase):
 
     def test_all_variants_are_there(self):
         flow = [variant for case, variant in self.rows if case == "tube_start"]
-        self.assertEqual(flow, ["scalar", "plain 1", "plain 2", "windows 1", "windows 2", "automatic"])
+        self.assertEqual(flow, ["scalar", "plain 1", "plain 2", "plain 2 apart", "windows 1", "windows 2", "windows 2 apart", "automatic"])
         self.assertEqual({case for case, _ in self.rows}, {"single_wall_grain", "tube_start", "checkpoint", "start_up",
                                                         "ensemble"})
 

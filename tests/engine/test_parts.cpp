@@ -1,0 +1,174 @@
+// The tube in parts, each stepped by a thread of its own for many steps: the same bits, also where
+// news comes through the margins.
+#include "engine/parts.hpp"
+#include "engine/simulation.hpp"
+#include "engine/wall_watch.hpp"
+#include "tests/catch.hpp"
+#include "tests/engine/same_states.hpp"
+#include "tests/engine/systems.hpp"
+
+#include <cmath>
+#include <limits>
+
+using namespace systems;
+using same_states::same;
+
+namespace {
+
+constexpr double diameter = 2.0 * radius;
+
+State long_tube(double polydispersity = 0.0, double inertia = 0.0) {
+  return corrugated_tube(91, {.length = 180e-3,
+                              .wall_grains = 150,
+                              .grains = 600,
+                              .speed = 2.0,
+                              .polydispersity = polydispersity,
+                              .inertia = inertia});
+}
+
+State apart(const State& state, const ContactModel& model, std::int64_t steps, int threads,
+            Stepping stepping) {
+  Simulation simulation(state, model, threads, stepping, {}, Sharing::apart);
+  simulation.advance(steps);
+  return simulation.state();
+}
+
+/// A run by parts, and how its stretches went.
+struct Run {
+  State state;
+  std::int64_t stretches, in_vain;
+};
+
+Run in_stretches(State state, const ContactModel& model, std::int64_t steps, int threads,
+                 bool by_flights, Parts::Habits habits) {
+  state.origin = origin_of(state);
+  Run run{.state = std::move(state), .stretches = 0, .in_vain = 0};
+  Parts parts(run.state, model, by_flights, threads, habits);
+  Profile profile;
+  parts.advance(steps, profile);
+  WallWatch(run.state, model).look(run.state);
+  run.stretches = parts.stretches();
+  run.in_vain = parts.in_vain();
+  return run;
+}
+
+/// A row of grains in touch along the whole tube, and one that hits it.
+State chain() {
+  constexpr std::int64_t grains = 120;
+  State state = empty_box(10e-3, static_cast<double>(grains) * diameter * 1.2);
+  for (std::int64_t i = 0; i < grains; ++i)
+    add_grain(state, grain(5e-3, static_cast<double>(i) * diameter * 0.999, 0.0, 0.0));
+  add_grain(state, grain(5e-3, static_cast<double>(grains + 3) * diameter, 0.0, -5.0));
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("parts come to the same bits as the whole") {
+  const int threads = GENERATE(2, 3, 4);
+  const bool flights = GENERATE(false, true);
+  const Stepping stepping = flights ? Stepping::windows : Stepping::plain;
+  const double inertia = GENERATE(0.0, 0.5);
+  const State start = long_tube(GENERATE(0.0, 0.3), inertia);
+  const ContactModel model = inertia > 0.0 ? rolling_model() : paper_model();
+  const State expected = advanced(start, model, 1500, 1, Stepping::plain);
+  REQUIRE(expected.tally.grains.ended > 100);
+  REQUIRE(expected.tally.walls.ended > 50);
+  CHECK(same(apart(start, model, 1500, threads, stepping), expected));
+}
+
+TEST_CASE("parts come to the same bits with gravity across the tube and walls that move") {
+  State start = long_tube(0.2);
+  start.gravity.x = 3.0;
+  start.walls[0].motion = {.velocity = 0.3, .amplitude_x = 1e-4, .frequency = 400.0};
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(apart(start, paper_model(), 1500, 2, stepping),
+             advanced(start, paper_model(), 1500, 1, Stepping::plain)));
+}
+
+TEST_CASE("parts of a run in pieces, in any order of the slots, come to the same bits") {
+  const State start = long_tube();
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  Simulation simulation(shuffled(start, 5), paper_model(), 2, stepping, {}, Sharing::apart);
+  Dice dice(92);
+  while (simulation.state().step < 1000)
+    simulation.advance(std::min(dice.below(90), 1000 - simulation.state().step));
+  CHECK(same(simulation.state(), advanced(start, paper_model(), 1000, 1, Stepping::plain)));
+}
+
+TEST_CASE("a tube shorter than the margins is no trouble") {
+  const State start = small_tube(93);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(apart(start, paper_model(), 600, GENERATE(2, 4), stepping),
+             advanced(start, paper_model(), 600, 1, Stepping::plain)));
+}
+
+TEST_CASE("a grain just where a part ends belongs to the next one alone") {
+  constexpr std::int64_t grains = 64;
+  State state = empty_box(20e-3, 128e-3);
+  state.walls.push_back(WallLattice::smooth_at(20e-3));
+  for (std::int64_t i = 0; i < grains; ++i)
+    add_grain(state, grain(20e-3 - 0.999 * radius, static_cast<double>(i) * 2e-3, 0.0, 0.0));
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  const State end = apart(state, paper_model(), 10, GENERATE(2, 3, 4), stepping);
+  CHECK(end.tally.walls.begun == grains);
+  CHECK(same(end, advanced(state, paper_model(), 10, 1, Stepping::plain)));
+}
+
+TEST_CASE("most stretches of rapid flow are kept") {
+  const bool flights = GENERATE(false, true);
+  const Run run = in_stretches(long_tube(), paper_model(), 6000, 2, flights, {});
+  CHECK(run.stretches > 20);
+  CHECK(run.in_vain < run.stretches / 4);
+}
+
+TEST_CASE("news that comes through the margins is noticed") {
+  // A blow runs along the chain by a grain in each step, as bits go.
+  const bool flights = GENERATE(false, true);
+  const double buffer = GENERATE(1.0, 5.0);
+  const State start = chain();
+  const Run run =
+      in_stretches(start, paper_model(), 1500, 2, flights, {.steps = 60.0, .buffer = buffer});
+  CHECK(run.in_vain > 0);
+  CHECK(run.in_vain < run.stretches);
+  CHECK(same(run.state, advanced(start, paper_model(), 1500, 1, Stepping::plain)));
+}
+
+TEST_CASE("candidates that are listed anew within a stretch are counted in") {
+  // Stretches far longer than candidates hold: what grains may have met then lies beyond the
+  // margins, or they have met it.
+  const bool flights = GENERATE(false, true);
+  const State start = long_tube();
+  const Run run = in_stretches(start, paper_model(), 3000, 2, flights,
+                               {.steps = 1500.0, .buffer = 1.0, .steps_known = true});
+  CHECK(run.in_vain > 0);
+  CHECK(same(run.state, advanced(start, paper_model(), 3000, 1, Stepping::plain)));
+}
+
+TEST_CASE("parts fail as the whole does") {
+  State start = long_tube();
+  start.grains.ux[17] = start.box.fixed_x(0.5 * start.box.width);  // in each step
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  Simulation simulation(start, paper_model(), 2, stepping, {}, Sharing::apart);
+  const std::string words = failure_of([&] { simulation.advance(200); });
+  CHECK(words == failure_of([&] { (void)advanced(start, paper_model(), 200, 1, stepping); }));
+  CHECK(words.find("has left the system") != std::string::npos);
+  CHECK(failure_of([&] { simulation.advance(200); }) == words);
+}
+
+TEST_CASE("a run by parts that was refused threads goes on when it has them again") {
+  const State start = long_tube();
+  Simulation simulation(start, paper_model(), 2, Stepping::plain, {}, Sharing::apart);
+  simulation.advance(100);
+  bool refused = false;
+#pragma omp parallel num_threads(2)
+#pragma omp single
+  try {
+    simulation.advance(100);
+  } catch (const RunFailure&) {
+    refused = true;
+  }
+  CHECK(refused);
+  simulation.advance(100);
+  CHECK(same(simulation.state(), advanced(start, paper_model(), 200)));
+}
