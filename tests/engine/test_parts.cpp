@@ -128,10 +128,10 @@ TEST_CASE("news that comes through the margins is noticed") {
   const double buffer = GENERATE(1.0, 5.0);
   const State start = chain();
   const Run run =
-      in_stretches(start, paper_model(), 1500, 2, flights, {.steps = 60.0, .buffer = buffer});
+      in_stretches(start, paper_model(), 12'000, 2, flights, {.steps = 60.0, .buffer = buffer});
   CHECK(run.in_vain > 0);
   CHECK(run.in_vain < run.stretches);
-  CHECK(same(run.state, advanced(start, paper_model(), 1500, 1, Stepping::plain)));
+  CHECK(same(run.state, advanced(start, paper_model(), 12'000, 1, Stepping::plain)));
 }
 
 TEST_CASE("candidates that are listed anew within a stretch are counted in") {

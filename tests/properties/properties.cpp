@@ -25,6 +25,7 @@ struct Leg {
   int threads;
   bool shuffle, observe, profile, through_file;
   Askew askew;
+  Sharing sharing;
   std::int64_t steps;
 
   std::string name() const {
@@ -34,6 +35,7 @@ struct Leg {
            + (askew.fewest == 0 ? ", askew by " + std::to_string(askew.steps) + " in slices of "
                                       + std::to_string(askew.slice)
                                 : "")
+           + (sharing == Sharing::apart ? ", apart" : "")
            + (shuffle ? ", shuffled" : "") + (observe ? ", observed" : "")
            + (profile ? ", profiled" : "") + (through_file ? ", through a file" : "") + ", "
            + std::to_string(steps) + " steps";
@@ -56,6 +58,9 @@ Leg random_leg(Dice& dice, std::int64_t left) {
                  .steps = 2 + dice.below(10),
                  .fewest = 0,
                  .contacts = 0.0};
+  // Without slices that go askew most teams are apart.
+  leg.sharing = dice.below(4) == 0 ? Sharing::together : Sharing::automatic;
+  if (leg.askew.fewest > 0 && dice.below(2) == 0) leg.sharing = Sharing::apart;
   leg.steps = dice.below(3) == 0 ? left : 1 + dice.below(left);
   return leg;
 }
@@ -72,7 +77,8 @@ State travel(State state, const ContactModel& model, const Leg& leg, Dice& dice,
   if (leg.through_file && is_flow) state = through_checkpoint(state, scratch);
   if (leg.shuffle) state = shuffled(std::move(state), 7);
   const std::int64_t last = state.step + leg.steps;
-  Simulation simulation(std::move(state), model, leg.threads, leg.stepping, leg.askew);
+  Simulation simulation(std::move(state), model, leg.threads, leg.stepping, leg.askew,
+                        leg.sharing);
   if (leg.profile) simulation.start_profile();
   while (simulation.state().step < last) {
     simulation.advance(std::min(last - simulation.state().step, 1 + dice.below(300)));
