@@ -109,6 +109,10 @@ def goals():
         for state in ("tube_slow", "tube_stiff", "tube_fast"):
             rows.append(Goal(f"two threads 1.8 and 1.9 times one, {variant}", state, SUITE,
                              ratio(f"{variant} 2", f"{variant} 1"), threads))
+    for variant in ("plain", "windows"):
+        for state in ("tube_slow", "tube_stiff", "tube_fast"):
+            rows.append(Goal(f"the same apart, {variant}", state, SUITE,
+                             ratio(f"{variant} 2 apart", f"{variant} 1"), threads))
     for state in ("tube_slow", "tube_stiff", "tube_fast", "dense_sheared"):
         rows.append(Goal("`auto` not slower than one thread", state, SUITE, automatic_beside_one_thread, everywhere(0.95)))
     rows.append(Goal("two jobs 1.9 times one", "ensemble", SUITE, ratio("jobs 2", "jobs 1"), everywhere(1.9)))
