@@ -93,7 +93,7 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Pur
 
 void Candidates::start_from(State& state, std::optional<Fixed> drift) {
   given_drift_ = drift;
-  for (Slice& slice : slices_) slice.forget_life();
+  for (Slice& slice : slices_) slice.start_over();
   const std::vector<ContactSlots> before = slots_of_contacts(state);
   as_a_team(static_cast<int>(team_.members()), [&](std::size_t member) {
     const std::span<Slice> mine = share(member);

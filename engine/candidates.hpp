@@ -203,10 +203,10 @@ private:
   bool slices_are_thick_ = false;
   std::vector<std::uint32_t> new_slot_;  // by slots before the last sorting
 
-  Fall fall_;                        // in a step
-  std::int64_t steps_to_walls_ = 0;  // that the common fall takes for the room it has at walls
-  std::optional<Fixed> given_drift_;
-  Displacement drift_{};  // across the tube: at rest when the candidates were listed
+  Fall fall_;                         // in a step
+  std::int64_t steps_to_walls_ = 0;   // that the common fall takes for the room it has at walls
+  std::optional<Fixed> given_drift_;  // along y, for all listings
+  Displacement drift_{};              // across the tube: at rest when the candidates were listed
   std::int64_t sorted_at_ = 0, hold_until_ = 0;  // steps
 };
 

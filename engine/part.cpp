@@ -4,8 +4,8 @@
 
 namespace riesel {
 
-Part::Part(const State& whole, const ContactModel& model, bool by_flights)
-    : state_(whole),
+Part::Part(State whole, const ContactModel& model, bool by_flights)
+    : state_(std::move(whole)),
       stepper_(state_, model, {.by_flights = by_flights, .threads = 1, .slices_per_thread = 1},
                Askew{.fewest = SIZE_MAX}) {}
 

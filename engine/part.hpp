@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace riesel {
@@ -32,7 +33,7 @@ struct Extent {
 class Part {
 public:
   /// Takes all of the grains to begin with. Keeps a reference to the model. Throws as Stepper does.
-  Part(const State& whole, const ContactModel& model, bool by_flights);
+  Part(State whole, const ContactModel& model, bool by_flights);
 
   /// Takes the grains of this extent, as they are in `whole`, and of the contacts that `parts` have
   /// kept those between them.

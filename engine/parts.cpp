@@ -56,12 +56,15 @@ bool Parts::pay(const State& state, int threads) {
 }
 
 void Parts::advance(std::int64_t last, Profile& profile) {
-  if (whole_) whole_->fail_if_in_trouble();
+  if (whole_) return;
   as_a_team(static_cast<int>(parts_.size()),
             [&](std::size_t member) { do_stretches(member, last, profile); });
   for (const auto& part : parts_) part->hand_over(state_, profile);
   std::sort(state_.contacts.begin(), state_.contacts.end(),
             [](const Contact& a, const Contact& b) { return a.name < b.name; });
+}
+
+void Parts::fail_if_in_trouble() const {
   if (whole_) whole_->fail_if_in_trouble();
 }
 

@@ -40,11 +40,13 @@ public:
   /// Keeps references; `habits` are those of before, and change. Throws as Stepper does.
   Parts(State& state, const ContactModel& model, bool by_flights, int threads, Habits& habits);
 
-  /// Up to step `last`, or until the run cannot go on: then throws RunFailure. Nothing is done if
-  /// the system grants fewer threads.
+  /// Up to step `last`, or until the run cannot go on. Throws RunFailure, and does nothing, if the
+  /// system grants fewer threads.
   void advance(std::int64_t last, Profile& profile);
 
   bool in_trouble() const { return whole_.has_value(); }
+  /// Throws RunFailure if the run cannot go on.
+  void fail_if_in_trouble() const;
 
   std::int64_t stretches() const { return stretches_; }
   /// Stretches of which nothing was kept.

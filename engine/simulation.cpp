@@ -133,7 +133,10 @@ void Simulation::advance_piece(std::int64_t last) {
   step_up_to(last);
   if (state_.step > first)
     choice_.note(state_.step - first, seconds(now() - start), seconds(start - begin));
-  if (stepper_) stepper_->fail_if_in_trouble();
+  if (parts_)
+    parts_->fail_if_in_trouble();
+  else
+    stepper_->fail_if_in_trouble();
 }
 
 Simulation::Preparation Simulation::wanted() const {

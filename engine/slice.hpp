@@ -86,7 +86,7 @@ struct alignas(cache_line) Slice {
   std::optional<LostGrain> lost;   ///< the first
 
   /// Before it starts from another state.
-  void forget_life() {
+  void start_over() {
     pair_contacts.clear();
     wall_contacts.clear();
     tally = {};

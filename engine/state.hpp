@@ -32,7 +32,8 @@ namespace riesel {
 
 /// The free grains, a structure of arrays. The slot of a grain changes when the store is sorted,
 /// its id does not. Invariants: all arrays have the same size; ids are a permutation of 0 ...
-/// size-1; radius and mass are positive. Grains that do not rotate have no arrays of spin.
+/// size-1, or some of these in a part of a system (Part); radius and mass are positive. Grains that
+/// do not rotate have no arrays of spin.
 struct Grains {
   AlignedVector<Fixed> x, y;            ///< position, quanta of the box's axes
   AlignedVector<Fixed> ux, uy;          ///< U: displacement per step in the falling frame, quanta
@@ -144,7 +145,7 @@ private:
   double to_spin_;        // rad/s per quantum per step
 };
 
-/// The slots of the grains in the order of their ids.
+/// The slots of the grains by their ids; 0 for ids that no grain has.
 std::vector<std::size_t> slots_by_id(const Grains& grains);
 
 /// One grain of GrainView.

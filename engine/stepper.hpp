@@ -42,7 +42,6 @@ public:
   void advance(std::int64_t last);
 
   const Candidates& candidates() const { return candidates_; }
-  const Manner& manner() const { return manner_; }
   /// From now on the time that the first thread takes is measured.
   void start_profile();
   /// These grains alone have their contacts counted, by id: others look after the rest.

@@ -35,10 +35,9 @@ struct Leg {
            + (askew.fewest == 0 ? ", askew by " + std::to_string(askew.steps) + " in slices of "
                                       + std::to_string(askew.slice)
                                 : "")
-           + (sharing == Sharing::apart ? ", apart" : "")
-           + (shuffle ? ", shuffled" : "") + (observe ? ", observed" : "")
-           + (profile ? ", profiled" : "") + (through_file ? ", through a file" : "") + ", "
-           + std::to_string(steps) + " steps";
+           + (sharing == Sharing::apart ? ", apart" : "") + (shuffle ? ", shuffled" : "")
+           + (observe ? ", observed" : "") + (profile ? ", profiled" : "")
+           + (through_file ? ", through a file" : "") + ", " + std::to_string(steps) + " steps";
   }
 };
 
@@ -77,8 +76,7 @@ State travel(State state, const ContactModel& model, const Leg& leg, Dice& dice,
   if (leg.through_file && is_flow) state = through_checkpoint(state, scratch);
   if (leg.shuffle) state = shuffled(std::move(state), 7);
   const std::int64_t last = state.step + leg.steps;
-  Simulation simulation(std::move(state), model, leg.threads, leg.stepping, leg.askew,
-                        leg.sharing);
+  Simulation simulation(std::move(state), model, leg.threads, leg.stepping, leg.askew, leg.sharing);
   if (leg.profile) simulation.start_profile();
   while (simulation.state().step < last) {
     simulation.advance(std::min(last - simulation.state().step, 1 + dice.below(300)));
