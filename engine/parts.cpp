@@ -102,7 +102,10 @@ void Parts::plan(std::int64_t last) {
   if (over_) return;
   constexpr std::int64_t stretches_per_order = 64;
   if (stretches_ % stretches_per_order == 0) sort();
-  until_ = std::min(last, state_.step + static_cast<std::int64_t>(habits_.steps));
+  // Equal stretches, so that none is short at the end.
+  const auto steps = static_cast<double>(last - state_.step);
+  until_ = state_.step
+           + static_cast<std::int64_t>(std::ceil(steps / std::ceil(steps / habits_.steps)));
   const double skin =
       (by_flights_ ? Flights::purpose : Candidates::plain_stepping).skin_per_diameter;
   margin_ = quanta(reach_ + (skin + habits_.buffer) * diameter_);

@@ -39,11 +39,14 @@ Stepper::Stepper(State& state, const ContactModel& model, const Manner& manner, 
 Stepper::~Stepper() = default;
 
 void Stepper::start_from(State& state, Fixed drift) {
+  Profile& profile = candidates_.slices().front().profile;
+  profile.begin_build();
   candidates_.start_from(state, drift);
   if (flights_)
     flights_->start_over();
   else
     plain_steps_->start_over();
+  profile.done_build();
 }
 
 void Stepper::advance(std::int64_t last) {
