@@ -291,7 +291,7 @@ FAULTS = [
     # Measures and verdicts
     ("a tally counted twice", "engine/stepper.cpp", "    slice.tally = {};\n", ""),
     ("parts that agree whatever has reached them", "engine/part.cpp",
-     "same = same && copies[slots_[i]] == originals[places_[i]];", "same = same && slots_[i] <= slots_.size();"),
+     "same = same && copies[slots_[i]] == originals[places_[i]];", "same = same && (copies[slots_[i]] == originals[places_[i]] || farthest > 0);"),
     ("parts that end where the next one begins", "engine/part.hpp",
      "return std::min(from_begin - length + 1, std::uint64_t{0} - from_begin);",
      "return std::min(from_begin - length, std::uint64_t{0} - from_begin);"),
