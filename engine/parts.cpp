@@ -104,8 +104,8 @@ void Parts::plan(std::int64_t last) {
   if (stretches_ % stretches_per_order == 0) sort();
   // Equal stretches, so that none is short at the end.
   const auto steps = static_cast<double>(last - state_.step);
-  until_ = state_.step
-           + static_cast<std::int64_t>(std::ceil(steps / std::ceil(steps / habits_.steps)));
+  until_ =
+      state_.step + static_cast<std::int64_t>(std::ceil(steps / std::ceil(steps / habits_.steps)));
   const double skin =
       (by_flights_ ? Flights::purpose : Candidates::plain_stepping).skin_per_diameter;
   margin_ = quanta(reach_ + (skin + habits_.buffer) * diameter_);
