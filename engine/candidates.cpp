@@ -47,6 +47,13 @@ std::vector<ContactSlots> slots_of_contacts(const State& state) {
 
 }  // namespace
 
+double largest_reach(const State& state) {
+  const double grain = *std::max_element(state.grains.radius.begin(), state.grains.radius.end());
+  double partner = grain;
+  for (const WallLattice& wall : state.walls) partner = std::max(partner, wall.radius);
+  return grain + partner;
+}
+
 /// So that none has a large speed relative to it; counted from the first grain, as velocities in
 /// the falling frame may wrap.
 Fixed middle_velocity(const Grains& grains) {
@@ -71,10 +78,7 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Pur
   const auto [least, most] = std::minmax_element(grains.radius.begin(), grains.radius.end());
   max_radius_ = *most;
   one_size_ = *least == *most;
-  double largest_partner = max_radius_;
-  for (const WallLattice& wall : state.walls)
-    largest_partner = std::max(largest_partner, wall.radius);
-  const double reach = max_radius_ + largest_partner;
+  const double reach = largest_reach(state);
   const double diameter = mean_diameter(grains);
   if (state.box.length <= 2.0 * (reach + least_skin * diameter))
     throw std::invalid_argument("the period is too short for the nearest image to be unique");
@@ -168,7 +172,7 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
 void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t step) {
   for (Slice& mine : share) {
     set_contacts_aside(mine);
-    note_wandering(state, mine, step);
+    if (given_drift_) note_wandering(state, mine, step);
   }
   wait(share);  // all grains are at this step
   renew(state, share, step);

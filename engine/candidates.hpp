@@ -31,6 +31,9 @@
 
 namespace riesel {
 
+/// m, between the centres of the largest bodies that touch.
+double largest_reach(const State& state);
+
 /// Quanta per step along y, half-way between the slowest and the fastest grain.
 Fixed middle_velocity(const Grains& grains);
 
@@ -121,8 +124,8 @@ public:
   };
   const Displacement& drift() const { return drift_; }   ///< per step
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
-  /// m, no grain has been farther from where it was when the first were listed, relative to a drift
-  /// that was always the same.
+  /// m, no grain has been farther from where it was when the first were listed, relative to the
+  /// drift that start_from() was given.
   double wandered() const;
   /// From when they were listed to `step`.
   Displacement common_motion(std::int64_t step) const;

@@ -46,6 +46,7 @@ public:
   bool in_trouble() const { return stepper_.candidates().in_trouble(); }
   /// Whether the candidates of the beginning did not hold until the end.
   bool has_sorted() const { return stepper_.candidates().sorted_at() > began_; }
+  double skin() const { return stepper_.candidates().skin(); }  ///< m
   /// m, as Candidates::wandered().
   double wandered() const { return stepper_.candidates().wandered(); }
   /// Whether the copies of grains no farther than this from the part (quanta of y) have become what

@@ -1,6 +1,5 @@
 #include "engine/parts.hpp"
 
-#include "engine/flights.hpp"
 #include "engine/team.hpp"
 
 #include <algorithm>
@@ -23,14 +22,6 @@ constexpr double wider = 1.4, narrower = 0.998, least_buffer = 1.0;
 
 /// If the buffers are a larger part of the tube than this, shorter stretches are better.
 constexpr double largest_buffers = 0.2, much_shorter = 0.8, fewest_steps = 32.0;
-
-/// m, between the centres of the largest bodies that touch.
-double largest_reach(const State& state) {
-  const double grain = *std::max_element(state.grains.radius.begin(), state.grains.radius.end());
-  double partner = grain;
-  for (const WallLattice& wall : state.walls) partner = std::max(partner, wall.radius);
-  return grain + partner;
-}
 
 }  // namespace
 
@@ -106,9 +97,7 @@ void Parts::plan(std::int64_t last) {
   const auto steps = static_cast<double>(last - state_.step);
   until_ =
       state_.step + static_cast<std::int64_t>(std::ceil(steps / std::ceil(steps / habits_.steps)));
-  const double skin =
-      (by_flights_ ? Flights::purpose : Candidates::plain_stepping).skin_per_diameter;
-  margin_ = quanta(reach_ + (skin + habits_.buffer) * diameter_);
+  margin_ = quanta(reach_ + parts_.front()->skin() + habits_.buffer * diameter_);
   drift_ = middle_velocity(state_.grains);
   share_out();
 }

@@ -79,8 +79,8 @@ struct alignas(cache_line) Slice {
   std::uint32_t given_first = 0, given_last = 0;     ///< the lowest and the highest slot of them
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
-  double wandered = 0.0;  ///< m, bound on how far own ones went while former candidates held
   double gone = 0.0;      ///< m, bound on it: what it was at the last look, and the motion since
+  double wandered = 0.0;  ///< m, bound on how far own ones went while former candidates held
   bool failed() const { return trouble || lost; }
   std::optional<Trouble> trouble;  ///< the first
   std::optional<LostGrain> lost;   ///< the first
