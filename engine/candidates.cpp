@@ -297,25 +297,31 @@ double Candidates::distance(float squared_displacement) const {
   return std::sqrt(static_cast<double>(squared_displacement)) * (1.0 + 1e-6) + resolution;
 }
 
-void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& mine,
-                                       std::int64_t step) const {
-  const CoarseMotion common = coarse_motion(step);
+/// m, of the displacements of the grains of `mine`, which are at place(slot).
+template <class Place>
+double Candidates::farthest(const Slice& mine, std::int64_t step, Place place) const {
+  const CoarsePoint common = coarse_motion(step);
   float farthest2 = 0.0F;
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    farthest2 = std::max(farthest2, squared_displacement(coarse.x[i], coarse.y[i], i, common));
-  mine.farthest = distance(farthest2);
+    farthest2 = std::max(farthest2, squared_displacement(place(i), i, common));
+  return distance(farthest2);
+}
+
+void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& mine,
+                                       std::int64_t step) const {
+  mine.farthest = farthest(mine, step, [&](std::size_t slot) {
+    return CoarsePoint{coarse.x[slot], coarse.y[slot]};
+  });
 }
 
 /// The candidates are about to be listed anew. Until now each grain was within half the skin, or
 /// went farther in the last step.
 void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t step) const {
-  const CoarseMotion common = coarse_motion(step);
   const Grains& g = state.grains;
-  float farthest2 = 0.0F;
-  for (std::size_t i = mine.begin; i < mine.end; ++i)
-    farthest2 = std::max(farthest2,
-                         squared_displacement(upper_half(g.x[i]), upper_half(g.y[i]), i, common));
-  mine.wandered += std::max(0.5 * skin_, distance(farthest2));
+  const double went = farthest(mine, step, [&](std::size_t slot) {
+    return CoarsePoint{upper_half(g.x[slot]), upper_half(g.y[slot])};
+  });
+  mine.wandered += std::max(0.5 * skin_, went);
 }
 
 double Candidates::wandered() const { return largest(slices_, &Slice::wandered) + 0.5 * skin_; }

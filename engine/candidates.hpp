@@ -166,21 +166,22 @@ private:
   void list_near_walls(const State& state, Slice& mine) const;
   static void list_received(const Grains& grains, Slice& mine);
   void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;
-  struct CoarseMotion {
+  struct CoarsePoint {
     std::int32_t x, y;
   };
-  CoarseMotion coarse_motion(std::int64_t step) const {
+  CoarsePoint coarse_motion(std::int64_t step) const {
     const Displacement common = common_motion(step);
     return {upper_half(common.x), upper_half(common.y)};
   }
   /// m^2, from where the grain was when sorted, relative to the common motion.
-  float squared_displacement(std::int32_t now_x, std::int32_t now_y, std::size_t slot,
-                             const CoarseMotion& common) const {
-    const std::int32_t x = coarse_difference(now_x, when_sorted_.x[slot]);
-    const std::int32_t y = coarse_difference(now_y, when_sorted_.y[slot]);
+  float squared_displacement(CoarsePoint now, std::size_t slot, CoarsePoint common) const {
+    const std::int32_t x = coarse_difference(now.x, when_sorted_.x[slot]);
+    const std::int32_t y = coarse_difference(now.y, when_sorted_.y[slot]);
     return units_.square(coarse_difference(x, common.x), coarse_difference(y, common.y));
   }
   double distance(float squared_displacement) const;
+  template <class Place>
+  double farthest(const Slice& mine, std::int64_t step, Place place) const;
   void note_wandering(const State& state, Slice& mine, std::int64_t step) const;
   void measure_speeds(const State& state, Slice& mine) const;
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <type_traits>
+#include <vector>
 
 namespace riesel {
 
@@ -62,5 +63,11 @@ struct Contact {
 
   double duration() const { return end - begin; }  ///< s
 };
+
+/// In the order in which a State has its contacts.
+inline void sort_by_name(std::vector<Contact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& a, const Contact& b) { return a.name < b.name; });
+}
 
 }  // namespace riesel

@@ -74,8 +74,7 @@ void keep_one(const State& state, Slice& mine, const Contact& contact, ContactSl
 std::vector<Contact> Candidates::contacts() const {
   std::vector<Contact> all;
   for_each_contact([&](const Contact& contact) { all.push_back(contact); });
-  std::sort(all.begin(), all.end(),
-            [](const Contact& a, const Contact& b) { return a.name < b.name; });
+  sort_by_name(all);
   return all;
 }
 

@@ -5,9 +5,7 @@
 namespace riesel {
 
 Part::Part(State whole, const ContactModel& model, bool by_flights)
-    : state_(std::move(whole)),
-      stepper_(state_, model, {.by_flights = by_flights, .threads = 1, .slices_per_thread = 1},
-               Askew{.fewest = SIZE_MAX}) {}
+    : state_(std::move(whole)), stepper_(state_, model, by_flights) {}
 
 void Part::cut(const State& whole, std::span<const std::unique_ptr<Part>> parts,
                const Extent& extent) {
@@ -56,18 +54,16 @@ void Part::gather(const Grains& all) {
 }
 
 void Part::note_ids(std::size_t all) {
-  is_here_.assign(all, 0);
+  rank_.assign(all, not_here);
   is_own_.assign(all, 0);
-  rank_.resize(all);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    is_here_[id(i)] = 1;
-    rank_[id(i)] = static_cast<std::uint32_t>(i);
-  }
+  for (std::size_t i = 0; i < places_.size(); ++i) rank_[id(i)] = static_cast<std::uint32_t>(i);
   for (std::size_t i = 0; i < own_; ++i) is_own_[id(i)] = 1;
 }
 
 bool Part::knows(const ContactName& name) const {
-  const auto here = [&](std::int32_t id) { return is_here_[static_cast<std::size_t>(id)] != 0; };
+  const auto here = [&](std::int32_t id) {
+    return rank_[static_cast<std::size_t>(id)] != not_here;
+  };
   return here(name.grain) && (name.wall != no_wall || here(name.partner));
 }
 

@@ -80,9 +80,10 @@ private:
   std::vector<std::uint32_t> places_of_copies_;  // while they are chosen
   std::vector<std::uint64_t> distances_;         // quanta of y, of the copies from the part
   std::vector<std::uint32_t> slots_;             // of the grains here, in the order of the places
-  std::vector<std::uint32_t> rank_;              // of a grain in that order, by id
-  std::vector<std::uint8_t> is_own_, is_here_;   // by id
-  std::vector<Contact> contacts_;                // kept
+  static constexpr std::uint32_t not_here = UINT32_MAX;
+  std::vector<std::uint32_t> rank_;   // of a grain in that order, or not_here; by id
+  std::vector<std::uint8_t> is_own_;  // by id
+  std::vector<Contact> contacts_;     // kept
   Tally tally_;
   Profile profile_;
 };

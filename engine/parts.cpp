@@ -21,7 +21,7 @@ constexpr double longer_at_first = 1.5, longer = 1.005, shorter = 0.95;
 constexpr double wider = 1.4, narrower = 0.998, least_buffer = 1.0;
 
 /// If the buffers are a larger part of the tube than this, shorter stretches are better.
-constexpr double largest_buffers = 0.2, much_shorter = 0.8, fewest_steps = 32.0;
+constexpr double largest_buffers = 0.2, much_shorter = 0.6, fewest_steps = 32.0;
 
 }  // namespace
 
@@ -51,8 +51,7 @@ void Parts::advance(std::int64_t last, Profile& profile) {
   as_a_team(static_cast<int>(parts_.size()),
             [&](std::size_t member) { do_stretches(member, last, profile); });
   for (const auto& part : parts_) part->hand_over(state_, profile);
-  std::sort(state_.contacts.begin(), state_.contacts.end(),
-            [](const Contact& a, const Contact& b) { return a.name < b.name; });
+  sort_by_name(state_.contacts);
 }
 
 void Parts::fail_if_in_trouble() const {
@@ -178,10 +177,12 @@ void Parts::learn_from_success() {
 
 void Parts::learn_from_failure() {
   const double buffers = 2.0 * static_cast<double>(parts_.size()) * habits_.buffer * diameter_;
-  if (buffers < largest_buffers * state_.box.length)
+  if (buffers < largest_buffers * state_.box.length) {
     habits_.buffer *= wider;
-  else
+  } else {
     habits_.steps = std::max(fewest_steps, habits_.steps * much_shorter);
+    habits_.steps_known = true;
+  }
 }
 
 /// The stretch that was in vain, and more the more of them there were in a row.
@@ -190,11 +191,9 @@ void Parts::do_together(std::int64_t last, Profile& profile) {
   const std::int64_t steps = (until_ - state_.step) << std::min(failures_ - 1, most_doublings);
   until_ = std::min(last, state_.step + steps);
   for (const auto& part : parts_) part->hand_over(state_, profile);
-  const Stepper::Manner alone{.by_flights = by_flights_, .threads = 1, .slices_per_thread = 1};
-  whole_.emplace(state_, model_, alone, Askew{.fewest = SIZE_MAX});
+  whole_.emplace(state_, model_, by_flights_);
   whole_->advance(until_);
-  whole_->hand_over(state_.tally, profile);
-  state_.contacts = whole_->candidates().contacts();
+  whole_->complete_state(profile);
   if (whole_->candidates().in_trouble()) return;
   whole_.reset();
   parts_.front()->keep(std::exchange(state_.contacts, {}));

@@ -31,7 +31,7 @@ public:
     /// Mean diameters of a margin, beyond what a grain may meet: so long is the way of news to the
     /// part.
     double buffer = 5.0;
-    bool steps_known = false;  ///< parts have had to sort within a stretch
+    bool steps_known = false;  ///< longer ones have been seen to be too long
   };
 
   /// Whether the parts of so many threads are much longer than their margins.

@@ -46,17 +46,29 @@ bool flights_look_faster(const State& state, int threads, const Askew& askew) {
   return price * contacts < static_cast<double>(state.grains.size());
 }
 
-/// How so many threads may share the steps, what to try first first. If they go askew they have
-/// their parts already.
-std::vector<bool> ways_apart(Sharing sharing, Stepping stepping, const State& state, int threads,
-                             const Askew& askew) {
-  if (threads == 1 || sharing == Sharing::together) return {false};
-  if (sharing == Sharing::apart) return {true};
-  if (state.grains.size() >= askew.fewest || !Parts::pay(state, threads)) return {false};
-  // So few that one thread is better than several that wait for each other in each step.
-  constexpr std::size_t too_few_per_thread = 2000;
-  const bool few = state.grains.size() < too_few_per_thread * static_cast<std::size_t>(threads);
-  return few && stepping == Stepping::automatic ? std::vector{true} : std::vector{true, false};
+/// Whether several threads may each have a part of their own. If slices go askew they have theirs
+/// already.
+bool may_part(Sharing sharing, const State& state, int threads, const Askew& askew) {
+  if (sharing != Sharing::automatic) return sharing == Sharing::apart;
+  return state.grains.size() < askew.fewest && Parts::pay(state, threads);
+}
+
+/// How threads may share the steps, what to begin with first; by plain stepping.
+std::vector<Way> ways_to_share(Stepping stepping, Sharing sharing, const State& state, int threads,
+                               const Askew& askew) {
+  const Way alone{.by_flights = false, .threads = 1};
+  const Way together{.by_flights = false, .threads = threads};
+  const Way apart{.by_flights = false, .threads = threads, .apart = true};
+  if (threads == 1) return {alone};
+  std::vector<Way> all;
+  if (sharing != Sharing::apart) all.push_back(together);
+  if (may_part(sharing, state, threads, askew)) all.push_back(apart);
+  if (stepping == Stepping::automatic) all.push_back(alone);
+  // So few that threads that wait for each other in each step are no help, or worse.
+  constexpr std::size_t few_per_thread = 2000;
+  if (state.grains.size() < few_per_thread * static_cast<std::size_t>(threads))
+    std::reverse(all.begin(), all.end());
+  return all;
 }
 
 /// The ways that are allowed, the one to begin with first.
@@ -68,12 +80,11 @@ std::vector<Way> ways(Stepping stepping, Sharing sharing, const State& state, in
   std::vector<bool> steppings{flights_first};
   if (stepping == Stepping::automatic) steppings.push_back(!flights_first);
   std::vector<Way> all;
-  for (const bool apart : ways_apart(sharing, stepping, state, threads, askew))
-    for (const bool by_flights : steppings)
-      all.push_back({.by_flights = by_flights, .threads = threads, .apart = apart});
-  if (stepping == Stepping::automatic && threads > 1)
-    for (const bool by_flights : steppings)
-      all.push_back({.by_flights = by_flights, .threads = 1, .apart = false});
+  for (const bool by_flights : steppings)
+    for (Way way : ways_to_share(stepping, sharing, state, threads, askew)) {
+      way.by_flights = by_flights;
+      all.push_back(way);
+    }
   return all;
 }
 
@@ -158,7 +169,7 @@ void Simulation::prepare() {
   parts_.reset();
   if (next.apart)
     parts_ = std::make_unique<Parts>(state_, model_, next.manner.by_flights, next.manner.threads,
-                                     habits_);
+                                     next.manner.by_flights ? habits_of_flights_ : habits_);
   else
     stepper_.emplace(state_, model_, next.manner, askew_);
   prepared_ = next;
@@ -170,8 +181,7 @@ void Simulation::step_up_to(std::int64_t last) {
     parts_->advance(last, profile_);
   } else {
     stepper_->advance(last);
-    state_.contacts = stepper_->candidates().contacts();
-    stepper_->hand_over(state_.tally, profile_);
+    stepper_->complete_state(profile_);
   }
   wall_watch_.look(state_);
 }

@@ -80,7 +80,7 @@ private:
   Profile profile_;
   std::optional<Preparation> prepared_;  // of one of the two
   std::optional<Stepper> stepper_;
-  Parts::Habits habits_;
+  Parts::Habits habits_, habits_of_flights_;
   std::unique_ptr<Parts> parts_;
   const WallWatch wall_watch_;
 };

@@ -36,6 +36,10 @@ Stepper::Stepper(State& state, const ContactModel& model, const Manner& manner, 
     plain_steps_ = std::make_unique<PlainSteps>(state, model, candidates_, askew);
 }
 
+Stepper::Stepper(State& state, const ContactModel& model, bool by_flights)
+    : Stepper(state, model, {.by_flights = by_flights, .threads = 1, .slices_per_thread = 1},
+              Askew{.fewest = SIZE_MAX}) {}
+
 Stepper::~Stepper() = default;
 
 void Stepper::start_from(State& state, Fixed drift) {
@@ -72,6 +76,11 @@ void Stepper::hand_over(Tally& tally, Profile& profile) {
     profile.merge(slice.profile);
     slice.profile = Profile(slice.profile.on());
   }
+}
+
+void Stepper::complete_state(Profile& profile) {
+  state_.contacts = candidates_.contacts();
+  hand_over(state_.tally, profile);
 }
 
 void Stepper::fail_if_in_trouble() const {

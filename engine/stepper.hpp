@@ -31,6 +31,8 @@ public:
   /// Starts from the state alone, as after a checkpoint. Keeps references. Throws as Candidates
   /// does.
   Stepper(State& state, const ContactModel& model, const Manner& manner, const Askew& askew);
+  /// On one thread, and all grains in each step.
+  Stepper(State& state, const ContactModel& model, bool by_flights);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
   ~Stepper();
@@ -49,6 +51,8 @@ public:
 
   /// What the slices have counted and measured since the last call, added to these.
   void hand_over(Tally& tally, Profile& profile);
+  /// After advance(): the state gets its contacts, and that tally.
+  void complete_state(Profile& profile);
 
   /// Throws RunFailure if the run cannot go on.
   void fail_if_in_trouble() const;

@@ -1,10 +1,12 @@
-// Plain stepping or flights, on one thread or on all: what is fastest here and now?
+// Plain stepping or flights, on one thread or on several, together or apart: what is fastest here
+// and now?
 //
 // It depends on the state, the size of the system, the machine and what else runs on it. The bits
 // do not depend on the choice, so the clock may decide: each way is tried for one piece of the run,
 // twice at its beginning, and now and then later. These later trials take a few per cent of the
 // time at most, less and less as long as they find nothing. A machine has bad moments, in which any
-// way looks slow: another way must win twice, with a piece of the preferred one in between.
+// way looks slow: another way must win twice, with a piece of the preferred one in between. Only at
+// the beginning, when each trial is much of what has been done, one is enough if it is clear.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +30,9 @@ class SteppingChoice {
 public:
   /// At least one; the first is what to begin with.
   explicit SteppingChoice(std::vector<Way> ways)
-      : ways_(std::move(ways)), untried_(first_looks * (ways_.size() - 1)) {}
+      : ways_(std::move(ways)), looks_(ways_.size(), first_looks) {
+    looks_.front() = 0;
+  }
 
   /// How the next piece is to be done.
   Way way() const { return ways_[trying_ ? tried_ : preferred_]; }
@@ -46,33 +50,44 @@ public:
   }
 
 private:
-  static constexpr std::size_t first_looks = 2;
+  static constexpr int first_looks = 2;
   static constexpr double shortest_patience = 0.25, longest_patience = 60.0;  // s
   /// Time between trials over the time of one.
   static constexpr double patience_per_cost = 40.0;
   /// So much faster another way must be.
   static constexpr double worthwhile = 0.95;
+  /// One of two ways that takes so many times as long as the other needs no second look.
+  static constexpr double clear = 1.5;
 
   void go_on(double pace, double seconds) {
     pace_ = pace;
     since_trial_ += seconds;
-    trying_ = won_once_ || untried_ > 0 || (open() && since_trial_ >= patience_);
+    trying_ = won_once_ || in_first_looks() || (open() && since_trial_ >= patience_);
     if (trying_ && !won_once_) tried_ = next_to_try();
   }
 
-  /// All others in turn.
+  bool in_first_looks() const {
+    return std::any_of(looks_.begin(), looks_.end(), [](int looks) { return looks > 0; });
+  }
+
+  /// All others in turn, or those that are still to be looked at.
   std::size_t next_to_try() const {
-    const std::size_t next = (tried_ + 1) % ways_.size();
-    return next != preferred_ ? next : (next + 1) % ways_.size();
+    const bool first_looks_only = in_first_looks();
+    std::size_t next = tried_;
+    do next = (next + 1) % ways_.size();
+    while (next == preferred_ || (first_looks_only && looks_[next] == 0));
+    return next;
   }
 
   void conclude(double pace, double cost) {
     trying_ = false;
     since_trial_ = 0.0;
     const bool faster = pace < worthwhile * pace_;
-    won_once_ = faster && !won_once_;
+    const bool at_once =
+        looks_[tried_] > 0 && std::max(pace, pace_) > clear * std::min(pace, pace_);
+    won_once_ = faster && !won_once_ && !at_once;
     if (won_once_) return;
-    if (untried_ > 0) --untried_;
+    looks_[tried_] = at_once || faster ? 0 : std::max(looks_[tried_] - 1, 0);
     if (faster) {
       preferred_ = tried_;
       patience_ = std::max(shortest_patience, patience_per_cost * cost);
@@ -83,7 +98,7 @@ private:
 
   std::vector<Way> ways_;
   std::size_t preferred_ = 0, tried_ = 0;  // indices of ways
-  std::size_t untried_;                    // looks at the beginning that are still to come
+  std::vector<int> looks_;                 // at ways, at the beginning, that are still to come
   bool trying_ = false;
   bool won_once_ = false;                // so has the way that was tried last
   double pace_ = 0.0;                    // s per step, of the last piece done the preferred way

@@ -29,7 +29,7 @@ void Candidates::catch_strays(const State& state, const CoarsePositions& coarse,
                               const Slice& next, std::int64_t step) const {
   if (std::max(mine.gone, next.gone) <= 0.5 * skin_) return;
   const Grains& g = state.grains;
-  const CoarseMotion common = coarse_motion(step);
+  const CoarsePoint common = coarse_motion(step);
   const auto look = [&](std::uint32_t stray, const Slice& among) {
     for (auto j = static_cast<std::uint32_t>(among.begin); j < among.end; ++j) {
       const float reach2 = units_.generous_square(g.radius[stray] + g.radius[j]);
@@ -40,7 +40,7 @@ void Candidates::catch_strays(const State& state, const CoarsePositions& coarse,
   for (const Slice* home : {static_cast<const Slice*>(&mine), &next})
     for (auto slot = static_cast<std::uint32_t>(home->begin); slot < home->end; ++slot) {
       const double gone =
-          distance(squared_displacement(coarse.x[slot], coarse.y[slot], slot, common));
+          distance(squared_displacement({coarse.x[slot], coarse.y[slot]}, slot, common));
       if (gone <= 0.5 * skin_) continue;
       // Farther than a row of cells it may be where no neighbour of its slice looks.
       if (gone > range()) mine.lost = first_of(mine.lost, LostGrain{step, g.id[slot], true});

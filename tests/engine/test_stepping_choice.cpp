@@ -1,4 +1,4 @@
-// The choice between plain stepping and flights, with times made up.
+// The choice between ways to step, with times made up.
 #include "engine/stepping_choice.hpp"
 #include "tests/catch.hpp"
 
@@ -62,12 +62,41 @@ TEST_CASE("each way is tried twice at the beginning, between two pieces of the p
   std::vector<Way> done;
   for (int piece = 0; piece < 10; ++piece) {
     done.push_back(choice.way());
-    choice.note(steps, choice.way() == flights ? 0.01 : 0.02, 0.0);
+    choice.note(steps, choice.way() == flights ? 0.010 : 0.014, 0.0);
   }
   CHECK(done
         == std::vector{flights, plain_on_two, flights, plain, flights, plain_on_two, flights, plain,
                        flights, flights});
   CHECK(choice.preferred() == flights);
+}
+
+TEST_CASE(
+    "a way that is much slower is tried once at the beginning, one much faster taken at once") {
+  SteppingChoice choice(all);
+  std::vector<Way> done;
+  for (int piece = 0; piece < 7; ++piece) {
+    done.push_back(choice.way());
+    const double pace = choice.way() == flights ? 0.030 : choice.way() == plain ? 0.014 : 0.010;
+    choice.note(steps, pace, 0.0);
+  }
+  CHECK(done
+        == std::vector{flights, plain_on_two, plain_on_two, plain, plain_on_two, plain,
+                       plain_on_two});
+  CHECK(choice.preferred() == plain_on_two);
+}
+
+TEST_CASE("after the beginning one moment in which another way is much faster is not enough") {
+  SteppingChoice choice(all);
+  int pieces = 0, trials = 0;
+  while (trials < 40) {
+    const bool of_preferred = choice.way() == flights;
+    ++pieces;
+    if (!of_preferred) ++trials;
+    const bool late = pieces > 20;
+    const bool good_moment = late && !of_preferred && trials % 3 == 0;
+    choice.note(steps, good_moment ? 0.005 : of_preferred ? 0.010 : 0.014, 0.0);
+    CHECK(choice.preferred() == flights);
+  }
 }
 
 TEST_CASE("a way whose first trial falls into a bad moment is found all the same") {
