@@ -43,9 +43,7 @@ struct Variant {
   Sharing sharing = Sharing::automatic;
 
   /// Where memory is what counts the threads have parts of another kind: slices that go askew.
-  bool suits(std::size_t grains) const {
-    return sharing != Sharing::apart || grains < Askew{}.fewest;
-  }
+  bool suits(const State& state) const { return sharing != Sharing::apart || !Askew{}.pays(state); }
 };
 
 const std::vector<FlowCase>& flow_cases();

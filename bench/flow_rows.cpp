@@ -64,7 +64,7 @@ public:
         plan_(one, effort, static_cast<double>(grains_)),
         reference_(start_.state, model_) {
     for (const Variant& variant : timed_variants()) {
-      if (!variant.suits(grains_)) continue;
+      if (!variant.suits(start_.state)) continue;
       contenders_.push_back(variant.stepping == Stepping::automatic ? chosen(variant)
                                                                     : warmed_up(variant));
     }
@@ -171,7 +171,7 @@ private:
       if (state_hash(other.simulation->state()) != late) complain(other.variant.name, "at the end");
     }
     for (const Variant& variant : further_variants())
-      if (variant.suits(grains_) && warmed_up(variant).hash_after_warm_up != early)
+      if (variant.suits(start_.state) && warmed_up(variant).hash_after_warm_up != early)
         complain(variant.name, "after the warm-up");
   }
 

@@ -13,21 +13,27 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace riesel {
 
 /// How slices go askew. The results do not depend on it.
 struct Askew {
-  /// Grains of a slice, or more where the box is wide: so few that as many slices as there are
-  /// steps between the first and the last fit into a part of the last cache.
-  std::size_t slice = 4000;
+  /// Bytes of a slice, or more where the box is wide: so few that as many slices as there are steps
+  /// between the first and the last fit into a part of the last cache.
+  double slice = 0.7e6;
   std::int64_t steps = 12;  ///< that one slice is ahead of another at most
-  /// With fewer grains all slices do each step together: they fit into the caches as they are.
-  std::size_t fewest = 200'000;
+  /// Bytes: what takes less fits into the caches as it is, and all slices do each step together.
+  double least = 30e6;
   /// Flights, with fewer contacts per grain, have one slice for each thread: so little memory is
   /// touched in a step then that it does not matter where it is, and slices only cost.
   double contacts = 0.02;
 
+  /// All slices do each step together, whatever it takes.
+  static constexpr Askew never() { return {.least = std::numeric_limits<double>::infinity()}; }
+
+  /// Whether the state takes so much memory that slices go askew, if they can.
+  bool pays(const State& state) const;
   /// That one slice may be ahead of another in this state; 1: all do each step together.
   std::int64_t most_steps(const State& state) const;
   /// How many slices each of the threads is to have: one if they cannot go askew.

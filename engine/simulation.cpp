@@ -26,8 +26,8 @@ State ready(State state) {
 
 Askew sound(const Askew& askew) {
   constexpr std::int64_t most_steps = 1'000'000;
-  require(askew.slice > 0 && askew.steps > 0 && askew.steps <= most_steps,
-          "slices need grains and steps, not too many");
+  require(askew.slice > 0.0 && askew.steps > 0 && askew.steps <= most_steps,
+          "slices need memory and steps, not too many");
   return askew;
 }
 
@@ -50,7 +50,7 @@ bool flights_look_faster(const State& state, int threads, const Askew& askew) {
 /// already.
 bool may_part(Sharing sharing, const State& state, int threads, const Askew& askew) {
   if (sharing != Sharing::automatic) return sharing == Sharing::apart;
-  return state.grains.size() < askew.fewest && Parts::pay(state, threads);
+  return !askew.pays(state) && Parts::pay(state, threads);
 }
 
 /// How threads may share the steps, what to begin with first; by plain stepping.

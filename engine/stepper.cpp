@@ -38,7 +38,7 @@ Stepper::Stepper(State& state, const ContactModel& model, const Manner& manner, 
 
 Stepper::Stepper(State& state, const ContactModel& model, bool by_flights)
     : Stepper(state, model, {.by_flights = by_flights, .threads = 1, .slices_per_thread = 1},
-              Askew{.fewest = SIZE_MAX}) {}
+              Askew::never()) {}
 
 Stepper::~Stepper() = default;
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace riesel::scenarios {
@@ -82,7 +81,8 @@ class Relaxation {
 public:
   Relaxation(const State& empty, const std::vector<Place>& places, const std::vector<double>& radii)
       : radii_(radii),
-        simulation_(start(empty, places, radii), model(), 1, Stepping::plain, all_together) {}
+        // Slices that go askew end where a grain is thrown far.
+        simulation_(start(empty, places, radii), model(), 1, Stepping::plain, Askew::never()) {}
 
   void push_for_a_while() { simulation_.advance(steps_per_round); }
 
@@ -122,9 +122,6 @@ private:
             .friction = 0.0,
             .attraction = Attraction::clip};
   }
-
-  /// Never askew: that ends where a grain is thrown far.
-  static constexpr Askew all_together = {.fewest = std::numeric_limits<std::size_t>::max()};
 
   static State start(const State& empty, const std::vector<Place>& places,
                      const std::vector<double>& radii) {

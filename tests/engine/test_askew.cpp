@@ -17,7 +17,8 @@ using same_states::same;
 
 namespace {
 
-constexpr Askew small_slices{.slice = 40, .steps = 8, .fewest = 0, .contacts = 0.0};
+/// Of some 40 grains.
+constexpr Askew small_slices{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = 0.0};
 
 State askew(const State& state, const ContactModel& model, std::int64_t steps, int threads,
             const Askew& how = small_slices, Stepping stepping = Stepping::plain) {
@@ -115,7 +116,8 @@ void add_blow(State& state, double x, double y, bool across) {
       add_grain(state, grain(x, y + side * way, 0.0, -side * speed));
 }
 
-constexpr Askew long_lead{.slice = 20, .steps = 16, .fewest = 0, .contacts = 0.0};
+/// Slices of some 20 grains.
+constexpr Askew long_lead{.slice = 2e3, .steps = 16, .least = 0.0, .contacts = 0.0};
 
 State blows(bool across) {
   State state = at_rest();
@@ -134,8 +136,10 @@ TEST_CASE("slices of a long tube go ahead of each other") {
     CHECK(steps_ahead(tube, slices) == small_slices.steps);
     CHECK(steps_ahead(advanced(tube, paper_model(), 600), slices) > 2);
   }
-  CHECK(steps_ahead(springs_across(0.2), 4) == small_slices.steps);
-  CHECK(steps_ahead(springs_along(0.2, 1.0), 4) == small_slices.steps);
+  for (const State& state : {springs_across(0.2), springs_along(0.2, 1.0)})
+    CHECK(steps_ahead(state, small_slices.slices_per_thread(state, 1)) == small_slices.steps);
+  for (const State& state : {blows(false), blows(true)})
+    CHECK(long_lead.slices_per_thread(state, 2) >= 2);
 }
 
 TEST_CASE("slices do each step together where pairs may be of slices that are no neighbours") {
@@ -144,11 +148,11 @@ TEST_CASE("slices do each step together where pairs may be of slices that are no
   CHECK(steps_ahead(long_tube(0.1), 40) == 1);  // two or three rows of cells each
 }
 
-TEST_CASE("slices without grains or steps are refused") {
+TEST_CASE("slices without memory or steps are refused") {
   const State tube = long_tube(0.1);
-  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 0, .steps = 8, .fewest = 0}),
+  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 0.0, .steps = 8, .least = 0.0}),
                   std::invalid_argument);
-  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 40, .steps = 0, .fewest = 0}),
+  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 4e3, .steps = 0, .least = 0.0}),
                   std::invalid_argument);
 }
 
@@ -163,13 +167,26 @@ TEST_CASE("each thread has one slice where slices could not go askew") {
   CHECK(small_slices.slices_per_thread(wide, 1) == 1);
 }
 
+TEST_CASE("slices go askew sooner, and are of fewer grains, where grains are close together") {
+  const State dense = long_tube(0.1);
+  State dilute = dense;
+  dilute.box.length *= 10.0;
+  const auto grains = static_cast<double>(dense.grains.size());
+  constexpr Askew large_slices{.slice = 10e3, .least = 0.0};
+  CHECK(large_slices.slices_per_thread(dense, 1) > large_slices.slices_per_thread(dilute, 1));
+  CHECK(Askew{.least = 120.0 * grains}.pays(dense));
+  CHECK_FALSE(Askew{.least = 120.0 * grains}.pays(dilute));
+  CHECK(Askew{.least = 100.0 * grains}.pays(dilute));
+  CHECK_FALSE(Askew::never().pays(dense));
+}
+
 TEST_CASE("slices without neighbours in time go together with the same bits") {
   // All grains at one place of a long box: most slices have few rows.
   State start = empty_box(12e-3, 400e-3);
   Dice dice(83);
   throw_grains(start, 200,
                {.left = 0.0, .right = 12e-3, .low = 100e-3, .high = 125e-3, .speed = 3.0}, dice);
-  constexpr Askew tiny_slices{.slice = 5, .steps = 8, .fewest = 0, .contacts = 0.0};
+  constexpr Askew tiny_slices{.slice = 600.0, .steps = 8, .least = 0.0, .contacts = 0.0};
   REQUIRE(tiny_slices.slices_per_thread(start, 1) > 25);
   REQUIRE(steps_ahead(start, tiny_slices.slices_per_thread(start, 1)) == 1);
   const State expected = advanced(start, paper_model(), 500, 1, Stepping::plain);
@@ -210,7 +227,7 @@ TEST_CASE("calls that end at any step, and any lead, give the same bits") {
   const std::int64_t lead = GENERATE(2, 3, 16);
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
   Simulation simulation(start, paper_model(), 2, stepping,
-                        {.slice = 40, .steps = lead, .fewest = 0, .contacts = 0.0});
+                        {.slice = 4e3, .steps = lead, .least = 0.0, .contacts = 0.0});
   for (const std::int64_t steps : {1, 2, 7, 8, 9, 23, 50, 200}) simulation.advance(steps);
   CHECK(same(simulation.state(), expected));
 }
