@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 namespace riesel::bench {
 
@@ -22,11 +23,16 @@ std::string first_line(const std::filesystem::path& path) {
   return std::getline(file, line) ? line : "unknown";
 }
 
+/// Virtual machines often have a name that many processors share: family and model tell them apart.
 std::string cpu_model() {
   std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(": ") + 2);
-  return "unknown";
+  std::map<std::string, std::string> first;  // processor
+  for (std::string line; std::getline(file, line) && !line.empty();)
+    if (const auto end = line.find(": "); end != std::string::npos)
+      first[line.substr(0, line.find('\t'))] = line.substr(end + 2);
+  if (first["model name"].empty()) return "unknown";
+  return fmt::format("{} family {} model {}", first["model name"], first["cpu family"],
+                     first["model"]);
 }
 
 /// "2048K" and the like.
