@@ -96,6 +96,26 @@ TEST_CASE("parts of a run in pieces, in any order of the slots, come to the same
   CHECK(same(simulation.state(), advanced(start, paper_model(), 1000, 1, Stepping::plain)));
 }
 
+TEST_CASE("few grains begin on one thread or apart, many on all threads together") {
+  const auto first_way = [](const State& state, Stepping stepping) {
+    return Simulation(state, paper_model(), 2, stepping).preferred_way();
+  };
+  const State few = long_tube();
+  const State many = corrugated_tube(91, {.length = 1200e-3,
+                                          .wall_grains = 1000,
+                                          .grains = 4000,
+                                          .speed = 2.0,
+                                          .polydispersity = 0.0,
+                                          .inertia = 0.0});
+  CHECK(first_way(few, Stepping::automatic).threads == 1);
+  CHECK(first_way(few, Stepping::windows) == Way{.by_flights = true, .threads = 2, .apart = true});
+  for (const Stepping stepping : {Stepping::automatic, Stepping::plain}) {
+    const Way way = first_way(many, stepping);
+    CHECK(way.threads == 2);
+    CHECK_FALSE(way.apart);
+  }
+}
+
 TEST_CASE("a tube shorter than the margins is no trouble") {
   const State start = small_tube(93);
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
