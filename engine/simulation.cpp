@@ -102,6 +102,8 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       model_(model),
       threads_(team_size(threads)),
       askew_(sound(askew)),
+      slices_alone_(askew_.slices_per_thread(state_, 1)),
+      slices_together_(askew_.slices_per_thread(state_, threads_)),
       choice_(ways(stepping, sharing, state_, threads_, askew_)),
       wall_watch_(state_, model_) {
   prepare();
@@ -152,7 +154,7 @@ void Simulation::advance_piece(std::int64_t last) {
 
 Simulation::Preparation Simulation::wanted() const {
   const auto [by_flights, threads, apart] = choice_.way();
-  const std::size_t slices = askew_.slices_per_thread(state_, threads);
+  const std::size_t slices = threads == 1 ? slices_alone_ : slices_together_;
   constexpr double ample = 0.6;  // so that it is not now one, now the other
   const bool before = prepared_ && prepared_->manner.slices_per_thread > 1;
   const double enough =

@@ -9,6 +9,7 @@
 #include "engine/stepping_choice.hpp"
 #include "engine/wall_watch.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -76,6 +77,8 @@ private:
   ContactModel model_;
   const int threads_;
   const Askew askew_;
+  /// Slices of each thread if they go askew: of one thread alone, and of all.
+  const std::size_t slices_alone_, slices_together_;
   SteppingChoice choice_;
   Profile profile_;
   std::optional<Preparation> prepared_;  // of one of the two
