@@ -8,7 +8,7 @@ double plain_traffic(const State& state) {
   State copy = state;
   Candidates candidates(copy, CappedSlip{}, 1, Candidates::plain_stepping);
   Slice& all = candidates.slices().front();
-  find_overlapping(all, copy, candidates.when_sorted(), candidates.units());
+  all.inner.keep_up(all.pairs, candidates.when_sorted(), candidates.units());
   const auto per_grain = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(state.grains.size());
   };
@@ -19,15 +19,15 @@ double plain_traffic(const State& state) {
   // The search: each pair of the inner list, and the coarse positions again.
   constexpr double pair = 2.0 * sizeof(std::uint32_t) + sizeof(float);
   constexpr double coarse = 2.0 * sizeof(std::int32_t);
-  constexpr double near_wall = sizeof(NearWall) + sizeof(Fixed) + sizeof(double);
+  constexpr double near_wall = sizeof(NearWall);
   // The life of a contact and the relative motion in it (two positions, two displacements) are read
   // and written, its constants (two places, reach, masses) read, its kicks and flags written. Each
-  // kick is then listed, collected, and taken up by the velocities. The kicks of its grains are
-  // gathered.
+  // kick is then added to the kick and to the velocity of its grain, which is listed, as its kick
+  // is to be forgotten in the next step. The kicks of its grains are gathered.
   constexpr double life = 2.0 * (sizeof(Contact) - sizeof(ContactName) + 4.0 * sizeof(Fixed));
   constexpr double constants = 2.0 * sizeof(std::int64_t) + 4.0 * sizeof(double);
   constexpr double results = 4.0 * sizeof(Fixed) + sizeof(std::int32_t);
-  constexpr double grain = 2.0 * sizeof(Fixed) + 5.0 * sizeof(Kick);
+  constexpr double grain = 12.0 * sizeof(Fixed) + 2.0 * sizeof(std::uint32_t);
   constexpr double contact = life + constants + results + 2.0 * grain;
   return drift + coarse + pair * per_grain(all.inner.pairs().size())
          + near_wall * per_grain(all.near_walls.size())

@@ -131,6 +131,20 @@ void Candidates::compare_inner_lists(std::span<Slice> share) const {
 
 double Candidates::fastest() const { return std::sqrt(largest(slices_, &Slice::fastest2)); }
 
+void Candidates::count_way_past_walls(Slice& mine, const StepUnits& units) const {
+  const auto size = [&](Fixed x, Fixed y) {
+    const double metres_x = units.box.metres_x(x), metres_y = units.box.metres_y(y);
+    return std::sqrt(metres_x * metres_x + metres_y * metres_y);
+  };
+  double of_walls = 0.0;
+  if (units.walls_move)
+    for (const BodyMotion& wall : units.walls) of_walls = std::max(of_walls, size(wall.ux, wall.uy));
+  const Fixed x = wrapped_sum(drift_.x, units.fallen.x), y = wrapped_sum(drift_.y, units.fallen.y);
+  const double own = std::sqrt(mine.fastest2);
+  mine.way_past_walls.across += own + size(x, 0);
+  mine.way_past_walls.any += own + size(x, y) + of_walls;
+}
+
 std::int64_t Candidates::ready_for(State& state, CoarsePositions& coarse, std::span<Slice> share,
                                    std::int64_t step, std::int64_t wanted) {
   const double room = 0.5 * skin_, speed = 2.0 * fastest();
@@ -197,7 +211,7 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
   for (Slice& mine : share) {
     list_pairs(state, mine, share.front().close);
     list_near_walls(state, mine);
-    list_received(state.grains, mine);
+    list_kicked(state.grains, mine);
     measure_speeds(state, mine);
     mine.gone = 0.0;
     mine.inner.start_over(skin_);
@@ -264,6 +278,7 @@ void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPai
 void Candidates::list_near_walls(const State& state, Slice& mine) const {
   const double room_for_fall = fall_.x != 0 ? 0.5 * skin_ : 0.0;
   mine.near_walls.clear();
+  mine.way_past_walls = {};
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
     const double x = state.box.metres_x(state.grains.x[i]);
     if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width)
@@ -274,13 +289,12 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
   }
 }
 
-/// The kicks that slots have kept from the last step, summed over their contacts.
-void Candidates::list_received(const Grains& grains, Slice& mine) {
-  mine.received.clear();
+/// Whoever has a kick from the last step.
+void Candidates::list_kicked(const Grains& grains, Slice& mine) {
+  mine.kicked.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    if (const BodyKick by{grains.kick_x[i], grains.kick_y[i], grains.spin_kick_of(i)};
-        by.x != 0 || by.y != 0 || by.spin != 0)
-      mine.received.push_back({static_cast<std::uint32_t>(i), by});
+    if (grains.kick_x[i] != 0 || grains.kick_y[i] != 0 || grains.spin_kick_of(i) != 0)
+      mine.kicked.push_back(static_cast<std::uint32_t>(i));
 }
 
 Candidates::Displacement Candidates::common_motion(std::int64_t step) const {
@@ -330,11 +344,12 @@ double Candidates::wandered() const { return largest(slices_, &Slice::wandered) 
 /// already, at its end the next step will.
 void Candidates::measure_speeds(const State& state, Slice& mine) const {
   const Grains& g = state.grains;
+  const Speedometer speed = speedometer(state.box);
   mine.fastest2 = 0.0;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    const double without = squared_speed(state.box, g.ux[i], g.uy[i]);
-    const double with = squared_speed(state.box, wrapped_sum(g.ux[i], g.kick_x[i]),
-                                      wrapped_sum(g.uy[i], g.kick_y[i]));
+    const double without = speed.squared(g.ux[i], g.uy[i]);
+    const double with =
+        speed.squared(wrapped_sum(g.ux[i], g.kick_x[i]), wrapped_sum(g.uy[i], g.kick_y[i]));
     mine.fastest2 = std::max({mine.fastest2, without, with});
   }
 }

@@ -87,6 +87,9 @@ public:
   static void count_motion(Slice& mine) { mine.gone += std::sqrt(mine.fastest2); }
   /// m per step, of any grain, relative to the drift.
   double fastest() const;
+  /// The grains of `mine` have moved by the step of `units`. Across, what walls do themselves does
+  /// not count.
+  void count_way_past_walls(Slice& mine, const StepUnits& units) const;
 
   /// For how many steps the candidates may be used before this is called again: at least `step`
   /// itself, for which they hold for sure, at most `wanted`. Looks at the true displacements if
@@ -130,17 +133,20 @@ public:
   /// From when they were listed to `step`.
   Displacement common_motion(std::int64_t step) const;
 
-  /// (m per step)^2, of a displacement per step (quanta) relative to the drift.
-  double squared_speed(const Box& box, Fixed ux, Fixed uy) const {
-    const double vx = box.metres_x(wrapped_difference(ux, drift_.x));
-    const double vy = box.metres_y(wrapped_difference(uy, drift_.y));
-    return vx * vx + vy * vy;
-  }
+  /// Tells speeds relative to the drift.
+  struct Speedometer {
+    Displacement drift;
+    double metre_x, metre_y;  ///< m per quantum
 
-  /// A grain of `mine` has a new velocity: keeps the bound on the speeds.
-  void note_speed(const State& state, Slice& mine, std::uint32_t slot) const {
-    const Grains& g = state.grains;
-    mine.fastest2 = std::max(mine.fastest2, squared_speed(state.box, g.ux[slot], g.uy[slot]));
+    /// (m per step)^2, of a displacement per step (quanta).
+    double squared(Fixed ux, Fixed uy) const {
+      const double vx = real(wrapped_difference(ux, drift.x)) * metre_x;
+      const double vy = real(wrapped_difference(uy, drift.y)) * metre_y;
+      return vx * vx + vy * vy;
+    }
+  };
+  Speedometer speedometer(const Box& box) const {
+    return {drift_, box.quantum_x(), box.quantum_y()};
   }
 
   /// Calls visit(contact) for the contacts of all slices.
@@ -164,7 +170,7 @@ private:
   void start_over(const State& state, std::int64_t step);
   void list_pairs(const State& state, Slice& mine, std::vector<SlotPair>& close) const;
   void list_near_walls(const State& state, Slice& mine) const;
-  static void list_received(const Grains& grains, Slice& mine);
+  static void list_kicked(const Grains& grains, Slice& mine);
   void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;
   struct CoarsePoint {
     std::int32_t x, y;

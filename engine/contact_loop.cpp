@@ -18,14 +18,43 @@ void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
   }
 }
 
-void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
+/// Begins the contacts of a grain with wall grains, and tells how far it may go until the next one
+/// (m). A grain that is deep in the strip of the wall is looked at as seldom as one that is not.
+double begin_at_wall(Slice& slice, const State& state, std::uint32_t place,
+                     const StepUnits& units) {
+  constexpr double room_of_reach = 0.1;  // more lets it rest longer, and takes a longer look
   const Grains& g = state.grains;
-  for (const std::uint32_t place : slice.wall_hits) {
-    const NearWall& near = slice.near_walls[place];
-    for_each_touched_wall_grain(
-        state, near, g.x[near.slot], g.y[near.slot], units, [&](std::int64_t k) {
+  const NearWall& near = slice.near_walls[place];
+  const double reach = reach_at_wall(state, near), farthest = (1.0 + room_of_reach) * reach;
+  double closest2 = farthest * farthest;
+  for_each_free_wall_grain(
+      state, near, g.x[near.slot], g.y[near.slot], units, farthest - reach,
+      [&](std::int64_t k, Fixed dx, Fixed dy) {
+        const double distance2 = squared_distance(dx, dy, units);
+        if (distance2 < reach * reach)
           begin_contact(slice, slice.wall_contacts, meeting_at_wall(slice, state, place, k));
-        });
+        else
+          closest2 = std::min(closest2, distance2);
+      });
+  return (closest2 - reach * reach) / (farthest + reach);  // at most the distance less the reach
+}
+
+/// A grain that has been looked at is left alone until it may touch a wall grain.
+void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
+  constexpr double rounding = 1e-9;  // of the radius
+  const WayPastWalls way = slice.way_past_walls;
+  for (std::uint32_t place = 0; place < slice.near_walls.size(); ++place) {
+    NearWall& near = slice.near_walls[place];
+    if (near.is_clear(way)) continue;
+    const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
+    const double radius = state.grains.radius[near.slot];
+    const double across =
+        wall.distance_across(state.box.metres_x(state.grains.x[near.slot]), radius)
+        - rounding * radius;
+    near.clear_until = {.across = way.across + across, .any = 0.0};
+    if (across <= 0.0)
+      near.clear_until.any =
+          way.any + begin_at_wall(slice, state, place, units) - rounding * radius;
   }
 }
 
@@ -58,7 +87,7 @@ void note_over(Slice& slice, const Meeting& meeting) {
   if (meeting.name.wall == no_wall)
     slice.pairs.end_contact(meeting.candidate);
   else
-    slice.near_walls[meeting.candidate].partners &= ~meeting.wall_bit;
+    slice.near_walls[meeting.candidate].end_contact(meeting.wall_bit);
 }
 
 void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting) {

@@ -26,20 +26,24 @@ void note_over(Slice& slice, const Meeting& meeting);
 /// Begins in the step that is being done.
 void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting);
 
-/// Calls touches(k) for the wall grains that `near`, at (x, y), overlaps and is not in contact with
-/// yet.
-template <class Touches>
-void for_each_touched_wall_grain(const State& state, const NearWall& near, Fixed x, Fixed y,
-                                 const StepUnits& units, Touches touches) {
+/// m, between the centres of a grain and a wall grain that touch.
+inline double reach_at_wall(const State& state, const NearWall& near) {
+  return state.grains.radius[near.slot] + state.walls[static_cast<std::size_t>(near.wall)].radius;
+}
+
+/// Calls visit(k, dx, dy) for the wall grains that `near`, at (x, y), has within `room` (m), and a
+/// few more, but for those that it is in contact with; they are at (dx, dy) from it.
+template <class Visit>
+void for_each_free_wall_grain(const State& state, const NearWall& near, Fixed x, Fixed y,
+                              const StepUnits& units, double room, Visit visit) {
   const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
   const BodyMotion& moved = units.walls[static_cast<std::size_t>(near.wall)];
   const Fixed line = wrapped_sum(state.box.fixed_x(wall.line), moved.x);
   const Fixed from_line = wrapped_difference(line, x);
-  const double reach = state.grains.radius[near.slot] + wall.radius;
   const Fixed back = wrapped_difference(y, moved.y);
-  for_each_wall_grain_within(wall, state.box, back, reach, [&](std::int64_t k, Fixed there) {
-    if ((near.partners & wall.bit_of(k)) != 0) return;
-    if (overlapping(from_line, wrapped_difference(there, back), reach, units)) touches(k);
+  const double within = reach_at_wall(state, near) + room;
+  for_each_wall_grain_within(wall, state.box, back, within, [&](std::int64_t k, Fixed there) {
+    if ((near.partners & wall.bit_of(k)) == 0) visit(k, from_line, wrapped_difference(there, back));
   });
 }
 

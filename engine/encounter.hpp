@@ -191,13 +191,18 @@ struct BodyPair {
           .rolling_arm = rolling_friction * rolling_radius};
 }
 
+/// m^2, of a body at (x, y) from another.
+[[gnu::always_inline]] inline double squared_distance(Fixed x, Fixed y, const StepUnits& units) {
+  const double dx = real(x) * units.metre_x;
+  const double dy = real(y) * units.metre_y;
+  return dx * dx + dy * dy;
+}
+
 /// Whether two bodies, the second at (x, y) from the first, touch: the one test that decides about
 /// the beginning and the end of a contact.
 [[gnu::always_inline]] inline bool overlapping(Fixed x, Fixed y, double reach,
                                                const StepUnits& units) {
-  const double dx = real(x) * units.metre_x;
-  const double dy = real(y) * units.metre_y;
-  return dx * dx + dy * dy < reach * reach;
+  return squared_distance(x, y, units) < reach * reach;
 }
 
 }  // namespace riesel

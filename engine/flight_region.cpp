@@ -61,8 +61,12 @@ void FlightRegion::start_over(std::int64_t step) {
 /// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
 void FlightRegion::take_up_contacts(std::int64_t step) {
   border_.list_border();
-  for (const Kick& kick : slice_.received) deflected_.add_kick(deflect(kick.slot, step), kick.by);
-  give_up(slice_.received);  // from now on kicks are where the deflected grains are
+  const Grains& g = airspace_.state.grains;
+  for (const std::uint32_t slot : slice_.kicked) {
+    const BodyKick by{g.kick_x[slot], g.kick_y[slot], g.spin_kick_of(slot)};
+    deflected_.add_kick(deflect(slot, step), by);
+  }
+  give_up(slice_.kicked);  // from now on kicks are where the deflected grains are
   for (LiveContacts* contacts : {&slice_.pair_contacts, &slice_.wall_contacts})
     for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
 }
@@ -230,10 +234,13 @@ void FlightRegion::look_at_near_wall(std::uint32_t near_wall, std::int64_t step)
   const State& state = airspace_.state;
   const NearWall& near = slice_.near_walls[near_wall];
   const Position at = position(near.slot, step);
-  for_each_touched_wall_grain(state, near, at.x, at.y, units_, [&](std::int64_t k) {
-    begin_contact(slice_, slice_.wall_contacts, meeting_at_wall(slice_, state, near_wall, k));
-    take_up(slice_.wall_contacts, slice_.wall_contacts.size() - 1, step);
-  });
+  const double reach = reach_at_wall(state, near);
+  for_each_free_wall_grain(
+      state, near, at.x, at.y, units_, 0.0, [&](std::int64_t k, Fixed dx, Fixed dy) {
+        if (!overlapping(dx, dy, reach, units_)) return;
+        begin_contact(slice_, slice_.wall_contacts, meeting_at_wall(slice_, state, near_wall, k));
+        take_up(slice_.wall_contacts, slice_.wall_contacts.size() - 1, step);
+      });
   appointments_.reconsider_near_wall(near_wall);
 }
 

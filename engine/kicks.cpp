@@ -14,7 +14,54 @@ bool concerns(const Slice& giver, const Slice& mine) {
          && giver.given_last >= mine.begin;
 }
 
+/// The grains of a slice, who collect what contacts give them. What each kick needs stands here
+/// instead of where it comes from, so that it can stay in registers.
+struct Receiver {
+  Fixed *kick_x, *kick_y, *ux, *uy;
+  Fixed *spin_kick, *spin;  // null where grains do not rotate, and no kick has a spin
+  std::size_t begin, size;  // slots
+  Candidates::Speedometer speed;
+  double fastest2;        // as in the slice
+  std::uint32_t* kicked;  // where the next one is listed
+
+  static void add(Fixed& sum, Fixed more) { sum = wrapped_sum(sum, more); }
+
+  [[gnu::always_inline]] void receive(std::uint32_t slot, const BodyKick& kick) {
+    if (slot - begin >= size) return;
+    *kicked++ = slot;
+    add(kick_x[slot], kick.x);
+    add(kick_y[slot], kick.y);
+    add(ux[slot], kick.x);
+    add(uy[slot], kick.y);
+    if (kick.spin != 0) {
+      add(spin_kick[slot], kick.spin);
+      add(spin[slot], kick.spin);
+    }
+    fastest2 = std::max(fastest2, speed.squared(ux[slot], uy[slot]));
+  }
+};
+
+/// Along each axis, and for the spin.
+template <class Change>
+void change_velocities(Grains& g, const Slice& mine, Change change) {
+  for (std::size_t i = mine.begin; i < mine.end; ++i) {
+    g.ux[i] = change(g.ux[i], g.kick_x[i]);
+    g.uy[i] = change(g.uy[i], g.kick_y[i]);
+  }
+  if (!g.rotate()) return;
+  for (std::size_t i = mine.begin; i < mine.end; ++i)
+    g.spin[i] = change(g.spin[i], g.spin_kick[i]);
+}
+
 }  // namespace
+
+void take_up_kicks(Grains& grains, const Slice& mine) {
+  change_velocities(grains, mine, wrapped_sum);
+}
+
+void give_back_kicks(Grains& grains, const Slice& mine) {
+  change_velocities(grains, mine, wrapped_difference);
+}
 
 void give_away_kicks(Slice& mine, std::size_t others) {
   mine.given_away.clear();
@@ -29,29 +76,34 @@ void give_away_kicks(Slice& mine, std::size_t others) {
   });
 }
 
-void receive_kicks(Grains& grains, std::span<const Slice> givers, Slice& mine) {
-  for (const Kick& old : mine.received) grains.kick_x[old.slot] = grains.kick_y[old.slot] = 0;
-  if (grains.rotate())
-    for (const Kick& old : mine.received) grains.spin_kick[old.slot] = 0;
-  std::size_t most = 2 * mine.pair_contacts.size() + mine.wall_contacts.size(), count = 0;
+void receive_kicks(State& state, const Candidates& candidates, std::span<const Slice> givers,
+                   Slice& mine) {
+  Grains& g = state.grains;
+  for (const std::uint32_t slot : mine.kicked) g.kick_x[slot] = g.kick_y[slot] = 0;
+  if (g.rotate())
+    for (const std::uint32_t slot : mine.kicked) g.spin_kick[slot] = 0;
+  std::size_t most = 2 * mine.pair_contacts.size() + mine.wall_contacts.size();
   for (const Slice& giver : givers) most += concerns(giver, mine) ? giver.given_away.size() : 0;
-  mine.received.resize(most);
-  const auto receive = [&](const Kick& kick) {
-    if (!mine.owns(kick.slot)) return;
-    grains.kick_x[kick.slot] = wrapped_sum(grains.kick_x[kick.slot], kick.by.x);
-    grains.kick_y[kick.slot] = wrapped_sum(grains.kick_y[kick.slot], kick.by.y);
-    mine.received[count++] = kick;
-  };
+  mine.kicked.resize(most);
+  Receiver receiver{.kick_x = g.kick_x.data(),
+                    .kick_y = g.kick_y.data(),
+                    .ux = g.ux.data(),
+                    .uy = g.uy.data(),
+                    .spin_kick = g.spin_kick.data(),
+                    .spin = g.spin.data(),
+                    .begin = mine.begin,
+                    .size = mine.end - mine.begin,
+                    .speed = candidates.speedometer(state.box),
+                    .fastest2 = mine.fastest2,
+                    .kicked = mine.kicked.data()};
   for_each_kick(mine, [&](std::int64_t place, const BodyKick& kick) {
-    receive({static_cast<std::uint32_t>(place), kick});
+    receiver.receive(static_cast<std::uint32_t>(place), kick);
   });
   for (const Slice& giver : givers)
     if (concerns(giver, mine))
-      std::for_each(giver.given_away.begin(), giver.given_away.end(), receive);
-  mine.received.resize(count);
-  if (!grains.rotate()) return;
-  for (const Kick& kick : mine.received)
-    grains.spin_kick[kick.slot] = wrapped_sum(grains.spin_kick[kick.slot], kick.by.spin);
+      for (const Kick& kick : giver.given_away) receiver.receive(kick.slot, kick.by);
+  mine.kicked.resize(static_cast<std::size_t>(receiver.kicked - mine.kicked.data()));
+  mine.fastest2 = receiver.fastest2;
 }
 
 }  // namespace riesel

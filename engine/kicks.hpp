@@ -1,7 +1,11 @@
-// How the kicks of contacts reach the velocities: given in one step, taken up at the beginning of
-// the next.
+// How the kicks of contacts reach the velocities in plain stepping.
+//
+// In a State the velocity is that of the last displacement, and a kick waits for the next step to
+// take it up. While plain stepping goes on it is added to both the kick and the velocity of a grain
+// at once: who is kicked is looked at but once in a step.
 #pragma once
 
+#include "engine/candidates.hpp"
 #include "engine/slice.hpp"
 #include "engine/state.hpp"
 
@@ -9,26 +13,18 @@
 
 namespace riesel {
 
-/// Adds the kicks that the grains of `mine` received in the last step to their velocities, and
-/// calls taken_up(slot) after each.
-template <class TakenUp>
-void take_up_kicks(Grains& grains, const Slice& mine, TakenUp taken_up) {
-  for (const Kick& kick : mine.received) {
-    grains.ux[kick.slot] = wrapped_sum(grains.ux[kick.slot], kick.by.x);
-    grains.uy[kick.slot] = wrapped_sum(grains.uy[kick.slot], kick.by.y);
-    taken_up(kick.slot);
-  }
-  if (!grains.rotate()) return;
-  for (const Kick& kick : mine.received)
-    grains.spin[kick.slot] = wrapped_sum(grains.spin[kick.slot], kick.by.spin);
-}
+/// The velocities of the grains of `mine` take up the kicks that a State has.
+void take_up_kicks(Grains& grains, const Slice& mine);
+/// The velocities are again those of a State.
+void give_back_kicks(Grains& grains, const Slice& mine);
 
 /// Lists what the contacts of `mine` gave to grains of other slices in this step, for whoever steps
 /// them; there are so many others.
 void give_away_kicks(Slice& mine, std::size_t others);
 
-/// Collects what the contacts of `mine` and of the givers gave to the grains of `mine` in this
-/// step.
-void receive_kicks(Grains& grains, std::span<const Slice> givers, Slice& mine);
+/// The kicks of the last step are forgotten; kicks and velocities of the grains of `mine` take up
+/// what contacts of `mine` and of the givers gave them in this step.
+void receive_kicks(State& state, const Candidates& candidates, std::span<const Slice> givers,
+                   Slice& mine);
 
 }  // namespace riesel

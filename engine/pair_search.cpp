@@ -125,19 +125,6 @@ RIESEL_VECTOR_KERNEL void find_close_pairs(const Cells& cells, SlotRange slots,
   close.resize(found);
 }
 
-/// Those that touch the strip in which the wall is at any time, or almost do.
-void find_at_walls(Slice& slice, const State& state) {
-  constexpr double rounding = 1e-9;  // of the radius
-  slice.wall_hits.clear();
-  for (std::size_t place = 0; place < slice.near_walls.size(); ++place) {
-    const NearWall& near = slice.near_walls[place];
-    const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
-    const double radius = state.grains.radius[near.slot];
-    if (wall.is_near(state.box.metres_x(state.grains.x[near.slot]), radius, rounding * radius))
-      slice.wall_hits.push_back(static_cast<std::uint32_t>(place));
-  }
-}
-
 }  // namespace
 
 void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& positions,
@@ -151,16 +138,9 @@ void find_near(const CandidatePairs& pairs, const CoarsePositions& positions, Co
   near.resize(list_near(pairs, positions, units, static_cast<float>(skin), near.data()));
 }
 
-void find_overlapping_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
+void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
                             CoarseUnits units, std::vector<std::uint32_t>& hits) {
   find_pairs(pairs, positions, units, hits);
-}
-
-void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
-                      CoarseUnits units) {
-  slice.inner.keep_up(slice.pairs, positions, units);
-  find_overlapping_pairs(slice.inner.pairs(), positions, units, slice.hits);
-  find_at_walls(slice, state);
 }
 
 }  // namespace riesel

@@ -4,10 +4,9 @@
 // the contact loop then decides with all bits.
 #pragma once
 
+#include "engine/candidate_pairs.hpp"
 #include "engine/cells.hpp"
 #include "engine/coarse_positions.hpp"
-#include "engine/slice.hpp"
-#include "engine/state.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -26,12 +25,7 @@ void find_near(const CandidatePairs& pairs, const CoarsePositions& positions, Co
 
 /// Replaces `hits` by the indices of those of `pairs`, not in contact, that may overlap, in
 /// increasing order.
-void find_overlapping_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
+void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
                             CoarseUnits units, std::vector<std::uint32_t>& hits);
-
-/// Writes to slice.hits and slice.wall_hits the indices of the inner pairs and of the grains near
-/// walls that may overlap, in increasing order. `positions` are the present ones.
-void find_overlapping(Slice& slice, const State& state, const CoarsePositions& positions,
-                      CoarseUnits units);
 
 }  // namespace riesel

@@ -64,6 +64,7 @@ void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last
   const std::span<Slice> share = candidates_.share(number);
   Member member{
       .number = number, .share = share, .units = units_, .profile = share.front().profile};
+  for (const Slice& mine : share) take_up_kicks(state_.grains, mine);
   while (now < last && !candidates_.in_trouble()) {
     const std::int64_t next = now + 1;
     member.profile.begin_step(next);
@@ -78,12 +79,12 @@ void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last
     else
       step_askew(member, next, now);
   }
+  for (const Slice& mine : share) give_back_kicks(state_.grains, mine);
   if (number == 0) state_.step = now;
 }
 
 void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
-  take_up_kicks(g, mine, [&](std::uint32_t slot) { candidates_.note_speed(state_, mine, slot); });
   const std::size_t count = mine.end - mine.begin;
   const Fall fallen = member.units.fall.times(step);
   // Processors fetch up to some thousand bytes of what comes next in the direction of a loop:
@@ -100,16 +101,18 @@ void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
 /// `motion` (m): no grain in a pair of the slice has moved farther in this step.
 void PlainSteps::touch(Member& member, Slice& mine, std::int64_t step, double motion) {
   mine.inner.spend(motion);
-  find_overlapping(mine, state_, coarse_, candidates_.units());
+  mine.inner.keep_up(mine.pairs, coarse_, candidates_.units());
+  find_overlapping(mine.inner.pairs(), coarse_, candidates_.units(), mine.hits);
   member.profile.done(Profile::Phase::search);
   member.units.move_to(step);
+  candidates_.count_way_past_walls(mine, member.units);
   resolve_contacts(mine, state_, member.units, model_);
   give_away_kicks(mine, candidates_.slices().size() - 1);
   member.profile.done(Profile::Phase::forces);
 }
 
 void PlainSteps::receive(Member& member, Slice& mine, std::span<const Slice> givers) {
-  receive_kicks(state_.grains, givers, mine);
+  receive_kicks(state_, candidates_, givers, mine);
   member.profile.done(Profile::Phase::receive);
 }
 

@@ -36,8 +36,9 @@ SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Cou
 void SkinGuard::start_over(SlotRange slots) {
   fastest2_ = 0.0;
   const Grains& g = state_.grains;
+  const auto speed = candidates_.speedometer(state_.box);
   for (std::size_t slot = slots.begin; slot < slots.end; ++slot)
-    fastest2_ = std::max(fastest2_, candidates_.squared_speed(state_.box, g.ux[slot], g.uy[slot]));
+    fastest2_ = std::max(fastest2_, speed.squared(g.ux[slot], g.uy[slot]));
   const std::int64_t steps = Forecast::whole_steps(room_ / std::sqrt(fastest2_));
   hold_until_ = std::min(candidates_.hold_until(), courses_.sorted_at() + steps - 1);
 }

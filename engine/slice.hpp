@@ -20,11 +20,27 @@
 
 namespace riesel {
 
+/// m, how far a grain may have gone past the walls: across the tube, and in any direction.
+struct WayPastWalls {
+  double across = 0.0, any = 0.0;
+};
+
 /// A grain that can touch a wall before the next sorting.
 struct NearWall {
   std::uint32_t slot;
   std::int32_t wall;
   std::uint64_t partners = 0;  ///< the wall grains that it touches: WallLattice::bit_of
+  /// It touches no other until the way of its slice has come so far, across or at all; for plain
+  /// stepping.
+  WayPastWalls clear_until = {};
+
+  bool is_clear(const WayPastWalls& way) const {
+    return clear_until.across > way.across || clear_until.any > way.any;
+  }
+  void end_contact(std::uint64_t wall_bit) {
+    partners &= ~wall_bit;
+    clear_until = {};
+  }
 };
 
 /// What one contact adds to the velocity of one grain in one step.
@@ -63,12 +79,12 @@ struct alignas(cache_line) Slice {
   InnerPairs inner;                ///< those of the pairs that plain stepping tests
   std::vector<SlotPair> close;     ///< while the thread lists pairs, in its first slice
   std::vector<NearWall> near_walls;
+  WayPastWalls way_past_walls;  ///< no own grain went farther since they were listed
 
-  std::vector<std::uint32_t> hits;       ///< indices of inner pairs that may overlap in this step
-  std::vector<std::uint32_t> wall_hits;  ///< indices of near_walls that may touch in this step
+  std::vector<std::uint32_t> hits;  ///< indices of inner pairs that may overlap in this step
   LiveContacts pair_contacts{Partner::grain};
   LiveContacts wall_contacts{Partner::wall};
-  std::vector<Kick> received;  ///< of this step, by contacts of any slice on grains of the slice
+  std::vector<std::uint32_t> kicked;  ///< own grains, by any contact in this step; some repeatedly
   LastingContacts lasting;     ///< of the slice, while the grains are sorted
   std::size_t kept = 0;        ///< how many of all those the slice has after it
   Profile profile;             ///< of what its thread does with it

@@ -84,11 +84,14 @@ struct WallLattice {
   }
   /// m, from its line to the farthest point that it ever covers.
   double reach() const { return radius + std::abs(motion.amplitude_x); }
-  /// Whether a grain with this radius (m) and its centre at `x` (m) is no farther than `room` (m)
-  /// from where the wall can ever be. It comes of rounded numbers, so that whoever must not miss a
+  /// m, across, of a grain with this radius (m) and its centre at `x` (m) from where the wall can
+  /// ever be; negative in there. It comes of rounded numbers, so that whoever must not miss a
   /// contact asks with some room.
+  double distance_across(double x, double grain_radius) const {
+    return std::abs(x - line) - (grain_radius + reach());
+  }
   bool is_near(double x, double grain_radius, double room) const {
-    return std::abs(x - line) < grain_radius + reach() + room;
+    return distance_across(x, grain_radius) < room;
   }
   /// How many bodies it has that can be touched: a plane is one.
   std::int64_t partners() const { return smooth() ? 1 : count; }

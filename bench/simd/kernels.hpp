@@ -18,7 +18,7 @@
 
 namespace riesel::bench::simd {
 
-/// Candidate pairs to be tested, as find_overlapping_pairs() gets them.
+/// Candidate pairs to be tested, as find_overlapping() gets them.
 struct PairProblem {
   const std::uint32_t *first, *second;
   const float* reach2;

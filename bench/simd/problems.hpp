@@ -16,7 +16,7 @@ public:
   Original(State state, const ContactModel& model);
 
   void find_pairs() {
-    find_overlapping_pairs(slice().pairs, candidates_.when_sorted(), candidates_.units(),
+    find_overlapping(slice().pairs, candidates_.when_sorted(), candidates_.units(),
                            slice().hits);
   }
   void step_contacts() { slice().pair_contacts.step(bodies(state_.grains), units_, model_); }

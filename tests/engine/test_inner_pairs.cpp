@@ -80,7 +80,7 @@ private:
 
   std::set<std::uint32_t> overlapping_in(const CandidatePairs& pairs) const {
     std::vector<std::uint32_t> hits;
-    find_overlapping_pairs(pairs, positions_, units_, hits);
+    find_overlapping(pairs, positions_, units_, hits);
     return {hits.begin(), hits.end()};
   }
 

@@ -51,7 +51,7 @@ std::size_t count_of(std::vector<std::uint32_t> found, Find find) {
 
 std::size_t hits(const Pairs& p, const Box& box) {
   return count_of({7, 7, 7}, [&](std::vector<std::uint32_t>& found) {
-    find_overlapping_pairs(p.pairs, p.positions, CoarseUnits(box), found);
+    find_overlapping(p.pairs, p.positions, CoarseUnits(box), found);
   });
 }
 
