@@ -8,17 +8,19 @@ double plain_traffic(const State& state) {
   State copy = state;
   Candidates candidates(copy, CappedSlip{}, 1, Candidates::plain_stepping);
   Slice& all = candidates.slices().front();
-  all.inner.keep_up(all.pairs, candidates.when_sorted(), candidates.units());
+  PackedPositions positions;
+  positions.copy_all(candidates.when_sorted());
+  all.inner.keep_up(all.pairs, positions, candidates.units());
   const auto per_grain = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(state.grains.size());
   };
 
-  // The drift, for each axis: the displacement is read, the position read and written, the coarse
-  // position written, for which its line is read.
-  constexpr double drift = 2.0 * (sizeof(Fixed) + 2.0 * sizeof(Fixed) + 2.0 * sizeof(std::int32_t));
+  // The drift: for each axis the displacement is read, the position read and written; the coarse
+  // position is written, for which its line is read.
+  constexpr double drift = 2.0 * 3.0 * sizeof(Fixed) + 2.0 * sizeof(PackedPoint);
   // The search: each pair of the inner list, and the coarse positions again.
   constexpr double pair = 2.0 * sizeof(std::uint32_t) + sizeof(float);
-  constexpr double coarse = 2.0 * sizeof(std::int32_t);
+  constexpr double coarse = sizeof(PackedPoint);
   constexpr double near_wall = sizeof(NearWall);
   // The life of a contact and the relative motion in it (two positions, two displacements) are read
   // and written, its constants (two places, reach, masses) read, its kicks and flags written. Each

@@ -138,14 +138,15 @@ void Candidates::count_way_past_walls(Slice& mine, const StepUnits& units) const
   };
   double of_walls = 0.0;
   if (units.walls_move)
-    for (const BodyMotion& wall : units.walls) of_walls = std::max(of_walls, size(wall.ux, wall.uy));
+    for (const BodyMotion& wall : units.walls)
+      of_walls = std::max(of_walls, size(wall.ux, wall.uy));
   const Fixed x = wrapped_sum(drift_.x, units.fallen.x), y = wrapped_sum(drift_.y, units.fallen.y);
   const double own = std::sqrt(mine.fastest2);
   mine.way_past_walls.across += own + size(x, 0);
   mine.way_past_walls.any += own + size(x, y) + of_walls;
 }
 
-std::int64_t Candidates::ready_for(State& state, CoarsePositions& coarse, std::span<Slice> share,
+std::int64_t Candidates::ready_for(State& state, PackedPositions& coarse, std::span<Slice> share,
                                    std::int64_t step, std::int64_t wanted) {
   const double room = 0.5 * skin_, speed = 2.0 * fastest();
   const double further = std::min(part_ahead * room / speed, static_cast<double>(wanted - 1));
@@ -159,7 +160,7 @@ std::int64_t Candidates::ready_for(State& state, CoarsePositions& coarse, std::s
 }
 
 /// Sorts anew if somebody has gone so far that there is not enough room for what is ahead (m).
-void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Slice> share,
+void Candidates::look_again(State& state, PackedPositions& coarse, std::span<Slice> share,
                             std::int64_t step, double ahead) {
   Profile& profile = share.front().profile;
   profile.begin_build();
@@ -174,10 +175,7 @@ void Candidates::look_again(State& state, CoarsePositions& coarse, std::span<Sli
     for (Slice& mine : share) mine.gone = mine.farthest;
   } else {
     sort_anew(state, share, step);
-    for (const Slice& mine : share) {
-      std::copy(&when_sorted_.x[mine.begin], &when_sorted_.x[mine.end], &coarse.x[mine.begin]);
-      std::copy(&when_sorted_.y[mine.begin], &when_sorted_.y[mine.end], &coarse.y[mine.begin]);
-    }
+    for (const Slice& mine : share) coarse.copy(when_sorted_, mine.begin, mine.end);
     wait(share);
   }
   profile.done_build();
@@ -321,11 +319,9 @@ double Candidates::farthest(const Slice& mine, std::int64_t step, Place place) c
   return distance(farthest2);
 }
 
-void Candidates::measure_displacements(const CoarsePositions& coarse, Slice& mine,
+void Candidates::measure_displacements(const PackedPositions& coarse, Slice& mine,
                                        std::int64_t step) const {
-  mine.farthest = farthest(mine, step, [&](std::size_t slot) {
-    return CoarsePoint{coarse.x[slot], coarse.y[slot]};
-  });
+  mine.farthest = farthest(mine, step, [&](std::size_t slot) { return coarse.at(slot); });
 }
 
 /// The candidates are about to be listed anew. Until now each grain was within half the skin, or

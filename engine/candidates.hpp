@@ -99,12 +99,12 @@ public:
   /// grains of `state` and `coarse`, their positions, must be those of `step`. To be called by all
   /// threads of a team after a barrier; all get the same answer, and what it changes is complete
   /// when it returns.
-  std::int64_t ready_for(State& state, CoarsePositions& coarse, std::span<Slice> share,
+  std::int64_t ready_for(State& state, PackedPositions& coarse, std::span<Slice> share,
                          std::int64_t step, std::int64_t wanted);
 
   /// Adds to the candidates of `mine` whoever overlaps a grain that has gone farther than they hold
   /// for. The grains of `mine` and of `next`, the slice after it, are at this step.
-  void catch_strays(const State& state, const CoarsePositions& coarse, Slice& mine,
+  void catch_strays(const State& state, const PackedPositions& coarse, Slice& mine,
                     const Slice& next, std::int64_t step) const;
 
   /// Sorts and lists all candidates anew. The grains of `state` are at this step. The coarse
@@ -164,17 +164,14 @@ private:
     return static_cast<std::size_t>(share.data() - slices_.data()) / share.size();
   }
   void wait(std::span<const Slice> share) { team_.arrive_and_wait(member_with(share)); }
-  void look_again(State& state, CoarsePositions& coarse, std::span<Slice> share, std::int64_t step,
+  void look_again(State& state, PackedPositions& coarse, std::span<Slice> share, std::int64_t step,
                   double ahead);
   void renew(State& state, std::span<Slice> share, std::int64_t step);
   void start_over(const State& state, std::int64_t step);
   void list_pairs(const State& state, Slice& mine, std::vector<SlotPair>& close) const;
   void list_near_walls(const State& state, Slice& mine) const;
   static void list_kicked(const Grains& grains, Slice& mine);
-  void measure_displacements(const CoarsePositions& coarse, Slice& mine, std::int64_t step) const;
-  struct CoarsePoint {
-    std::int32_t x, y;
-  };
+  void measure_displacements(const PackedPositions& coarse, Slice& mine, std::int64_t step) const;
   CoarsePoint coarse_motion(std::int64_t step) const {
     const Displacement common = common_motion(step);
     return {upper_half(common.x), upper_half(common.y)};

@@ -1,9 +1,11 @@
-// The upper halves of the coordinates: half the memory, twice the lanes, and the nearest image
-// along y is still integer overflow.
+// The upper halves of the coordinates: half the memory, and the nearest image along y is still
+// integer overflow. As two arrays where grains next to each other are looked at, in one word where
+// pairs of them are picked out: loads are what that takes.
 #pragma once
 
 #include "engine/aligned.hpp"
 #include "engine/box.hpp"
+#include "engine/fixed_point.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +15,11 @@ namespace riesel {
 constexpr std::int32_t coarse_difference(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
+
+/// Upper halves of x and y.
+struct CoarsePoint {
+  std::int32_t x, y;
+};
 
 /// The length of one unit of a coarse position along each axis.
 struct CoarseUnits {
@@ -27,6 +34,7 @@ struct CoarseUnits {
     const float metres_x = static_cast<float>(dx) * x, metres_y = static_cast<float>(dy) * y;
     return metres_x * metres_x + metres_y * metres_y;
   }
+  [[gnu::always_inline]] float square(CoarsePoint p) const { return square(p.x, p.y); }
 
   /// (reach + resolution)^2 in m^2, rounded up: no pair closer than `reach` (m) is farther in
   /// coarse positions.
@@ -52,6 +60,53 @@ struct CoarsePositions {
 
   float squared_distance(std::size_t i, std::size_t j, CoarseUnits units) const {  ///< m^2
     return units.square(coarse_difference(x[j], x[i]), coarse_difference(y[j], y[i]));
+  }
+};
+
+/// A coarse position in one word, as the number y 2^32 + x: one subtraction gives both coordinates
+/// of a difference, whatever is carried over. So they say where two grains are from each other
+/// whose x differ by less than 2^31 units, half of what can be represented.
+class PackedPoint {
+public:
+  /// To the upper halves of x and y. Not by assignment, of which no vector loop can be made.
+  [[gnu::always_inline]] void set(Fixed x, Fixed y) {
+    constexpr std::uint64_t upper = ~std::uint64_t{0} << 32;
+    word_ = (static_cast<std::uint64_t>(y) & upper)
+            + ((static_cast<std::uint64_t>(x) >> 32) ^ x_origin);
+  }
+  CoarsePoint point() const {
+    return {static_cast<std::int32_t>(static_cast<std::uint32_t>(word_) ^ x_origin),
+            static_cast<std::int32_t>(word_ >> 32)};
+  }
+  /// b - a as one word.
+  [[gnu::always_inline]] static std::uint64_t difference(PackedPoint b, PackedPoint a) {
+    return b.word_ - a.word_;
+  }
+  [[gnu::always_inline]] static CoarsePoint unpacked(std::uint64_t difference) {
+    return {static_cast<std::int32_t>(difference),
+            static_cast<std::int32_t>((difference + x_origin) >> 32)};
+  }
+
+private:
+  static constexpr std::uint32_t x_origin = 0x80000000U;  // x counts from the least, as unsigned
+  std::uint64_t word_ = 0;
+};
+
+/// Of all grains, by slot.
+struct PackedPositions {
+  AlignedVector<PackedPoint> points;
+
+  void copy(const CoarsePositions& from, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot)
+      points[slot].set(from_upper(from.x[slot]), from_upper(from.y[slot]));
+  }
+  void copy_all(const CoarsePositions& from) {
+    points.resize(from.x.size());
+    copy(from, 0, points.size());
+  }
+  CoarsePoint at(std::size_t slot) const { return points[slot].point(); }
+  float squared_distance(std::size_t i, std::size_t j, CoarseUnits units) const {  ///< m^2
+    return units.square(PackedPoint::unpacked(PackedPoint::difference(points[j], points[i])));
   }
 };
 

@@ -27,15 +27,15 @@ double begin_at_wall(Slice& slice, const State& state, std::uint32_t place,
   const NearWall& near = slice.near_walls[place];
   const double reach = reach_at_wall(state, near), farthest = (1.0 + room_of_reach) * reach;
   double closest2 = farthest * farthest;
-  for_each_free_wall_grain(
-      state, near, g.x[near.slot], g.y[near.slot], units, farthest - reach,
-      [&](std::int64_t k, Fixed dx, Fixed dy) {
-        const double distance2 = squared_distance(dx, dy, units);
-        if (distance2 < reach * reach)
-          begin_contact(slice, slice.wall_contacts, meeting_at_wall(slice, state, place, k));
-        else
-          closest2 = std::min(closest2, distance2);
-      });
+  for_each_free_wall_grain(state, near, g.x[near.slot], g.y[near.slot], units, farthest - reach,
+                           [&](std::int64_t k, Fixed dx, Fixed dy) {
+                             const double distance2 = squared_distance(dx, dy, units);
+                             if (distance2 < reach * reach)
+                               begin_contact(slice, slice.wall_contacts,
+                                             meeting_at_wall(slice, state, place, k));
+                             else
+                               closest2 = std::min(closest2, distance2);
+                           });
   return (closest2 - reach * reach) / (farthest + reach);  // at most the distance less the reach
 }
 

@@ -35,7 +35,7 @@ void InnerPairs::adapt_skin() {
   skin_ = std::clamp(skin_, shortest * outer_skin_, longest * outer_skin_);
 }
 
-void InnerPairs::keep_up(const CandidatePairs& candidates, const CoarsePositions& positions,
+void InnerPairs::keep_up(const CandidatePairs& candidates, const PackedPositions& positions,
                          CoarseUnits units) {
   const bool pays = of_all_.tests < most_patience * of_all_.worth_listing;
   if (!stale_ && budget_ >= 0.0 && pays) return;

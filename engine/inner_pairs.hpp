@@ -45,7 +45,7 @@ public:
 
   /// Lists anew what is close at `positions`, the present ones, if the list holds no longer, or if
   /// a shorter one pays. `candidates` are those of the last start_over().
-  void keep_up(const CandidatePairs& candidates, const CoarsePositions& positions,
+  void keep_up(const CandidatePairs& candidates, const PackedPositions& positions,
                CoarseUnits units);
 
   /// In no order. Of pairs in contact reach2 is negative, as in the candidates.

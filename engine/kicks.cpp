@@ -49,8 +49,7 @@ void change_velocities(Grains& g, const Slice& mine, Change change) {
     g.uy[i] = change(g.uy[i], g.kick_y[i]);
   }
   if (!g.rotate()) return;
-  for (std::size_t i = mine.begin; i < mine.end; ++i)
-    g.spin[i] = change(g.spin[i], g.spin_kick[i]);
+  for (std::size_t i = mine.begin; i < mine.end; ++i) g.spin[i] = change(g.spin[i], g.spin_kick[i]);
 }
 
 }  // namespace

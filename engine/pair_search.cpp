@@ -14,46 +14,50 @@ namespace {
 /// block has a pair that may overlap.
 constexpr std::size_t block = 64;
 
-/// Some pairs, and where their grains are.
-struct PairBlock {
-  const std::uint32_t *first, *second;
-  const float* reach2;
-  const std::int32_t *x, *y;
-  CoarseUnits units;
+/// Some pairs next to each other: where the second grain is from the first.
+class PairBlock {
+public:
+  [[gnu::always_inline]] PairBlock(const CandidatePairs& pairs, std::size_t begin,
+                                   const PackedPositions& positions, CoarseUnits units)
+      : count(std::min(block, pairs.size() - begin)), reach2(&pairs.reach2[begin]), units_(units) {
+    look(&pairs.first[begin], &pairs.second[begin], positions.points.data());
+  }
+
+  const std::size_t count;
+  const float* const reach2;
+
+  [[gnu::always_inline]] float squared_distance(std::size_t p) const {
+    return units_.square(PackedPoint::unpacked(differences_[p]));
+  }
+
+private:
+  /// One by one: vectors are slower at gathering.
+  [[gnu::noinline]] void look(const std::uint32_t* first, const std::uint32_t* second,
+                              const PackedPoint* points) {
+    for (std::size_t p = 0; p < count; ++p)
+      differences_[p] = PackedPoint::difference(points[second[p]], points[first[p]]);
+  }
+
+  CoarseUnits units_;
+  alignas(cache_line) std::array<std::uint64_t, block> differences_;
 };
 
-PairBlock pairs_from(std::size_t begin, const CandidatePairs& pairs,
-                     const CoarsePositions& positions, CoarseUnits units) {
-  return {.first = pairs.first.data() + begin,
-          .second = pairs.second.data() + begin,
-          .reach2 = pairs.reach2.data() + begin,
-          .x = positions.x.data(),
-          .y = positions.y.data(),
-          .units = units};
-}
-
-[[gnu::always_inline]] inline float squared_distance(const PairBlock& b, std::size_t p) {
-  const std::uint32_t i = b.first[p], j = b.second[p];
-  return b.units.square(coarse_difference(b.x[j], b.x[i]), coarse_difference(b.y[j], b.y[i]));
-}
-
 /// Whether any of the pairs may overlap.
-[[gnu::always_inline]] inline bool any_may_overlap(PairBlock b, std::size_t count) {
+[[gnu::always_inline]] inline bool any_may_overlap(const PairBlock& b) {
   std::int32_t any = 0;
 #pragma omp simd reduction(| : any)
-  for (std::size_t p = 0; p < count; ++p) any |= squared_distance(b, p) < b.reach2[p] ? 1 : 0;
+  for (std::size_t p = 0; p < b.count; ++p) any |= b.squared_distance(p) < b.reach2[p] ? 1 : 0;
   return any != 0;
 }
 
-RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePositions& positions,
+RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const PackedPositions& positions,
                                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
   hits.clear();
   for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
-    const std::size_t count = std::min(block, pairs.size() - begin);
-    const PairBlock some = pairs_from(begin, pairs, positions, units);
-    if (!any_may_overlap(some, count)) continue;
-    for (std::size_t p = 0; p < count; ++p)
-      if (squared_distance(some, p) < some.reach2[p])
+    const PairBlock some(pairs, begin, positions, units);
+    if (!any_may_overlap(some)) continue;
+    for (std::size_t p = 0; p < some.count; ++p)
+      if (some.squared_distance(p) < some.reach2[p])
         hits.push_back(static_cast<std::uint32_t>(begin + p));
   }
 }
@@ -61,22 +65,21 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const CoarsePo
 /// Writes the pairs that are near to `near`, where there must be room for one more than all;
 /// returns their number.
 RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
-                                           const CoarsePositions& positions, CoarseUnits units,
+                                           const PackedPositions& positions, CoarseUnits units,
                                            float skin, std::uint32_t* near) {
   constexpr float rounded = 1.0F + 2e-6F;  // what is rounded here, and more
   std::size_t found = 0;
   alignas(cache_line) std::array<std::uint8_t, block> result{};
   for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
-    const std::size_t count = std::min(block, pairs.size() - begin);
-    const PairBlock some = pairs_from(begin, pairs, positions, units);
+    const PairBlock some(pairs, begin, positions, units);
 #pragma omp simd
-    for (std::size_t p = 0; p < count; ++p) {
+    for (std::size_t p = 0; p < some.count; ++p) {
       const float far = std::sqrt(std::abs(some.reach2[p])) + skin;
       const float far2 = some.reach2[p] > 0.0F ? far * far * rounded : 0.0F;
-      result[p] = squared_distance(some, p) < far2;
+      result[p] = some.squared_distance(p) < far2;
     }
     // Every pair is written, and the next one over it unless it is near: no branch to guess.
-    for (std::size_t p = 0; p < count; ++p) {
+    for (std::size_t p = 0; p < some.count; ++p) {
       near[found] = static_cast<std::uint32_t>(begin + p);
       found += result[p];
     }
@@ -132,14 +135,14 @@ void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& posi
   find_close_pairs(cells, slots, positions, units, farthest2, close);
 }
 
-void find_near(const CandidatePairs& pairs, const CoarsePositions& positions, CoarseUnits units,
+void find_near(const CandidatePairs& pairs, const PackedPositions& positions, CoarseUnits units,
                double skin, std::vector<std::uint32_t>& near) {
   near.resize(pairs.size() + 1);
   near.resize(list_near(pairs, positions, units, static_cast<float>(skin), near.data()));
 }
 
-void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
-                            CoarseUnits units, std::vector<std::uint32_t>& hits) {
+void find_overlapping(const CandidatePairs& pairs, const PackedPositions& positions,
+                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
   find_pairs(pairs, positions, units, hits);
 }
 

@@ -20,12 +20,12 @@ void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& posi
 
 /// Replaces `near` by the indices of those of `pairs`, not in contact, that are closer than the sum
 /// of their radii plus `skin` (m); some more may be there.
-void find_near(const CandidatePairs& pairs, const CoarsePositions& positions, CoarseUnits units,
+void find_near(const CandidatePairs& pairs, const PackedPositions& positions, CoarseUnits units,
                double skin, std::vector<std::uint32_t>& near);
 
 /// Replaces `hits` by the indices of those of `pairs`, not in contact, that may overlap, in
 /// increasing order.
-void find_overlapping(const CandidatePairs& pairs, const CoarsePositions& positions,
-                            CoarseUnits units, std::vector<std::uint32_t>& hits);
+void find_overlapping(const CandidatePairs& pairs, const PackedPositions& positions,
+                      CoarseUnits units, std::vector<std::uint32_t>& hits);
 
 }  // namespace riesel

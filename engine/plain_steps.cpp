@@ -13,24 +13,26 @@ namespace riesel {
 
 namespace {
 
-/// Some grains next to each other, along one axis.
+/// Some grains next to each other.
 struct Movers {
-  Fixed fallen;
-  const Fixed* u;
-  Fixed* position;
-  std::int32_t* coarse;
+  Fall fallen;
+  const Fixed *ux, *uy;
+  Fixed *x, *y;
+  PackedPoint* coarse;
 
   [[gnu::always_inline]] void move(std::size_t begin, std::size_t end) const {
 #pragma omp simd
     for (std::size_t i = begin; i < end; ++i) {
-      position[i] = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
-      coarse[i] = upper_half(position[i]);
+      const Fixed now_x = wrapped_sum(x[i], wrapped_sum(ux[i], fallen.x));
+      const Fixed now_y = wrapped_sum(y[i], wrapped_sum(uy[i], fallen.y));
+      x[i] = now_x;
+      y[i] = now_y;
+      coarse[i].set(now_x, now_y);
     }
   }
 };
 
-/// Moves `count` grains by one step along one axis: from the first up to `turn`, and from the last
-/// down to there.
+/// Moves `count` grains by one step: from the first up to `turn`, and from the last down to there.
 RIESEL_VECTOR_KERNEL void fly(std::size_t count, std::size_t turn, Movers movers) {
   constexpr std::size_t block = slots_in_a_line;
   const std::size_t middle = turn / block * block;
@@ -54,7 +56,7 @@ PlainSteps::PlainSteps(State& state, const ContactModel& model, Candidates& cand
 }
 
 void PlainSteps::start_over() {
-  coarse_ = candidates_.when_sorted();
+  coarse_.copy_all(candidates_.when_sorted());
   for (Slice& slice : candidates_.slices())
     for (LiveContacts* contacts : {&slice.pair_contacts, &slice.wall_contacts})
       contacts->pad_with(static_cast<std::int64_t>(slice.begin));
@@ -92,8 +94,9 @@ void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   // inwards there.
   const bool beside_others = candidates_.team().members() > 1 && member.share.size() == 1;
   const std::size_t turn = beside_others ? count / 2 : count;
-  fly(count, turn, {fallen.x, &g.ux[mine.begin], &g.x[mine.begin], &coarse_.x[mine.begin]});
-  fly(count, turn, {fallen.y, &g.uy[mine.begin], &g.y[mine.begin], &coarse_.y[mine.begin]});
+  const std::size_t first = mine.begin;
+  fly(count, turn,
+      {fallen, &g.ux[first], &g.uy[first], &g.x[first], &g.y[first], &coarse_.points[first]});
   Candidates::count_motion(mine);
   member.profile.done(Profile::Phase::fly);
 }

@@ -63,7 +63,7 @@ private:
   Candidates& candidates_;
   const StepUnits units_;  // of some step; each member has a copy
   const std::int64_t most_steps_askew_;
-  CoarsePositions coarse_;  // of all grains
+  PackedPositions coarse_;  // of all grains
   std::vector<Progress> progress_;
 };
 

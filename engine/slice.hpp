@@ -85,10 +85,10 @@ struct alignas(cache_line) Slice {
   LiveContacts pair_contacts{Partner::grain};
   LiveContacts wall_contacts{Partner::wall};
   std::vector<std::uint32_t> kicked;  ///< own grains, by any contact in this step; some repeatedly
-  LastingContacts lasting;     ///< of the slice, while the grains are sorted
-  std::size_t kept = 0;        ///< how many of all those the slice has after it
-  Profile profile;             ///< of what its thread does with it
-  Tally tally;                 ///< of contacts that began or ended in the last advance
+  LastingContacts lasting;            ///< of the slice, while the grains are sorted
+  std::size_t kept = 0;               ///< how many of all those the slice has after it
+  Profile profile;                    ///< of what its thread does with it
+  Tally tally;                        ///< of contacts that began or ended in the last advance
   std::span<const std::uint8_t> counted;  ///< whether those of a grain are, by id; none: all are
 
   alignas(cache_line) std::vector<Kick> given_away;  ///< of this step, on grains of other slices

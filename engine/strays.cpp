@@ -25,7 +25,7 @@ void add_walls(Slice& mine, std::uint32_t slot, std::size_t walls) {
 
 }  // namespace
 
-void Candidates::catch_strays(const State& state, const CoarsePositions& coarse, Slice& mine,
+void Candidates::catch_strays(const State& state, const PackedPositions& coarse, Slice& mine,
                               const Slice& next, std::int64_t step) const {
   if (std::max(mine.gone, next.gone) <= 0.5 * skin_) return;
   const Grains& g = state.grains;
@@ -39,8 +39,7 @@ void Candidates::catch_strays(const State& state, const CoarsePositions& coarse,
   };
   for (const Slice* home : {static_cast<const Slice*>(&mine), &next})
     for (auto slot = static_cast<std::uint32_t>(home->begin); slot < home->end; ++slot) {
-      const double gone =
-          distance(squared_displacement({coarse.x[slot], coarse.y[slot]}, slot, common));
+      const double gone = distance(squared_displacement(coarse.at(slot), slot, common));
       if (gone <= 0.5 * skin_) continue;
       // Farther than a row of cells it may be where no neighbour of its slice looks.
       if (gone > range()) mine.lost = first_of(mine.lost, LostGrain{step, g.id[slot], true});

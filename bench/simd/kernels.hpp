@@ -3,8 +3,9 @@
 // engine/pair_search.cpp and engine/contact_kernel.cpp leave it to the compiler to make vectors of
 // plain loops. Here the vectors are explicit: each kernel is a template over `Lanes`, the few
 // operations that a library must provide. It does, operation by operation, what the engine does
-// with a relative motion; that of a contact is gathered from its two bodies, which the engine has
-// at hand. So the bits must be those of the engine, and main.cpp checks them.
+// with where two grains are from each other and how they move; that is gathered here, by vectors,
+// while the engine has it in a row. So the bits must be those of the engine, and main.cpp checks
+// them.
 #pragma once
 
 #include "engine/contact_law.hpp"

@@ -26,6 +26,7 @@ Original::Original(State state, const ContactModel& model)
       model_(model),
       candidates_(state_, model_.slip, 1, Candidates::plain_stepping),
       units_(state_) {
+  positions_.copy_all(candidates_.when_sorted());
   if (!std::holds_alternative<LinearLaw>(model.normal)
       || !std::holds_alternative<CappedSlip>(model.slip) || model.attraction != Attraction::keep)
     throw std::invalid_argument("the kernels know the linear law, capped slip and attraction only");

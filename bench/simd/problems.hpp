@@ -16,8 +16,7 @@ public:
   Original(State state, const ContactModel& model);
 
   void find_pairs() {
-    find_overlapping(slice().pairs, candidates_.when_sorted(), candidates_.units(),
-                           slice().hits);
+    find_overlapping(slice().pairs, positions_, candidates_.units(), slice().hits);
   }
   void step_contacts() { slice().pair_contacts.step(bodies(state_.grains), units_, model_); }
 
@@ -31,6 +30,7 @@ private:
   State state_;
   ContactModel model_;
   Candidates candidates_;
+  PackedPositions positions_;
   StepUnits units_;
 };
 

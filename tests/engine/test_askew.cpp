@@ -30,7 +30,8 @@ State askew(const State& state, const ContactModel& model, std::int64_t steps, i
 /// Steps from the start of `state` that can be done without another look.
 std::int64_t steps_ahead(State state, std::size_t slices) {
   Candidates candidates(state, CappedSlip{}, 1, Candidates::plain_stepping, slices);
-  CoarsePositions coarse = candidates.when_sorted();
+  PackedPositions coarse;
+  coarse.copy_all(candidates.when_sorted());
   return candidates.ready_for(state, coarse, candidates.share(0), state.step, small_slices.steps);
 }
 

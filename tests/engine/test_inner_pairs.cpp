@@ -26,7 +26,7 @@ public:
       y_.push_back(dice_.between(0.0, small_box.length));
       angle_.push_back(dice_.between(0.0, 2.0 * std::numbers::pi));
     }
-    positions_.resize(count);
+    positions_.points.resize(count);
     list_anew();
   }
 
@@ -73,8 +73,7 @@ public:
 private:
   void place() {
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      positions_.x[i] = upper_half(small_box.fixed_x(x_[i]));
-      positions_.y[i] = upper_half(small_box.fixed_y(y_[i]));
+      positions_.points[i].set(small_box.fixed_x(x_[i]), small_box.fixed_y(y_[i]));
     }
   }
 
@@ -87,7 +86,7 @@ private:
   Dice dice_;
   CoarseUnits units_{small_box};
   std::vector<double> x_, y_, angle_;
-  CoarsePositions positions_;
+  PackedPositions positions_;
   CandidatePairs candidates_;
   InnerPairs inner_;
   double left_ = 0.0;
@@ -151,8 +150,8 @@ TEST_CASE("a list of no candidates at all serves until there are some") {
   for (int step = 0; step < 50; ++step) one.step(1e-3);
   CHECK(one.inner().pairs().size() == 0);
   InnerPairs& inner = one.inner();
-  CoarsePositions positions;
-  positions.resize(2);
+  PackedPositions positions;
+  positions.points.resize(2);
   CandidatePairs both;
   const CoarseUnits units(small_box);
   both.add(0, 1, units.generous_square(diameter));

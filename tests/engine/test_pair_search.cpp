@@ -15,7 +15,7 @@ namespace {
 /// seam.
 struct Pairs {
   CandidatePairs pairs;
-  CoarsePositions positions;
+  PackedPositions positions;
 };
 
 Pairs pairs_at(double distance, double reach, std::size_t count, const Box& box) {
@@ -23,9 +23,8 @@ Pairs pairs_at(double distance, double reach, std::size_t count, const Box& box)
   const CoarseUnits units(box);
   Pairs pairs;
   const auto place = [&](double x, double y) {
-    pairs.positions.x.push_back(upper_half(box.fixed_x(x)));
-    pairs.positions.y.push_back(upper_half(box.fixed_y(y)));
-    return static_cast<std::uint32_t>(pairs.positions.x.size() - 1);
+    pairs.positions.points.emplace_back().set(box.fixed_x(x), box.fixed_y(y));
+    return static_cast<std::uint32_t>(pairs.positions.points.size() - 1);
   };
   for (std::size_t p = 0; p < count; ++p) {
     const double angle = dice.between(0.0, 2.0 * std::numbers::pi);
@@ -98,4 +97,22 @@ TEST_CASE("pairs in contact are not searched for") {
   mark_all(pairs);
   CHECK(hits(pairs, box) == 0);
   CHECK(near(pairs, 1e-4, box) == 0);
+}
+
+TEST_CASE("a difference of packed positions is that of their upper halves") {
+  Dice dice(2);
+  const auto up_to = [&](double most) { return static_cast<Fixed>(dice.between(-most, most)); };
+  for (int round = 0; round < 1000; ++round) {
+    // Along x by up to 1.5 * 2^30 units, to either side of 0; along y by any number.
+    const Fixed x = up_to(0x1p61), y = up_to(0x1p63);
+    const Fixed other_x = wrapped_sum(x, up_to(0x1.8p62)), other_y = wrapped_sum(y, up_to(0x1p63));
+    PackedPoint from, to;
+    from.set(x, y);
+    to.set(other_x, other_y);
+    CHECK(from.point().x == upper_half(x));
+    CHECK(from.point().y == upper_half(y));
+    const CoarsePoint way = PackedPoint::unpacked(PackedPoint::difference(to, from));
+    CHECK(way.x == coarse_difference(upper_half(other_x), upper_half(x)));
+    CHECK(way.y == coarse_difference(upper_half(other_y), upper_half(y)));
+  }
 }
