@@ -57,6 +57,9 @@ struct CandidatePairs {
     second.push_back(j);
     if (searched) reach2.push_back(square);
   }
+  void set_copy(std::size_t pair, const CandidatePairs& of, std::size_t copied) {
+    set(pair, of.first[copied], of.second[copied], of.reach2[copied]);
+  }
   void add_copy(const CandidatePairs& of, std::size_t pair) {
     add(of.first[pair], of.second[pair], of.reach2[pair]);
   }

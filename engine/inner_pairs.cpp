@@ -41,8 +41,8 @@ void InnerPairs::keep_up(const CandidatePairs& candidates, const PackedPositions
   if (!stale_ && budget_ >= 0.0 && pays) return;
   if (!stale_) adapt_skin();
   find_near(candidates, positions, units, skin_, candidate_);
-  pairs_.clear();
-  for (const std::uint32_t p : candidate_) pairs_.add_copy(candidates, p);
+  pairs_.resize(candidate_.size());
+  for (std::size_t p = 0; p < candidate_.size(); ++p) pairs_.set_copy(p, candidates, candidate_[p]);
   budget_ = 0.5 * skin_;
   age_ = 0;
   tests_worth_listing_ = tests_per_candidate * static_cast<double>(candidates.size());

@@ -32,8 +32,8 @@ public:
 
 private:
   /// One by one: vectors are slower at gathering.
-  [[gnu::noinline]] void look(const std::uint32_t* first, const std::uint32_t* second,
-                              const PackedPoint* points) {
+  RIESEL_SCALAR_KERNEL void look(const std::uint32_t* first, const std::uint32_t* second,
+                                 const PackedPoint* points) {
     for (std::size_t p = 0; p < count; ++p)
       differences_[p] = PackedPoint::difference(points[second[p]], points[first[p]]);
   }

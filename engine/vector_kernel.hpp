@@ -28,6 +28,13 @@
 #define RIESEL_KERNEL_THAT_CONVERTS
 #endif
 
+/// Marks a function with a loop of which no vectors are to be made, whoever calls it.
+#if defined(__GNUC__) && !defined(__clang__)
+#define RIESEL_SCALAR_KERNEL __attribute__((noinline, optimize("no-tree-vectorize")))
+#else
+#define RIESEL_SCALAR_KERNEL [[gnu::noinline]]
+#endif
+
 namespace riesel {
 
 /// Whether vectors of integers and doubles become each other by instructions on this machine.
