@@ -142,8 +142,12 @@ void Candidates::count_way_past_walls(Slice& mine, const StepUnits& units) const
       of_walls = std::max(of_walls, size(wall.ux, wall.uy));
   const Fixed x = wrapped_sum(drift_.x, units.fallen.x), y = wrapped_sum(drift_.y, units.fallen.y);
   const double own = std::sqrt(mine.fastest2);
-  mine.way_past_walls.across += own + size(x, 0);
-  mine.way_past_walls.any += own + size(x, y) + of_walls;
+  const auto add = [](double& way, double more) {
+    constexpr double up = 1.0 + 0x1p-51;  // so that a sum of many small ways is never too small
+    way = (way + more) * up;
+  };
+  add(mine.way_past_walls.across, own + size(x, 0));
+  add(mine.way_past_walls.any, own + size(x, y) + of_walls);
 }
 
 std::int64_t Candidates::ready_for(State& state, PackedPositions& coarse, std::span<Slice> share,

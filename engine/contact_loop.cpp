@@ -19,23 +19,21 @@ void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
 }
 
 /// Begins the contacts of a grain with wall grains, and tells how far it may go until the next one
-/// (m). A grain that is deep in the strip of the wall is looked at as seldom as one that is not.
+/// (m).
 double begin_at_wall(Slice& slice, const State& state, std::uint32_t place,
                      const StepUnits& units) {
   constexpr double room_of_reach = 0.1;  // more lets it rest longer, and takes a longer look
-  const Grains& g = state.grains;
   const NearWall& near = slice.near_walls[place];
+  const Fixed x = state.grains.x[near.slot], y = state.grains.y[near.slot];
   const double reach = reach_at_wall(state, near), farthest = (1.0 + room_of_reach) * reach;
   double closest2 = farthest * farthest;
-  for_each_free_wall_grain(state, near, g.x[near.slot], g.y[near.slot], units, farthest - reach,
-                           [&](std::int64_t k, Fixed dx, Fixed dy) {
-                             const double distance2 = squared_distance(dx, dy, units);
-                             if (distance2 < reach * reach)
-                               begin_contact(slice, slice.wall_contacts,
-                                             meeting_at_wall(slice, state, place, k));
-                             else
-                               closest2 = std::min(closest2, distance2);
-                           });
+  const auto look = [&](std::int64_t k, Fixed dx, Fixed dy) {
+    if (overlapping(dx, dy, reach, units))
+      begin_contact(slice, slice.wall_contacts, meeting_at_wall(slice, state, place, k));
+    else
+      closest2 = std::min(closest2, squared_distance(dx, dy, units));
+  };
+  for_each_free_wall_grain(state, near, x, y, units, farthest - reach, look);
   return (closest2 - reach * reach) / (farthest + reach);  // at most the distance less the reach
 }
 

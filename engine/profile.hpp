@@ -15,11 +15,11 @@ namespace riesel {
 class Profile {
 public:
   enum class Phase {
-    fly,           ///< velocities take up kicks and are noted, positions move on
+    fly,           ///< grains move on
     build,         ///< sorting, listing of candidates
     search,        ///< which contacts begin
     forces,        ///< contacts: forces, lives, kicks
-    receive,       ///< kicks reach the grains
+    receive,       ///< kicks reach the grains; in plain stepping their velocities, too
     appointments,  ///< flights only: courses, and when to look again
   };
   static constexpr std::size_t phases = 6;
