@@ -122,6 +122,16 @@ TEST_CASE("grains that walls shaken across come to go both ways alike") {
   CHECK(end.tally.impulses.work.value() > 0.0);
 }
 
+TEST_CASE("grains that fall to a wall side by side go both ways alike") {
+  // As seen from each other they are at rest, so that only what is common takes them there.
+  const double gap = GENERATE(1e-6, 30e-6, 0.1e-3);
+  State state = empty_box(20e-3, 60e-3);
+  state.gravity.x = -300.0;
+  state.walls.push_back(WallLattice::smooth_at(0.0));
+  for (int i = 0; i < 10; ++i) add_grain(state, grain(radius + gap, i * 5e-3, 0.0, 0.0));
+  CHECK(same_both_ways(state, 3000).tally.walls.begun >= 10);
+}
+
 TEST_CASE("a grain fired along the wall goes both ways alike") {
   const double speed = GENERATE(1.0, 10.0, 60.0);
   State state = empty_box(8e-3, 9.6e-3);

@@ -295,7 +295,7 @@ FAULTS = [
     ("a grain that rests though it can touch the wall again", "engine/slice.hpp",
      "    clear_until = {};", ""),
     ("a common motion that takes nobody to a wall", "engine/candidates.cpp",
-     "own + size(x, y) + of_walls);", "own + of_walls);"),
+     "own + size(x, y) + of_walls);", "own + 0.0 * size(x, y) + of_walls);"),
     ("a common motion that takes nobody across", "engine/candidates.cpp",
      "own + size(x, 0));", "own);"),
     ("walls that come to nobody", "engine/candidates.cpp",
