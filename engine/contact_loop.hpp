@@ -75,8 +75,9 @@ void for_each_kick(const Slice& slice, GiveKick kick) {
   slice.wall_contacts.for_each_kick(kick);
 }
 
-/// One step of the contacts of `slice`: those that last, and those that begin among its hits. The
-/// grains that these concern are at the step of `units`; the kicks are in the contacts then.
+/// One step of the contacts of `slice`: those that last, and those that begin among its hits and
+/// its grains near walls. The grains that these concern are at the step of `units`; the kicks are
+/// in the contacts then.
 void resolve_contacts(Slice& slice, const State& state, const StepUnits& units,
                       const ContactModel& model);
 
