@@ -340,8 +340,8 @@ void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t st
 
 double Candidates::wandered() const { return largest(slices_, &Slice::wandered) + 0.5 * skin_; }
 
-/// With or without the kicks in the store: in the middle of a step the last ones are taken up
-/// already, at its end the next step will.
+/// With or without the kicks in the store: those of a State the next step takes up, while steps are
+/// done velocities have them already.
 void Candidates::measure_speeds(const State& state, Slice& mine) const {
   const Grains& g = state.grains;
   const Speedometer speed = speedometer(state.box);
