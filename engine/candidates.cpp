@@ -132,10 +132,7 @@ void Candidates::compare_inner_lists(std::span<Slice> share) const {
 double Candidates::fastest() const { return std::sqrt(largest(slices_, &Slice::fastest2)); }
 
 void Candidates::count_way_past_walls(Slice& mine, const StepUnits& units) const {
-  const auto size = [&](Fixed x, Fixed y) {
-    const double metres_x = units.box.metres_x(x), metres_y = units.box.metres_y(y);
-    return std::sqrt(metres_x * metres_x + metres_y * metres_y);
-  };
+  const auto size = [&](Fixed x, Fixed y) { return std::sqrt(squared_distance(x, y, units)); };
   double of_walls = 0.0;
   if (units.walls_move)
     for (const BodyMotion& wall : units.walls)
