@@ -7,12 +7,13 @@ namespace riesel {
 namespace {
 
 void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
-  for (const std::uint32_t near : slice.hits) {
-    const std::uint32_t p = slice.inner.candidate(near);
-    const std::uint32_t i = slice.pairs.first[p], j = slice.pairs.second[p];
+  const CandidatePairs& inner = slice.inner.pairs();
+  for (const std::uint32_t near : slice.hits.items()) {
+    const std::uint32_t i = inner.first[near], j = inner.second[near];
     if (!overlapping(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i]),
                      g.radius[i] + g.radius[j], units))
       continue;
+    const std::uint32_t p = slice.inner.candidate(near);
     begin_contact(slice, slice.pair_contacts, meeting_of_pair(slice, g, p));
     slice.inner.leave_out(near);
   }

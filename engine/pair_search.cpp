@@ -50,39 +50,55 @@ private:
   return any != 0;
 }
 
+/// Whether each pair of a block is one of those that are looked for.
+using Flags = std::array<std::uint8_t, block>;
+
+/// Writes the numbers of those that are to `list`, where there must be room for all; returns how
+/// many there are. Every pair is written, and the next one over it unless it is one of them: no
+/// branch to guess, also where half of the pairs are.
+[[gnu::always_inline]] inline std::size_t list_flagged(const Flags& flags, std::size_t count,
+                                                       std::size_t begin, std::uint32_t* list) {
+  std::size_t found = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    list[found] = static_cast<std::uint32_t>(begin + p);
+    found += flags[p];
+  }
+  return found;
+}
+
 RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const PackedPositions& positions,
-                                     CoarseUnits units, std::vector<std::uint32_t>& hits) {
+                                     CoarseUnits units, Selection& hits) {
+  alignas(cache_line) Flags may_overlap;
   hits.clear();
   for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
     const PairBlock some(pairs, begin, positions, units);
     if (!any_may_overlap(some)) continue;
-    for (std::size_t p = 0; p < some.count; ++p)
-      if (some.squared_distance(p) < some.reach2[p])
-        hits.push_back(static_cast<std::uint32_t>(begin + p));
+#pragma omp simd
+    for (std::size_t p = 0; p < some.count; ++p) {
+      const float reach2 = some.reach2[p];
+      may_overlap[p] = some.squared_distance(p) < reach2;
+    }
+    hits.take(list_flagged(may_overlap, some.count, begin, hits.room_for(block)));
   }
 }
 
-/// Writes the pairs that are near to `near`, where there must be room for one more than all;
-/// returns their number.
+/// Writes the pairs that are near to `near`, where there must be room for all; returns their
+/// number.
 RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
                                            const PackedPositions& positions, CoarseUnits units,
                                            float skin, std::uint32_t* near) {
   constexpr float rounded = 1.0F + 2e-6F;  // what is rounded here, and more
   std::size_t found = 0;
-  alignas(cache_line) std::array<std::uint8_t, block> result{};
+  alignas(cache_line) Flags is_near;
   for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
     const PairBlock some(pairs, begin, positions, units);
 #pragma omp simd
     for (std::size_t p = 0; p < some.count; ++p) {
       const float far = std::sqrt(std::abs(some.reach2[p])) + skin;
       const float far2 = some.reach2[p] > 0.0F ? far * far * rounded : 0.0F;
-      result[p] = some.squared_distance(p) < far2;
+      is_near[p] = some.squared_distance(p) < far2;
     }
-    // Every pair is written, and the next one over it unless it is near: no branch to guess.
-    for (std::size_t p = 0; p < some.count; ++p) {
-      near[found] = static_cast<std::uint32_t>(begin + p);
-      found += result[p];
-    }
+    found += list_flagged(is_near, some.count, begin, near + found);
   }
   return found;
 }
@@ -107,7 +123,7 @@ RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
               ? 1
               : 0;
     const std::size_t count = std::min(lanes, range.end - j);
-    // As above.
+    // As list_flagged() does.
     for (std::size_t lane = 0; lane < count; ++lane) {
       close[found] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j + lane)};
       found += result[lane];
@@ -137,12 +153,12 @@ void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& posi
 
 void find_near(const CandidatePairs& pairs, const PackedPositions& positions, CoarseUnits units,
                double skin, std::vector<std::uint32_t>& near) {
-  near.resize(pairs.size() + 1);
+  near.resize(pairs.size());
   near.resize(list_near(pairs, positions, units, static_cast<float>(skin), near.data()));
 }
 
 void find_overlapping(const CandidatePairs& pairs, const PackedPositions& positions,
-                      CoarseUnits units, std::vector<std::uint32_t>& hits) {
+                      CoarseUnits units, Selection& hits) {
   find_pairs(pairs, positions, units, hits);
 }
 

@@ -7,6 +7,7 @@
 #include "engine/candidate_pairs.hpp"
 #include "engine/cells.hpp"
 #include "engine/coarse_positions.hpp"
+#include "engine/selection.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -26,6 +27,6 @@ void find_near(const CandidatePairs& pairs, const PackedPositions& positions, Co
 /// Replaces `hits` by the indices of those of `pairs`, not in contact, that may overlap, in
 /// increasing order.
 void find_overlapping(const CandidatePairs& pairs, const PackedPositions& positions,
-                      CoarseUnits units, std::vector<std::uint32_t>& hits);
+                      CoarseUnits units, Selection& hits);
 
 }  // namespace riesel

@@ -9,6 +9,7 @@
 #include "engine/live_contacts.hpp"
 #include "engine/meeting.hpp"
 #include "engine/profile.hpp"
+#include "engine/selection.hpp"
 #include "engine/tally.hpp"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ struct alignas(cache_line) Slice {
   std::vector<NearWall> near_walls;
   WayPastWalls way_past_walls;  ///< no own grain went farther since they were listed
 
-  std::vector<std::uint32_t> hits;  ///< indices of inner pairs that may overlap in this step
+  Selection hits;  ///< indices of inner pairs that may overlap in this step
   LiveContacts pair_contacts{Partner::grain};
   LiveContacts wall_contacts{Partner::wall};
   std::vector<std::uint32_t> kicked;  ///< own grains, by any contact in this step; some repeatedly

@@ -78,9 +78,9 @@ private:
   }
 
   std::set<std::uint32_t> overlapping_in(const CandidatePairs& pairs) const {
-    std::vector<std::uint32_t> hits;
+    Selection hits;
     find_overlapping(pairs, positions_, units_, hits);
-    return {hits.begin(), hits.end()};
+    return {hits.items().begin(), hits.items().end()};
   }
 
   Dice dice_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace systems;
 
@@ -39,25 +40,29 @@ Pairs pairs_at(double distance, double reach, std::size_t count, const Box& box)
   return pairs;
 }
 
-/// What is there must go; then the indices must stand in order, each once.
-template <class Find>
-std::size_t count_of(std::vector<std::uint32_t> found, Find find) {
-  find(found);
+using Indices = std::vector<std::uint32_t>;
+
+/// They must stand in order, each once.
+std::size_t count_of(const Indices& found) {
   CHECK(std::is_sorted(found.begin(), found.end()));
   CHECK(std::adjacent_find(found.begin(), found.end()) == found.end());
   return found.size();
 }
 
-std::size_t hits(const Pairs& p, const Box& box) {
-  return count_of({7, 7, 7}, [&](std::vector<std::uint32_t>& found) {
-    find_overlapping(p.pairs, p.positions, CoarseUnits(box), found);
-  });
+/// What is there must go.
+Indices overlapping(const Pairs& p, const Box& box) {
+  Selection found;
+  found.add(7);
+  find_overlapping(p.pairs, p.positions, CoarseUnits(box), found);
+  return {found.items().begin(), found.items().end()};
 }
 
+std::size_t hits(const Pairs& p, const Box& box) { return count_of(overlapping(p, box)); }
+
 std::size_t near(const Pairs& p, double skin, const Box& box) {
-  return count_of({7, 7, 7}, [&](std::vector<std::uint32_t>& found) {
-    find_near(p.pairs, p.positions, CoarseUnits(box), skin, found);
-  });
+  Indices found{7, 7, 7};
+  find_near(p.pairs, p.positions, CoarseUnits(box), skin, found);
+  return count_of(found);
 }
 
 /// As pairs in contact are marked.
@@ -72,6 +77,22 @@ TEST_CASE("every pair that overlaps is hit, whatever its number and place") {
   const auto count = GENERATE(as<std::size_t>{}, 0, 1, 7, 8, 63, 64, 65, 1000);
   CAPTURE(box.length, count);
   CHECK(hits(pairs_at(1e-3 * (1.0 - 1e-12), 1e-3, count, box), box) == count);
+}
+
+TEST_CASE("those pairs are hit that overlap, be they few or many") {
+  const Box box{.width = 20e-3, .length = 0.1};
+  const auto count = GENERATE(as<std::size_t>{}, 64, 65, 1000);
+  const double part = GENERATE(0.01, 0.3, 0.99);
+  CAPTURE(count, part);
+  Pairs pairs = pairs_at(1e-3, 1.1e-3, count, box);
+  Dice dice(3);
+  Indices overlap;
+  for (std::uint32_t p = 0; p < count; ++p)
+    if (dice.between(0.0, 1.0) < part)
+      overlap.push_back(p);
+    else
+      pairs.pairs.reach2[p] = CoarseUnits(box).generous_square(0.9e-3);
+  CHECK(overlapping(pairs, box) == overlap);
 }
 
 TEST_CASE("no pair beyond the resolution is hit") {

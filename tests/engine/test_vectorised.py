@@ -29,7 +29,7 @@ EXPECTED = {
     "deflected_grains.cpp": [1, 1],
     "free_flight.cpp": [1, 1],
     "contact_kernel.cpp": [2 * 2 * 4 * 2 * 2],
-    "pair_search.cpp": [1, 1, 1],
+    "pair_search.cpp": [1, 1, 1, 1],
     "plain_steps.cpp": [1],
     "strips.cpp": [1],
 }
