@@ -78,7 +78,8 @@ void Appointments::fetch() const {
   riesel::fetch(std::span(links_));
 }
 
-void Appointments::start_over() {
+void Appointments::start_over(double tolerance) {
+  tolerance_ = tolerance;
   const std::size_t candidates = slice_.pairs.size() + slice_.near_walls.size();
   calendar_.clear();
   close_watch_.clear();

@@ -59,18 +59,13 @@ private:
 
 class Appointments {
 public:
-  /// Deflected grains may be off their courses by `tolerance` (m). Keeps references.
-  Appointments(const State& state, const Slice& slice, const Courses& courses, const Border& border,
-               double tolerance)
-      : state_(state),
-        slice_(slice),
-        courses_(courses),
-        border_(border),
-        tolerance_(tolerance),
-        close_watch_(courses) {}
+  /// Keeps references.
+  Appointments(const State& state, const Slice& slice, const Courses& courses, const Border& border)
+      : state_(state), slice_(slice), courses_(courses), border_(border), close_watch_(courses) {}
 
-  /// The candidates of the slice have just been listed: none has an appointment.
-  void start_over();
+  /// The candidates of the slice have just been listed: none has an appointment. Deflected grains
+  /// may be off their courses by `tolerance` (m) from now on.
+  void start_over(double tolerance);
 
   /// Will get a new appointment: all candidates of a grain; those with an exact appointment; a
   /// pair, or a grain near a wall, by their index in the slice.
@@ -148,7 +143,7 @@ private:
   const Slice& slice_;
   const Courses& courses_;
   const Border& border_;
-  const double tolerance_;
+  double tolerance_ = 0.0;  // m
 
   Calendar calendar_;
   std::vector<Appointment> due_;  // of each candidate

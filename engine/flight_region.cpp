@@ -10,9 +10,10 @@ namespace riesel {
 
 namespace {
 
-/// How far a grain in contact may leave its course, as a part of the mean diameter: more means
-/// fewer new courses, but more neighbours to look at in every step.
-constexpr double tolerance_per_diameter = 0.002;
+/// How far a grain in contact may leave its course, in steps of the fastest grain and as a part of
+/// the mean diameter: more means fewer new courses, but more neighbours to look at in every step.
+/// The faster grains meet, the farther they leave their courses in a contact.
+constexpr double steps_of_fastest = 4.0, least_per_diameter = 0.0002, most_per_diameter = 0.004;
 
 double fastest_shaking(const State& state) {
   double most = 0.0;
@@ -29,25 +30,31 @@ Airspace::Airspace(State& the_state, const ContactModel& the_model, Candidates& 
       candidates(the_candidates),
       courses(the_state),
       announcements(the_candidates.slices().size()),
-      tolerance(tolerance_per_diameter * mean_diameter(the_state.grains)),
-      room(room_in_skin(the_state.box, the_candidates.skin(), tolerance)),
+      diameter(mean_diameter(the_state.grains)),
       shaking(fastest_shaking(the_state)) {}
+
+Leeway Airspace::leeway() const {
+  const double tolerance = std::clamp(steps_of_fastest * candidates.fastest(),
+                                      least_per_diameter * diameter, most_per_diameter * diameter);
+  const double along = tolerance * std::sqrt(0.5);
+  return {.tolerance = tolerance,
+          .x = nearest_fixed(along / state.box.quantum_x()),
+          .y = nearest_fixed(along / state.box.quantum_y()),
+          .room = room_in_skin(state.box, candidates.skin(), tolerance)};
+}
 
 FlightRegion::FlightRegion(Airspace& airspace, std::size_t index, Profile& profile)
     : airspace_(airspace),
       slice_(airspace.candidates.slices()[index]),
       units_(airspace.state),
-      tolerance_x_(
-          nearest_fixed(airspace.tolerance * std::sqrt(0.5) / airspace.state.box.quantum_x())),
-      tolerance_y_(
-          nearest_fixed(airspace.tolerance * std::sqrt(0.5) / airspace.state.box.quantum_y())),
       border_(slice_, airspace.courses, airspace.announcements, index),
       deflected_(airspace.state.grains.inertia),
-      skin_guard_(airspace.state, airspace.candidates, airspace.courses, airspace.room),
-      appointments_(airspace.state, slice_, airspace.courses, border_, airspace.tolerance),
+      skin_guard_(airspace.state, airspace.candidates, airspace.courses),
+      appointments_(airspace.state, slice_, airspace.courses, border_),
       profile_(profile) {}
 
-void FlightRegion::start_over(std::int64_t step) {
+void FlightRegion::start_over(std::int64_t step, const Leeway& leeway) {
+  leeway_ = leeway;
   units_.move_to(step);
   airspace_.courses.start_over(SlotRange{slice_.begin, slice_.end});
   deflected_.clear();
@@ -55,7 +62,7 @@ void FlightRegion::start_over(std::int64_t step) {
   let_go_.clear();
   border_.find_neighbours(airspace_.candidates.slices_are_thick());
   border_.list_foreign();
-  appointments_.start_over();
+  appointments_.start_over(leeway.tolerance);
 }
 
 /// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
@@ -73,7 +80,7 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
 
 void FlightRegion::set_out(std::int64_t step, Kicks kicks) {
   suffer(step);
-  skin_guard_.start_over({slice_.begin, slice_.end});
+  skin_guard_.start_over({slice_.begin, slice_.end}, leeway_.room);
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
     if (is_guest(place)) continue;
     set_course(place, step, kicks);
@@ -206,7 +213,7 @@ void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
   if (!overlapping(x, y, reach, units_)) {
     const int strays = strays_of_pair(slice_, airspace_.courses, pair);
     // So close together there is nothing to be foreseen.
-    if (strays > 0 && overlapping(x, y, reach + strays * airspace_.tolerance, units_))
+    if (strays > 0 && overlapping(x, y, reach + strays * leeway_.tolerance, units_))
       look_again(pair, step, reach, strays);
     else
       appointments_.reconsider_pair(pair);
@@ -224,7 +231,7 @@ void FlightRegion::look_again(std::uint32_t pair, std::int64_t step, double reac
     return;
   }
   constexpr double far_per_stray = 3.0;  // else it would come and go
-  const double far = reach + far_per_stray * strays * airspace_.tolerance;
+  const double far = reach + far_per_stray * strays * leeway_.tolerance;
   const bool first_deflected = airspace_.courses.deflected(i);
   appointments_.watch(pair, first_deflected ? i : j, first_deflected ? j : i, reach, far, step);
 }
@@ -288,7 +295,7 @@ void FlightRegion::suffer(std::int64_t step) {
 
 /// Gives a new course to grains that go too far from the old one.
 void FlightRegion::correct_courses(std::int64_t step) {
-  for (const DeflectedGrains::Place place : deflected_.straying(tolerance_x_, tolerance_y_))
+  for (const DeflectedGrains::Place place : deflected_.straying(leeway_.x, leeway_.y))
     if (!is_guest(place)) set_course(place, step);
 }
 

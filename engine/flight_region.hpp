@@ -22,6 +22,13 @@
 
 namespace riesel {
 
+/// How far grains may be from where they are expected, until the candidates are listed again.
+struct Leeway {
+  double tolerance;  ///< m, of a deflected grain from its course
+  Fixed x, y;        ///< quanta, of it along each axis
+  double room;       ///< m, that grains have in the skin on their courses
+};
+
 /// What the regions share.
 struct Airspace {
   Airspace(State& the_state, const ContactModel& the_model, Candidates& the_candidates);
@@ -31,9 +38,11 @@ struct Airspace {
   Candidates& candidates;
   Courses courses;
   std::vector<Announcement> announcements;  // one for each slice
-  const double tolerance;                   ///< m, how far a deflected grain may be from its course
-  const double room;                        ///< m, that grains have in the skin on their courses
+  const double diameter;                    ///< m, mean
   const double shaking;                     ///< m per step, of the wall that shakes fastest
+
+  /// For grains as fast as they were when the candidates were listed.
+  Leeway leeway() const;
 };
 
 class alignas(cache_line) FlightRegion {
@@ -48,8 +57,9 @@ public:
   // threads wait for each other in between, flights.cpp says, and what slices wait for that are
   // askew.
 
-  /// The candidates have just been listed, at `step`, that of all grains.
-  void start_over(std::int64_t step);
+  /// The candidates have just been listed, at `step`, that of all grains. `leeway` is the same for
+  /// all regions.
+  void start_over(std::int64_t step, const Leeway& leeway);
   void take_up_contacts(std::int64_t step);
   /// The last kicks: in the velocities already, as in the middle of a step, when all have moved, or
   /// to be taken up by the next step.
@@ -127,7 +137,7 @@ private:
   Airspace& airspace_;
   Slice& slice_;
   StepUnits units_;
-  const Fixed tolerance_x_, tolerance_y_;  // quanta, along each axis
+  Leeway leeway_{};
 
   Border border_;
   DeflectedGrains deflected_;

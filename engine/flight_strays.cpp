@@ -39,7 +39,7 @@ void FlightRegion::look_around(const Stray& stray, SlotRange among, std::int64_t
   const Grains& g = airspace_.state.grains;
   const Fixed x = courses.x(stray.slot, step), y = courses.y(stray.slot, step);
   for (auto slot = static_cast<std::uint32_t>(among.begin); slot < among.end; ++slot) {
-    const double reach = g.radius[stray.slot] + g.radius[slot] + 2.0 * airspace_.tolerance;
+    const double reach = g.radius[stray.slot] + g.radius[slot] + 2.0 * leeway_.tolerance;
     if (slot != stray.slot
         && overlapping(wrapped_difference(courses.x(slot, step), x),
                        wrapped_difference(courses.y(slot, step), y), reach, units_)
@@ -55,7 +55,7 @@ void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
   const double radius = state.grains.radius[stray.slot];
   for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall)
     if (!slice_.has_near(stray.slot, wall)
-        && state.walls[static_cast<std::size_t>(wall)].is_near(x, radius, airspace_.tolerance))
+        && state.walls[static_cast<std::size_t>(wall)].is_near(x, radius, leeway_.tolerance))
       lose(stray, step);
 }
 

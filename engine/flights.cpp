@@ -79,7 +79,8 @@ void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks
     airspace_.courses.start_over(step);
     airspace_.candidates.forget_cells();
   }
-  for_each_region(member, [&](FlightRegion& region) { region.start_over(step); });
+  member.leeway = airspace_.leeway();
+  for_each_region(member, [&](FlightRegion& region) { region.start_over(step, member.leeway); });
   wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.take_up_contacts(step); });
   wait(member);
@@ -145,7 +146,7 @@ std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t
   const std::int64_t steps = std::min(most_steps_askew_, last - now);
   const std::int64_t age = now - airspace_.courses.sorted_at();
   if (steps <= 1 || age == 0 || !airspace_.candidates.slices_are_thick()) return 1;
-  const double fastest = std::sqrt(member.fastest2), room = 0.9 * airspace_.room;
+  const double fastest = std::sqrt(member.fastest2), room = 0.9 * member.leeway.room;
   const double gone = static_cast<double>(age) * fastest;
   const double expected = std::max(2.0 * fastest, fastest + 2.0 * airspace_.shaking);
   const double ahead = static_cast<double>(steps) * expected;

@@ -64,6 +64,7 @@ private:
     double fastest2 = 0.0;        // (m per step)^2 relative to the drift, of any grain
     bool trouble = false;         // of any slice
     bool under_way = false;       // appointments are made
+    Leeway leeway = {};           // since they were
   };
 
   /// The last step that a slice that goes askew has done each part of; on a cache line of its own.

@@ -29,11 +29,11 @@ double room_in_skin(const Box& box, double skin, double tolerance) {
   return (0.5 * skin - tolerance - resolution) / generous;
 }
 
-SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Courses& courses,
-                     double room)
-    : state_(state), candidates_(candidates), courses_(courses), room_(room) {}
+SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Courses& courses)
+    : state_(state), candidates_(candidates), courses_(courses) {}
 
-void SkinGuard::start_over(SlotRange slots) {
+void SkinGuard::start_over(SlotRange slots, double room) {
+  room_ = room;
   fastest2_ = 0.0;
   const Grains& g = state_.grains;
   const auto speed = candidates_.speedometer(state_.box);

@@ -21,11 +21,11 @@ double room_in_skin(const Box& box, double skin, double tolerance);
 
 class SkinGuard {
 public:
-  /// `room` as room_in_skin(). Keeps references.
-  SkinGuard(const State& state, const Candidates& candidates, const Courses& courses, double room);
+  /// Keeps references.
+  SkinGuard(const State& state, const Candidates& candidates, const Courses& courses);
 
-  /// These grains have just been listed.
-  void start_over(SlotRange slots);
+  /// These grains have just been listed; `room` as room_in_skin().
+  void start_over(SlotRange slots, double room);
   /// A grain goes on like this from step `now` on. Returns the step until which the candidates hold
   /// for it.
   std::int64_t note_course(std::uint32_t slot, const Motion& course, std::int64_t now);
@@ -52,7 +52,7 @@ private:
   const State& state_;
   const Candidates& candidates_;
   const Courses& courses_;
-  const double room_;  // m
+  double room_ = 0.0;  // m
   double fastest2_ = 0.0;
   std::int64_t hold_until_ = 0;
 };
