@@ -45,7 +45,7 @@ PairSearch::PairSearch(Original& engine)
 bool PairSearch::same_hits(const Way& way, Original& engine) {
   engine.find_pairs();
   const std::size_t count = way.find_pairs(problem_, hits_.data());
-  const auto& theirs = engine.slice().hits;
+  const auto theirs = engine.slice().hits.items();
   return std::equal(hits_.begin(), hits_.begin() + static_cast<std::ptrdiff_t>(count),
                     theirs.begin(), theirs.end());
 }
