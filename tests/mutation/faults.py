@@ -129,7 +129,7 @@ FAULTS = [
     ("kicks of the slice before forgotten", "engine/plain_steps.cpp",
      "std::span(&slices[before], 1)", "std::span(&slices[before], 0)"),
     ("no more than eight hits among pairs next to each other", "engine/pair_search.cpp",
-     "found += flags[p];", "found += found < 8 ? flags[p] : 0;"),
+     "found += flags[p];", "found += found < 8 ? flags[p] : 0U;"),
     ("an inner list that holds for twice its skin", "engine/inner_pairs.cpp",
      "budget_ = 0.5 * skin_;", "budget_ = skin_;"),
     ("an inner list of candidates that are no more", "engine/candidates.cpp",
