@@ -147,17 +147,28 @@ void Candidates::count_way_past_walls(Slice& mine, const StepUnits& units) const
   add(mine.way_past_walls.any, own + size(x, y) + of_walls);
 }
 
-std::int64_t Candidates::ready_for(State& state, PackedPositions& coarse, std::span<Slice> share,
-                                   std::int64_t step, std::int64_t wanted) {
+Candidates::Lead Candidates::lead(std::int64_t wanted) const {
+  if (!slices_are_thick_) return {.steps = 1, .way = 0.0};
   const double room = 0.5 * skin_, speed = 2.0 * fastest();
   const double further = std::min(part_ahead * room / speed, static_cast<double>(wanted - 1));
-  const std::int64_t steps = slices_are_thick_ ? 1 + static_cast<std::int64_t>(further) : 1;
-  const double ahead =
-      steps > 1 ? speed * static_cast<double>(steps - 1) + part_in_case * room : 0.0;
-  if (largest(slices_, &Slice::gone) + ahead > room || step > hold_until_)
-    look_again(state, coarse, share, step, ahead);
+  const std::int64_t steps = 1 + static_cast<std::int64_t>(further);
+  const double way = steps > 1 ? speed * static_cast<double>(steps - 1) + part_in_case * room : 0.0;
+  return {.steps = steps, .way = way};
+}
+
+std::int64_t Candidates::ready_for(State& state, PackedPositions& coarse, std::span<Slice> share,
+                                   std::int64_t step, std::int64_t wanted) {
+  const Lead ahead = lead(wanted);
+  if (largest(slices_, &Slice::gone) + ahead.way > 0.5 * skin_ || step > hold_until_)
+    look_again(state, coarse, share, step, ahead.way);
   // The grains may have been sorted since.
-  return slices_are_thick_ ? std::clamp<std::int64_t>(hold_until_ - step + 1, 1, steps) : 1;
+  return slices_are_thick_ ? std::clamp<std::int64_t>(hold_until_ - step + 1, 1, ahead.steps) : 1;
+}
+
+std::int64_t Candidates::steps_ahead(std::int64_t step, std::int64_t wanted) const {
+  const Lead ahead = lead(wanted);
+  const double way = largest(slices_, &Slice::gone) + fastest() + ahead.way;
+  return way > 0.5 * skin_ ? 0 : std::clamp<std::int64_t>(hold_until_ - step + 1, 0, ahead.steps);
 }
 
 /// Sorts anew if somebody has gone so far that there is not enough room for what is ahead (m).

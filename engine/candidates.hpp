@@ -102,6 +102,10 @@ public:
   std::int64_t ready_for(State& state, PackedPositions& coarse, std::span<Slice> share,
                          std::int64_t step, std::int64_t wanted);
 
+  /// The same for `step` and those after it before anybody has moved to it: without a look, and 0
+  /// if that is needed. All must have completed the step before.
+  std::int64_t steps_ahead(std::int64_t step, std::int64_t wanted) const;
+
   /// Adds to the candidates of `mine` whoever overlaps a grain that has gone farther than they hold
   /// for. The grains of `mine` and of `next`, the slice after it, are at this step.
   void catch_strays(const State& state, const PackedPositions& coarse, Slice& mine,
@@ -164,6 +168,12 @@ private:
     return static_cast<std::size_t>(share.data() - slices_.data()) / share.size();
   }
   void wait(std::span<const Slice> share) { team_.arrive_and_wait(member_with(share)); }
+  /// How many steps slices may go askew, and how far grains may go after the first of them (m).
+  struct Lead {
+    std::int64_t steps;
+    double way;
+  };
+  Lead lead(std::int64_t wanted) const;
   void look_again(State& state, PackedPositions& coarse, std::span<Slice> share, std::int64_t step,
                   double ahead);
   void renew(State& state, std::span<Slice> share, std::int64_t step);

@@ -14,7 +14,7 @@ void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
                      g.radius[i] + g.radius[j], units))
       continue;
     const std::uint32_t p = slice.inner.candidate(near);
-    begin_contact(slice, slice.pair_contacts, meeting_of_pair(slice, g, p));
+    begin_contact(slice, slice.pair_contacts, meeting_of_grains(g, i, j, p));
     slice.inner.leave_out(near);
   }
 }

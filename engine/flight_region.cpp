@@ -219,7 +219,7 @@ void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
       appointments_.reconsider_pair(pair);
     return;
   }
-  begin_contact(slice_, slice_.pair_contacts, meeting_of_pair(slice_, g, pair));
+  begin_contact(slice_, slice_.pair_contacts, meeting_of_grains(g, i, j, pair));
   take_up(slice_.pair_contacts, slice_.pair_contacts.size() - 1, step);
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace riesel {
 
@@ -68,18 +67,13 @@ void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last
       .number = number, .share = share, .units = units_, .profile = share.front().profile};
   for (const Slice& mine : share) take_up_kicks(state_.grains, mine);
   while (now < last && !candidates_.in_trouble()) {
-    const std::int64_t next = now + 1;
-    member.profile.begin_step(next);
-    for (Slice& mine : share) move(member, mine, next);
-    candidates_.compare_inner_lists(share);
-    candidates_.team().arrive_and_wait(member.number);
-    member.profile.done(Profile::Phase::fly);
-    now += candidates_.ready_for(state_, coarse_, share, next,
-                                 std::min(most_steps_askew_, last - now));
-    if (now == next)
-      step_together(member, next);
-    else
-      step_askew(member, next, now);
+    member.profile.begin_step(now + 1);
+    if (const std::int64_t steps = steps_ahead(member, now, last); steps > 1) {
+      step_askew(member, now, now, now + steps);
+      now += steps;
+    } else {
+      now = step_from_together(member, now, last);
+    }
   }
   for (const Slice& mine : share) give_back_kicks(state_.grains, mine);
   if (number == 0) state_.step = now;
@@ -119,6 +113,23 @@ void PlainSteps::receive(Member& member, Slice& mine, std::span<const Slice> giv
   member.profile.done(Profile::Phase::receive);
 }
 
+/// All slices move together, look whether the candidates hold, and complete that step, or go on
+/// askew from there; returns the step that they have come to.
+std::int64_t PlainSteps::step_from_together(Member& member, std::int64_t now, std::int64_t last) {
+  const std::int64_t next = now + 1;
+  for (Slice& mine : member.share) move(member, mine, next);
+  candidates_.compare_inner_lists(member.share);
+  candidates_.team().arrive_and_wait(member.number);
+  member.profile.done(Profile::Phase::fly);
+  const std::int64_t steps = candidates_.ready_for(state_, coarse_, member.share, next,
+                                                   std::min(most_steps_askew_, last - now));
+  if (steps == 1)
+    step_together(member, next);
+  else
+    step_askew(member, now, next, now + steps);
+  return now + steps;
+}
+
 void PlainSteps::step_together(Member& member, std::int64_t step) {
   const double motion = candidates_.fastest();
   for (Slice& mine : member.share) touch(member, mine, step, motion);
@@ -126,19 +137,34 @@ void PlainSteps::step_together(Member& member, std::int64_t step) {
   for (Slice& mine : member.share) receive(member, mine, candidates_.slices());
 }
 
-/// From the first step, to which all slices have moved, to the last, in which all have received.
-void PlainSteps::step_askew(Member& member, std::int64_t first, std::int64_t last) {
+/// How many steps slices may go askew from `now` on, which all have completed; at most one: not
+/// before they have moved together. All members get the same answer.
+std::int64_t PlainSteps::steps_ahead(Member& member, std::int64_t now, std::int64_t last) {
+  if (most_steps_askew_ == 1) return 1;
+  candidates_.team().arrive_and_wait(member.number);  // all have received
+  const std::int64_t steps =
+      candidates_.steps_ahead(now + 1, std::min(most_steps_askew_, last - now));
+  candidates_.team().arrive_and_wait(member.number);  // before anybody moves
+  return steps;
+}
+
+/// From step `now`, which all slices have completed, to step `last`; they have moved to `moved`.
+void PlainSteps::step_askew(Member& member, std::int64_t now, std::int64_t moved,
+                            std::int64_t last) {
   const auto begin = static_cast<std::size_t>(member.share.data() - candidates_.slices().data());
   const std::span<Progress> progress(&progress_[begin], member.share.size());
   for (Progress& p : progress) {
-    p.moved = first;
-    p.touched = first - 1;
-    p.done = false;
+    p.moved = moved;
+    p.touched = now;
+    p.received = now;
   }
   candidates_.team().arrive_and_wait(member.number);
   go_askew(
       begin, begin + progress.size(), [&](std::size_t slice) { return go_on(member, slice, last); },
-      [&] { return std::all_of(progress.begin(), progress.end(), std::mem_fn(&Progress::done)); });
+      [&] {
+        return std::all_of(progress.begin(), progress.end(),
+                           [&](const Progress& p) { return p.received == last; });
+      });
   candidates_.team().arrive_and_wait(member.number);
 }
 
@@ -149,8 +175,13 @@ bool PlainSteps::go_on(Member& member, std::size_t slice, std::int64_t last) {
   Slice &mine = slices[slice], &next = slices[after];
   Progress& progress = progress_[slice];
   bool any = false;
-  while (!progress.done) {
-    const std::int64_t step = progress.moved;
+  while (progress.received < last) {
+    const std::int64_t step = progress.received + 1;
+    if (progress.moved < step) {
+      move(member, mine, step);
+      progress.moved = step;
+      any = true;
+    }
     if (progress.touched < step) {
       if (progress_[after].moved < step) return any;
       // The next slice stays at this step until this one has touched.
@@ -162,11 +193,8 @@ bool PlainSteps::go_on(Member& member, std::size_t slice, std::int64_t last) {
     }
     if (progress_[before].touched < step) return any;
     receive(member, mine, std::span(&slices[before], 1));
+    progress.received = step;
     any = true;
-    progress.done = step == last;
-    if (step == last) break;
-    move(member, mine, step + 1);
-    progress.moved = step + 1;
   }
   return any;
 }

@@ -40,7 +40,7 @@ private:
   /// How far a slice is that goes askew; on a cache line of its own.
   struct alignas(cache_line) Progress {
     std::atomic<std::int64_t> moved, touched;
-    bool done;
+    std::int64_t received;
   };
 
   /// What a thread works with.
@@ -55,7 +55,9 @@ private:
   void touch(Member& member, Slice& mine, std::int64_t step, double motion);
   void receive(Member& member, Slice& mine, std::span<const Slice> givers);
   void step_together(Member& member, std::int64_t step);
-  void step_askew(Member& member, std::int64_t first, std::int64_t last);
+  std::int64_t steps_ahead(Member& member, std::int64_t now, std::int64_t last);
+  std::int64_t step_from_together(Member& member, std::int64_t now, std::int64_t last);
+  void step_askew(Member& member, std::int64_t now, std::int64_t moved, std::int64_t last);
   bool go_on(Member& member, std::size_t slice, std::int64_t last);
 
   State& state_;
