@@ -129,6 +129,33 @@ State blows(bool across) {
 
 }  // namespace
 
+TEST_CASE("slices go askew without a look only where grains have room for all steps") {
+  State tube = long_tube(0.1);
+  const std::size_t slices = small_slices.slices_per_thread(tube, 1);
+  Candidates candidates(tube, CappedSlip{}, 1, Candidates::plain_stepping, slices);
+  const auto ahead = [&](std::int64_t step) {
+    return candidates.steps_ahead(step, small_slices.steps);
+  };
+  CHECK(ahead(1) == small_slices.steps);
+
+  const std::int64_t last = candidates.hold_until();
+  CHECK(ahead(last - 2) == 3);
+  CHECK(ahead(last) == 1);
+  CHECK(ahead(last + 1) == 0);
+
+  // Twice as fast after the first step: 1 + 2 (steps - 1) times as far as the fastest goes in one.
+  const double way = (2.0 * static_cast<double>(small_slices.steps) - 1.0) * candidates.fastest();
+  const double in_case = 0.1 * 0.5 * candidates.skin();
+  double& gone = candidates.slices()[1].gone;
+  gone = 0.5 * candidates.skin() - in_case - 1.001 * way;
+  CHECK(ahead(1) == small_slices.steps);
+  gone = 0.5 * candidates.skin() - in_case - 0.999 * way;
+  CHECK(ahead(1) == 0);
+
+  Candidates in_one(tube, CappedSlip{}, 1, Candidates::plain_stepping, 1);
+  CHECK(in_one.steps_ahead(1, small_slices.steps) == 1);
+}
+
 TEST_CASE("slices of a long tube go ahead of each other") {
   for (const double polydispersity : {0.0, 0.1, 0.2}) {
     const State tube = long_tube(polydispersity);
