@@ -31,7 +31,7 @@ const std::vector<FlowCase>& flow_cases() {
       {.name = "tube_stiff",
        .settings = tube("stiffness: 200000 N/m, restitution: 0.9", slow_start),
        .relaxation = 1.0,
-       .work = 5e7,
+       .work = 4e8,
        .sizes = {grains_1k, grains_10k, grains_100k}},
       {.name = "tube_fast",
        .settings = tube("stiffness: 2000 N/m, restitution: 0.6",

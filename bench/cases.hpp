@@ -24,7 +24,9 @@ struct FlowCase {
   /// s, simulated from the fresh packing until the state from which is measured; 0 stands for the
   /// fresh packing itself.
   double relaxation;
-  double work;  ///< particle-steps in one repetition of the smaller sizes
+  /// Particle-steps in one repetition of the smaller sizes: several times as many as are done
+  /// between two sortings.
+  double work;
   std::vector<Size> sizes;
 };
 
