@@ -32,7 +32,7 @@ struct Contender {
 struct Plan {
   std::int64_t warm_up, steps;
   std::int64_t scalar_steps;  ///< all are alike to the scalar code, and it takes long
-  /// In which `automatic` tries each way twice, in pieces of 20 million or of 64 steps.
+  /// In which `automatic` tries each way twice.
   std::int64_t settling;
   int repetitions;
 
@@ -42,7 +42,7 @@ struct Plan {
             std::llround(std::max(one.work * effort.work / grains, grains > 2e6 ? 100.0 : 200.0))),
         scalar_steps(std::llround(
             std::min(std::max(1e7 * effort.work / grains, 200.0), static_cast<double>(steps)))),
-        settling(std::llround(std::max(3.6e8 / grains, 1200.0))),
+        settling(std::llround(std::max(std::max(3.6e8, 9.0 * one.work) / grains, 1200.0))),
         repetitions(std::min(effort.repetitions, grains > 2e6   ? 2
                                                  : grains > 5e5 ? 3
                                                                 : 5)) {}

@@ -123,12 +123,14 @@ void Simulation::advance(std::int64_t steps) {
   } while (state_.step < last);
 }
 
-/// Steps between two thoughts about the stepping: many enough to be timed, and for flights, which
-/// land after them.
+/// Steps between two thoughts about the stepping: many enough to be timed, for flights, which land
+/// after them, and for parts, which would do a longer stretch.
 std::int64_t Simulation::piece() const {
-  constexpr std::int64_t particle_steps = 20'000'000, fewest = 64;
+  constexpr double particle_steps = 2e7, fewest = 64.0, duration = 0.03;  // s
   if (!choice_.open()) return INT64_MAX / 2;
-  return std::max(fewest, particle_steps / static_cast<std::int64_t>(state_.grains.size()));
+  double steps = std::max(fewest, particle_steps / static_cast<double>(state_.grains.size()));
+  if (choice_.pace() > 0.0) steps = std::max(steps, duration / choice_.pace());
+  return static_cast<std::int64_t>(steps);
 }
 
 void Simulation::advance_piece(std::int64_t last) {

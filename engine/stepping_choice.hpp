@@ -30,23 +30,25 @@ class SteppingChoice {
 public:
   /// At least one; the first is what to begin with.
   explicit SteppingChoice(std::vector<Way> ways)
-      : ways_(std::move(ways)), looks_(ways_.size(), first_looks) {
+      : ways_(std::move(ways)), paces_(ways_.size(), 0.0), looks_(ways_.size(), first_looks) {
     looks_.front() = 0;
   }
 
   /// How the next piece is to be done.
-  Way way() const { return ways_[trying_ ? tried_ : preferred_]; }
+  Way way() const { return ways_[next()]; }
+  /// s per step, the last time that steps were done that way; 0 if they never were.
+  double pace() const { return paces_[next()]; }
   Way preferred() const { return ways_[preferred_]; }
   /// Whether there is anything to choose.
   bool open() const { return ways_.size() > 1; }
 
   /// A piece of so many steps was done that way, in `seconds`; `preparation` (s) came before it.
   void note(std::int64_t steps, double seconds, double preparation) {
-    const double pace = seconds / static_cast<double>(steps);
+    paces_[next()] = seconds / static_cast<double>(steps);
     if (trying_)
-      conclude(pace, seconds + 2.0 * preparation);
+      conclude(seconds + 2.0 * preparation);
     else
-      go_on(pace, seconds);
+      go_on(seconds);
   }
 
 private:
@@ -59,8 +61,9 @@ private:
   /// One of two ways that takes so many times as long as the other needs no second look.
   static constexpr double clear = 1.5;
 
-  void go_on(double pace, double seconds) {
-    pace_ = pace;
+  std::size_t next() const { return trying_ ? tried_ : preferred_; }
+
+  void go_on(double seconds) {
     since_trial_ += seconds;
     trying_ = won_once_ || in_first_looks() || (open() && since_trial_ >= patience_);
     if (trying_ && !won_once_) tried_ = next_to_try();
@@ -73,18 +76,19 @@ private:
   /// All others in turn, or those that are still to be looked at.
   std::size_t next_to_try() const {
     const bool first_looks_only = in_first_looks();
-    std::size_t next = tried_;
-    do next = (next + 1) % ways_.size();
-    while (next == preferred_ || (first_looks_only && looks_[next] == 0));
-    return next;
+    std::size_t other = tried_;
+    do other = (other + 1) % ways_.size();
+    while (other == preferred_ || (first_looks_only && looks_[other] == 0));
+    return other;
   }
 
-  void conclude(double pace, double cost) {
+  void conclude(double cost) {
+    const double pace = paces_[tried_], other = paces_[preferred_];
     trying_ = false;
     since_trial_ = 0.0;
-    const bool faster = pace < worthwhile * pace_;
+    const bool faster = pace < worthwhile * other;
     const bool at_once =
-        looks_[tried_] > 0 && std::max(pace, pace_) > clear * std::min(pace, pace_);
+        looks_[tried_] > 0 && std::max(pace, other) > clear * std::min(pace, other);
     won_once_ = faster && !won_once_ && !at_once;
     if (won_once_) return;
     looks_[tried_] = at_once || faster ? 0 : std::max(looks_[tried_] - 1, 0);
@@ -98,10 +102,10 @@ private:
 
   std::vector<Way> ways_;
   std::size_t preferred_ = 0, tried_ = 0;  // indices of ways
+  std::vector<double> paces_;              // of ways, s per step, of the last piece; 0: of none
   std::vector<int> looks_;                 // at ways, at the beginning, that are still to come
   bool trying_ = false;
   bool won_once_ = false;                // so has the way that was tried last
-  double pace_ = 0.0;                    // s per step, of the last piece done the preferred way
   double since_trial_ = 0.0;             // s
   double patience_ = shortest_patience;  // s, until the next trial
 };

@@ -123,6 +123,20 @@ TEST_CASE("the preferred way is not given up for one bad moment") {
   }
 }
 
+TEST_CASE("it is known how fast each way was the last time") {
+  SteppingChoice choice({flights, plain});
+  CHECK(choice.pace() == 0.0);
+  choice.note(1000, 0.010, preparation);
+  REQUIRE(choice.way() == plain);
+  CHECK(choice.pace() == 0.0);
+  choice.note(500, 0.007, preparation);
+  REQUIRE(choice.way() == flights);
+  CHECK(choice.pace() == Approx(0.010 / 1000));
+  choice.note(2000, 0.018, preparation);
+  REQUIRE(choice.way() == plain);
+  CHECK(choice.pace() == Approx(0.007 / 500));
+}
+
 TEST_CASE("where there is one way, no other is tried") {
   SteppingChoice choice({plain_on_two});
   CHECK_FALSE(choice.open());
