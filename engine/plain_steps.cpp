@@ -72,7 +72,7 @@ void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last
       step_askew(member, now, now, now + steps);
       now += steps;
     } else {
-      now = step_from_together(member, now, last);
+      now = begin_together(member, now, last);
     }
   }
   for (const Slice& mine : share) give_back_kicks(state_.grains, mine);
@@ -115,7 +115,7 @@ void PlainSteps::receive(Member& member, Slice& mine, std::span<const Slice> giv
 
 /// All slices move together, look whether the candidates hold, and complete that step, or go on
 /// askew from there; returns the step that they have come to.
-std::int64_t PlainSteps::step_from_together(Member& member, std::int64_t now, std::int64_t last) {
+std::int64_t PlainSteps::begin_together(Member& member, std::int64_t now, std::int64_t last) {
   const std::int64_t next = now + 1;
   for (Slice& mine : member.share) move(member, mine, next);
   candidates_.compare_inner_lists(member.share);

@@ -56,7 +56,7 @@ private:
   void receive(Member& member, Slice& mine, std::span<const Slice> givers);
   void step_together(Member& member, std::int64_t step);
   std::int64_t steps_ahead(Member& member, std::int64_t now, std::int64_t last);
-  std::int64_t step_from_together(Member& member, std::int64_t now, std::int64_t last);
+  std::int64_t begin_together(Member& member, std::int64_t now, std::int64_t last);
   void step_askew(Member& member, std::int64_t now, std::int64_t moved, std::int64_t last);
   bool go_on(Member& member, std::size_t slice, std::int64_t last);
 
