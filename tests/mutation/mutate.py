@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Do the tests notice? Plants the faults of faults.py one at a time and runs the tests on each.
 
-    tests/mutation/mutate.py [--only WORD] [--new] [--from NUMBER] [--table FILE] [--check]
+    tests/mutation/mutate.py [--only PATTERN] [--new] [--from NUMBER] [--table FILE] [--check]
 
 Works on a copy of what is committed, in build/mutation, and takes one to three minutes per fault, after the
 tests have all passed once on the copy as it is: a test that fails anyway notices nothing. Ends with status 1
@@ -121,7 +121,8 @@ def require_passing_tests():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--only", default="", help="faults with this word in their name")
+    parser.add_argument("--only", default="", metavar="PATTERN",
+                        help="faults whose name or file has this regular expression in it")
     parser.add_argument("--new", action="store_true", help=f"only those that {RESULT.name} does not have")
     parser.add_argument("--from", dest="first", type=int, default=1, metavar="NUMBER",
                         help="leave the first faults out: begin with this one")
@@ -136,7 +137,7 @@ def main():
     require_passing_tests()
     before, rows, unnoticed, refused = noticed_before(), [], 0, 0
     for what, file, text, replacement in FAULTS[options.first - 1:]:
-        if options.only not in what or (options.new and what in before):
+        if not re.search(options.only, f"{what} {file}") or (options.new and what in before):
             continue
         original = plant(COPY / file, text, replacement)
         try:
