@@ -38,14 +38,17 @@ struct Plan {
 
   Plan(const FlowCase& one, const Effort& effort, double grains)
       : warm_up(std::llround(std::clamp(2e6 / grains, 20.0, 1000.0))),
-        steps(
-            std::llround(std::max(one.work * effort.work / grains, grains > 2e6 ? 100.0 : 200.0))),
-        scalar_steps(std::llround(
-            std::min(std::max(1e7 * effort.work / grains, 200.0), static_cast<double>(steps)))),
+        steps(steps_for(one.work * effort.work, grains)),
+        scalar_steps(steps_for(std::min(one.work, 1e7) * effort.work, grains)),
         settling(std::llround(std::max(std::max(3.6e8, 9.0 * one.work) / grains, 1200.0))),
         repetitions(std::min(effort.repetitions, grains > 2e6   ? 2
                                                  : grains > 5e5 ? 3
                                                                 : 5)) {}
+
+private:
+  static std::int64_t steps_for(double work, double grains) {
+    return std::llround(std::max(work / grains, grains > 2e6 ? 100.0 : 200.0));
+  }
 };
 
 template <class Choice>

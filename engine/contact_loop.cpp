@@ -65,10 +65,6 @@ double work_along(Fixed kick_of_grain, Fixed u, Fixed kick_of_wall, double to_ve
 
 }  // namespace
 
-Meeting meeting_of_pair(const Slice& slice, const Grains& g, std::uint32_t pair) {
-  return meeting_of_grains(g, slice.pairs.first[pair], slice.pairs.second[pair], pair);
-}
-
 Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t near_wall,
                         std::int64_t k) {
   const NearWall& near = slice.near_walls[near_wall];

@@ -11,9 +11,6 @@
 
 namespace riesel {
 
-/// A pair of free grains in contact, with their slots as places.
-Meeting meeting_of_pair(const Slice& slice, const Grains& grains, std::uint32_t pair);
-
 /// A grain near a wall in contact with grain `k` of it.
 Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t near_wall,
                         std::int64_t k);

@@ -63,7 +63,8 @@ void keep_one(const State& state, Slice& mine, const Contact& contact, ContactSl
   if (!candidate) return;
   const bool of_wall = contact.name.wall != no_wall;
   const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
-                                  : meeting_of_pair(mine, state.grains, *candidate);
+                                  : meeting_of_grains(state.grains, mine.pairs.first[*candidate],
+                                                      mine.pairs.second[*candidate], *candidate);
   note_lasting(mine, meeting);
   (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
   ++mine.kept;

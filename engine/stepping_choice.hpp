@@ -83,12 +83,12 @@ private:
   }
 
   void conclude(double cost) {
-    const double pace = paces_[tried_], other = paces_[preferred_];
+    const double pace = paces_[tried_], usual = paces_[preferred_];
     trying_ = false;
     since_trial_ = 0.0;
-    const bool faster = pace < worthwhile * other;
+    const bool faster = pace < worthwhile * usual;
     const bool at_once =
-        looks_[tried_] > 0 && std::max(pace, other) > clear * std::min(pace, other);
+        looks_[tried_] > 0 && std::max(pace, usual) > clear * std::min(pace, usual);
     won_once_ = faster && !won_once_ && !at_once;
     if (won_once_) return;
     looks_[tried_] = at_once || faster ? 0 : std::max(looks_[tried_] - 1, 0);

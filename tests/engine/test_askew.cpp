@@ -28,7 +28,7 @@ State askew(const State& state, const ContactModel& model, std::int64_t steps, i
 }
 
 /// Steps from the start of `state` that can be done without another look.
-std::int64_t steps_ahead(State state, std::size_t slices) {
+std::int64_t steps_ready(State state, std::size_t slices) {
   Candidates candidates(state, CappedSlip{}, 1, Candidates::plain_stepping, slices);
   PackedPositions coarse;
   coarse.copy_all(candidates.when_sorted());
@@ -161,21 +161,21 @@ TEST_CASE("slices of a long tube go ahead of each other") {
     const State tube = long_tube(polydispersity);
     const std::size_t slices = small_slices.slices_per_thread(tube, 1);
     CHECK(slices >= 6);
-    CHECK(steps_ahead(tube, slices) == small_slices.steps);
-    CHECK(steps_ahead(advanced(tube, paper_model(), 600), slices) > 2);
+    CHECK(steps_ready(tube, slices) == small_slices.steps);
+    CHECK(steps_ready(advanced(tube, paper_model(), 600), slices) > 2);
   }
   for (const State& state : {springs_across(0.2), springs_along(0.2, 1.0)})
-    CHECK(steps_ahead(state, small_slices.slices_per_thread(state, 1)) == small_slices.steps);
+    CHECK(steps_ready(state, small_slices.slices_per_thread(state, 1)) == small_slices.steps);
   for (const State& state : {blows(false), blows(true)})
     CHECK(long_lead.slices_per_thread(state, 2) >= 2);
 }
 
 TEST_CASE("slices do each step together where pairs may be of slices that are no neighbours") {
-  CHECK(steps_ahead(long_tube(0.1), 1) == 1);
-  CHECK(steps_ahead(long_tube(0.1), 2) == 1);
-  CHECK(steps_ahead(long_tube(0.1), 12) == small_slices.steps);
-  CHECK(steps_ahead(long_tube(0.1), 14) == 1);  // one of them has too few rows of cells
-  CHECK(steps_ahead(long_tube(0.1), 40) == 1);  // none has more than three
+  CHECK(steps_ready(long_tube(0.1), 1) == 1);
+  CHECK(steps_ready(long_tube(0.1), 2) == 1);
+  CHECK(steps_ready(long_tube(0.1), 12) == small_slices.steps);
+  CHECK(steps_ready(long_tube(0.1), 14) == 1);  // one of them has too few rows of cells
+  CHECK(steps_ready(long_tube(0.1), 40) == 1);  // none has more than three
 }
 
 TEST_CASE("slices without memory or steps are refused") {
@@ -218,7 +218,7 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
                {.left = 0.0, .right = 12e-3, .low = 100e-3, .high = 125e-3, .speed = 3.0}, dice);
   constexpr Askew tiny_slices{.slice = 600.0, .steps = 8, .least = 0.0, .contacts = 0.0};
   REQUIRE(tiny_slices.slices_per_thread(start, 1) > 25);
-  REQUIRE(steps_ahead(start, tiny_slices.slices_per_thread(start, 1)) == 1);
+  REQUIRE(steps_ready(start, tiny_slices.slices_per_thread(start, 1)) == 1);
   const State expected = advanced(start, paper_model(), 500, 1, Stepping::plain);
   REQUIRE(expected.tally.grains.begun > 50);
   const int threads = GENERATE(1, 2);
@@ -230,7 +230,7 @@ TEST_CASE("slices do each step together where grains are too fast for more") {
   State state = long_tube(0.1);
   state.grains.ux[7] =
       state.box.fixed_x(0.2 * Candidates::plain_stepping.skin_per_diameter * diameter);
-  CHECK(steps_ahead(state, 10) == 1);
+  CHECK(steps_ready(state, 10) == 1);
 }
 
 TEST_CASE("slices that go askew give the same bits on any number of threads") {

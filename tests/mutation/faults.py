@@ -159,7 +159,7 @@ FAULTS = [
     ("memory of candidates that does not count", "engine/askew.cpp",
      "of_candidates_at_fraction_one = 240.0", "of_candidates_at_fraction_one = 0.0"),
     ("a clear trial after the beginning that is enough", "engine/stepping_choice.hpp",
-     "looks_[tried_] > 0 && std::max(pace, other)", "std::max(pace, other)"),
+     "looks_[tried_] > 0 && std::max(pace, usual)", "std::max(pace, usual)"),
     ("a pair never looked for again after its first contact", "engine/candidate_pairs.hpp",
      "if (searched) reach2[pair] = std::abs(reach2[pair]);", ""),
 
