@@ -15,8 +15,8 @@ void check_column(const io::Settings& settings, const scenarios::ColumnCurve& cu
   line("drops", "{} of {} beads, gaps of {:.3g} ... {:.3g} m", curve.gap_ratios.size(), setup.beads,
        curve.gap(smallest), curve.gap(widest));
   const HeadOnContact at_plate{setup.bead_mass, setup.velocity, setup.bead_radius};
-  print_contact("bead and bead", setup.model.normal, 0.5 * setup.bead_mass, setup.velocity);
-  print_contact("bead and plate", setup.model.normal, at_plate.reduced_mass, at_plate.speed);
+  print_contact("bead and bead", setup.model, 0.5 * setup.bead_mass, setup.velocity);
+  print_contact("bead and plate", setup.model, at_plate.reduced_mass, at_plate.speed);
   line("time step", "{:.4g} s", setup.time_step);
   warn_of_time_step(settings);
   warn_of_overlap(expected_overlap_ratio(setup.model.normal, at_plate), at_plate.speed);

@@ -93,12 +93,12 @@ void print_trajectory(const TrajectorySize& size) {
 }
 
 /// One restitution is that of one mass.
-void print_contacts_of_sizes(const NormalLaw& normal, const Grains& grains, double speed) {
+void print_contacts_of_sizes(const ContactModel& model, const Grains& grains, double speed) {
   const auto [lightest, heaviest] = std::ranges::minmax(grains.mass);
   constexpr double alike = 1.5;
   if (heaviest < alike * lightest) return;
-  print_contact("two lightest grains", normal, 0.5 * lightest, speed);
-  print_contact("two heaviest grains", normal, 0.5 * heaviest, speed);
+  print_contact("two lightest grains", model, 0.5 * lightest, speed);
+  print_contact("two heaviest grains", model, 0.5 * heaviest, speed);
 }
 
 /// Seen by what lies on it, in units of gravity where there is some.
@@ -132,7 +132,6 @@ void print_bodies(const State& state) {
 /// the random velocities at the start, per component.
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
   const State& state = flow.state;
-  const NormalLaw& normal = flow.model.normal;
   const double mass = mean_mass(state.grains);
   const double radius = 0.5 * mean_diameter(state.grains);
   // Grains of a normal distribution are rarely faster than four standard deviations; the common
@@ -145,14 +144,14 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   const double fastest_at_wall = fastest + state.walls.front().motion.fastest_oscillation();
   const HeadOnContact wall{
       .reduced_mass = mass, .speed = fastest_at_wall, .smaller_radius = smaller};
-  print_contact("grain and grain", normal, grains.reduced_mass, grains.speed);
-  print_contact("grain and wall", normal, wall.reduced_mass, wall.speed);
-  print_contacts_of_sizes(normal, state.grains, both_fastest);
+  print_contact("grain and grain", flow.model, grains.reduced_mass, grains.speed);
+  print_contact("grain and wall", flow.model, wall.reduced_mass, wall.speed);
+  print_contacts_of_sizes(flow.model, state.grains, both_fastest);
   line("time step", "{:.4g} s", state.time_step);
   warn_of_time_step(settings);
   print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
-  const double of_grains = expected_overlap_ratio(normal, grains);
-  const double at_wall = expected_overlap_ratio(normal, wall);
+  const double of_grains = expected_overlap_ratio(flow.model.normal, grains);
+  const double at_wall = expected_overlap_ratio(flow.model.normal, wall);
   warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
 }
 

@@ -23,7 +23,7 @@ void check_impacts(const io::Settings& settings, const scenarios::ImpactCurve& c
   line("impacts", "{} in {} points, v_y = {:.3g} ... {:.3g} m/s", curve.impacts.size(),
        curve.points.size(), slowest, fastest);
   const double speed = std::max(fastest_normal, slowest);
-  print_contact("grain and wall", setup.model.normal, setup.grain_mass, speed);
+  print_contact("grain and wall", setup.model, setup.grain_mass, speed);
   line("time step", "{:.4g} s, down to {:.3g} s where passages are short", longest_step,
        shortest_step);
   warn_of_time_step(settings);

@@ -11,10 +11,10 @@
 
 namespace riesel::app {
 
-void print_contact(const char* what, const NormalLaw& normal, double reduced_mass, double speed) {
-  const double t_col = collision_time(normal, reduced_mass, speed);
-  if (const auto* linear = std::get_if<LinearLaw>(&normal)) {
-    const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass};
+void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed) {
+  const double t_col = collision_time(model.normal, reduced_mass, speed);
+  if (const auto* linear = std::get_if<LinearLaw>(&model.normal)) {
+    const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass, model.attraction};
     line(what, "t_col = {:.4g} s, e_N = {:.4f}", t_col, contact.restitution());
   } else {
     line(what, "t_col = {:.4g} s at {:.3g} m/s", t_col, speed);

@@ -23,7 +23,7 @@ void warn(fmt::format_string<Parts...> format, Parts&&... parts) {
 }
 
 /// t_col and e_N, the latter in closed form for the linear law only.
-void print_contact(const char* what, const NormalLaw& normal, double reduced_mass, double speed);
+void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed);
 
 /// A head-on contact of the kind that a system has.
 struct HeadOnContact {

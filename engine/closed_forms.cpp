@@ -17,7 +17,27 @@ double frequency_squared(const LinearContact& c) {
   return c.k_n / c.reduced_mass - 0.25 * c.gamma_n * c.gamma_n;
 }
 
+/// -ln e_N of a contact that may not pull, by its gamma_N t_col / 2: its force vanishes after
+/// 2/pi arctan(pi / decay) of t_col.
+double pushed_decay(double decay) { return 2.0 / pi * decay * std::atan2(pi, decay); }
+
+double slope_of_pushed_decay(double decay) {
+  return 2.0 / pi * std::atan2(pi, decay) - 2.0 * decay / (pi * pi + decay * decay);
+}
+
+/// The gamma_N t_col / 2 with that pushed_decay(). Its slope falls, so that Newton's steps from
+/// below never lead too far, and have come to the end when they do not go up any more.
+double decay_by_pushed(double pushed) {
+  double decay = pushed;
+  for (double next = 0.0;; decay = next) {
+    next = decay + (pushed - pushed_decay(decay)) / slope_of_pushed_decay(decay);
+    if (!(next > decay)) return decay;
+  }
+}
+
 }  // namespace
+
+const double least_restitution_without_pull = std::exp(-2.0);
 
 bool LinearContact::rebounds() const { return frequency_squared(*this) > 0.0; }
 
@@ -26,12 +46,20 @@ double LinearContact::collision_time() const {
   return pi / std::sqrt(frequency_squared(*this));
 }
 
-double LinearContact::restitution() const { return std::exp(-0.5 * gamma_n * collision_time()); }
+double LinearContact::restitution() const {
+  const double decay = 0.5 * gamma_n * collision_time();
+  return std::exp(-(attraction == Attraction::clip ? pushed_decay(decay) : decay));
+}
 
-double damping_for_restitution(double restitution, double k_n, double reduced_mass) {
-  // With t_col = pi / omega, ln e = -gamma pi / (2 omega), and omega^2 = k/m - gamma^2/4.
+double damping_for_restitution(double restitution, double k_n, double reduced_mass,
+                               Attraction attraction) {
+  const bool clips = attraction == Attraction::clip;
+  if (clips && !(restitution > least_restitution_without_pull))
+    throw std::domain_error("no damping makes a contact that may not pull lose so much");
+  // With t_col = pi / omega the decay is gamma pi / (2 omega), and omega^2 = k/m - gamma^2/4.
   const double log_e = std::log(restitution);
-  return -2.0 * log_e * std::sqrt(k_n / reduced_mass / (pi * pi + log_e * log_e));
+  const double decay = clips ? decay_by_pushed(-log_e) : -log_e;
+  return 2.0 * decay * std::sqrt(k_n / reduced_mass / (pi * pi + decay * decay));
 }
 
 double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed) {

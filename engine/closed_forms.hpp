@@ -1,7 +1,8 @@
 // What is known of a contact without simulating it. SI units.
 //
 // Source: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995), eqs. (4), (5) and the text around them;
-// for the general elastic law the quadrature of the energy integral, e.g. Landau and Lifshitz,
+// for contacts that may not pull Schwager and Poeschel, Granular Matter 9, 465 (2007); for the
+// general elastic law the quadrature of the energy integral, e.g. Landau and Lifshitz,
 // Theory of Elasticity, par. 9.
 #pragma once
 
@@ -12,18 +13,25 @@ namespace riesel {
 /// A linear contact of two bodies: k_N in N/m, gamma_N in 1/s, reduced mass in kg.
 struct LinearContact {
   double k_n, gamma_n, reduced_mass;
+  Attraction attraction = Attraction::keep;
 
   /// Below critical damping two bodies rebound; above they do not, and there is no t_col.
   bool rebounds() const;
   /// s, eq. (4). Throws std::domain_error, as restitution() does, for a contact that does not
   /// rebound.
   double collision_time() const;
-  /// e_N = exp(-gamma_N t_col / 2)
+  /// e_N = exp(-gamma_N t_col / 2) if the contact may pull; larger if not, as damping then does no
+  /// more once the force has come down to zero.
   double restitution() const;
 };
 
-/// 1/s, the gamma_N that gives restitution 0 < e_N <= 1 to a linear contact.
-double damping_for_restitution(double restitution, double k_n, double reduced_mass);
+/// What critical damping leaves to a linear contact that may not pull.
+extern const double least_restitution_without_pull;
+
+/// 1/s, the gamma_N that gives restitution 0 < e_N <= 1 to a linear contact. Throws
+/// std::domain_error if it may not pull and e_N is not above least_restitution_without_pull.
+double damping_for_restitution(double restitution, double k_n, double reduced_mass,
+                               Attraction attraction);
 
 /// s, duration of an undamped head-on contact under F = k xi^alpha that begins with the given speed
 /// (m/s). For alpha = 1 it does not depend on the speed; for others it has none at speed 0 (not a

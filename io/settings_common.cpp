@@ -91,7 +91,7 @@ SettingsTable normal_force_settings() {
        .choices = {"keep", "clip"},
        .doc =
            "The dashpot pulls near the end of a contact: `keep` that force, or `clip` the normal "
-           "force at zero."},
+           "force at zero. `restitution` is what comes out either way."},
   };
 }
 

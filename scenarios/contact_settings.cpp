@@ -12,15 +12,24 @@ namespace riesel::scenarios {
 
 namespace {
 
+Attraction attraction(const io::Settings& settings) {
+  return settings.text("contact.attraction") == "clip" ? Attraction::clip : Attraction::keep;
+}
+
 /// The restitution of a system is that of a grain of `grains.mass` with the wall, as in the paper,
 /// unless `restitution_of` says that two such grains are meant.
 double linear_damping(const io::Settings& settings) {
   settings.require_exactly_one({"contact.damping", "contact.restitution"});
   if (settings.has("contact.damping")) return settings.number("contact.damping");
+  const double restitution = settings.number("contact.restitution");
+  if (attraction(settings) == Attraction::clip && restitution <= least_restitution_without_pull)
+    settings.reject("contact.restitution", "contacts that may not pull cannot lose so much",
+                    fmt::format("choose it above {:.4g}, or contact.attraction: keep",
+                                least_restitution_without_pull));
   const bool of_grains = settings.text("contact.restitution_of") == "grains";
   const double reduced_mass = settings.number("grains.mass") * (of_grains ? 0.5 : 1.0);
-  return damping_for_restitution(settings.number("contact.restitution"),
-                                 settings.number("contact.stiffness"), reduced_mass);
+  return damping_for_restitution(restitution, settings.number("contact.stiffness"), reduced_mass,
+                                 attraction(settings));
 }
 
 NormalLaw normal_law(const io::Settings& settings) {
@@ -65,8 +74,7 @@ ContactModel contact_model(const io::Settings& settings) {
   return {.normal = normal_law(settings),
           .slip = slip_law(settings),
           .friction = settings.number("contact.friction"),
-          .attraction =
-              settings.text("contact.attraction") == "clip" ? Attraction::clip : Attraction::keep,
+          .attraction = attraction(settings),
           .rolling_friction =
               inertia(settings) > 0.0 ? settings.number("contact.rolling_friction") : 0.0};
 }

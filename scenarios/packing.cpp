@@ -108,7 +108,7 @@ public:
 
 private:
   static constexpr double inflation = 2e-3;
-  static constexpr double restitution = 0.1;
+  static constexpr double restitution = 0.1;  // if contacts could pull: 0.25 as they cannot
   static constexpr double steps_per_collision = 30.0;
   static constexpr std::int64_t steps_per_round = 500;
   static constexpr int max_rounds = 200;
@@ -116,8 +116,8 @@ private:
   static constexpr double stiffness = 1.0, mass = 1.0;
 
   static ContactModel model() {
-    return {.normal =
-                LinearLaw{stiffness, damping_for_restitution(restitution, stiffness, 0.5 * mass)},
+    return {.normal = LinearLaw{stiffness, damping_for_restitution(restitution, stiffness,
+                                                                   0.5 * mass, Attraction::keep)},
             .slip = CappedSlip{},
             .friction = 0.0,
             .attraction = Attraction::clip};

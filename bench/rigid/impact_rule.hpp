@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace riesel::bench {
 
@@ -22,13 +21,12 @@ struct ImpactRule {
 };
 
 /// Of a contact that rebounds.
-inline ImpactRule rigid_limit(const LinearContact& contact, double mu, Attraction attraction) {
-  const double damping = 0.5 * contact.gamma_n;
-  const double frequency = std::numbers::pi / contact.collision_time();
-  // F_N vanishes where the rebound is fastest, an angle of pi - 2 lag after the beginning.
-  const double lag = std::atan(damping / frequency);
-  const double fastest = std::exp(-damping / frequency * (std::numbers::pi - 2.0 * lag));
-  if (attraction == Attraction::clip) return {.restitution = fastest, .grip = mu * (1.0 + fastest)};
+inline ImpactRule rigid_limit(const LinearContact& contact, double mu) {
+  LinearContact pushed = contact;
+  pushed.attraction = Attraction::clip;
+  const double fastest = pushed.restitution();  // where F_N vanishes
+  if (contact.attraction == Attraction::clip)
+    return {.restitution = fastest, .grip = mu * (1.0 + fastest)};
   const double last = contact.restitution();
   return {.restitution = last, .grip = mu * (1.0 - last + 2.0 * fastest)};
 }

@@ -181,7 +181,7 @@ ImpactRule RigidFlow::rule_for(const Disc& disc, double last_impact, double redu
     ++counts_.elastic;
     return {.restitution = 1.0, .grip = 2.0 * mu_};
   }
-  return rigid_limit({law_.k_n, law_.gamma_n, reduced_mass}, mu_, attraction_);
+  return rigid_limit({law_.k_n, law_.gamma_n, reduced_mass, attraction_}, mu_);
 }
 
 void RigidFlow::meet(std::size_t i, std::size_t j) {

@@ -21,7 +21,8 @@ constexpr double radius = 0.5e-3, mass = 1e-6, shortest = 1e-7;
 
 ContactModel model_of(double k_n, double restitution, double mu,
                       Attraction attraction = Attraction::keep) {
-  return {.normal = LinearLaw{k_n, damping_for_restitution(restitution, k_n, mass)},
+  return {.normal =
+              LinearLaw{k_n, damping_for_restitution(restitution, k_n, mass, Attraction::keep)},
           .slip = CappedSlip{},
           .friction = mu,
           .attraction = attraction};
@@ -112,7 +113,7 @@ TEST_CASE("the impact of rigid grains is the limit of stiff contacts", "[rigid]"
         REQUIRE(soft.state().tally.grains.ended == 1);
         const Grain left = grain_at(soft.state(), slots_by_id(soft.state().grains)[0]);
 
-        const ImpactRule rule = rigid_limit({k_n, law.gamma_n, 0.5 * mass}, 0.4, attraction);
+        const ImpactRule rule = rigid_limit({k_n, law.gamma_n, 0.5 * mass, attraction}, 0.4);
         const Impulse impulse = impulse_of(rule, 0.5 * mass, 1.0, 0.0, -1.0, -slip);
         CAPTURE(static_cast<int>(attraction), restitution, slip);
         CHECK(left.vx == Approx(0.5 + impulse.x / mass).margin(2e-3));

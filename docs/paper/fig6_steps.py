@@ -7,7 +7,7 @@ from tube import grouped, mean_text, runs_of
 
 
 def fig6_steps(tables, out, plt):
-    print_checks(runs_of(tables / "fig6_checks.csv"))
+    print_checks([run for name in ("fig6_checks", "fig6_clipped_fast") for run in runs_of(tables / f"{name}.csv")])
     print_rhythm([run for state in fast_states(tables) for run in state.settled])
     locking = runs_of(tables / "fig6_locking.csv")
     print_locking(locking)

@@ -61,7 +61,8 @@ reproduce() {
       ;;
     fig6) campaigns fig6_slow fig6_fast fig6_fast_long fig6_stiff ;;
     fig6_fast) campaigns fig6_fast fig6_fast_long fig6_stiff ;;
-    fig6_steps) campaigns fig6_fast fig6_fast_long fig6_stiff fig6_checks fig6_locking ;;
+    fig6_steps) campaigns fig6_fast fig6_fast_long fig6_stiff
+      campaigns fig6_checks fig6_clipped_fast fig6_locking ;;
     fig6_thresholds) campaigns fig6_slow fig6_spacing fig6_narrow fig6_length fig6_choices fig6_clipped
       campaigns fig6_hysteresis fig6_lifetimes ;;
     fig6_map) campaigns fig6_map ;;

@@ -50,6 +50,16 @@ class Check(CommandTest):
         self.assertGreater(plain_number(text, r"memory +about (\d+) MB"), 0)
         self.assertNotIn("warning", text)
 
+    def test_the_restitution_is_that_of_contacts_that_may_not_pull(self):
+        text = self.check(MILD_TUBE, "--set", "contact.attraction=clip")
+        self.assertEqual(plain_number(text, r"grain and wall +t_col = .* e_N = (\S+)"), 0.9)
+        # two grains: the same damping, twice the frequency squared; the force vanishes at 2 arctan(omega / beta)
+        beta_per_omega = 0.0342853  # at the wall, from 2 q arctan(1/q) = -ln 0.9
+        beta, omega = beta_per_omega, 1.0
+        pair = math.sqrt(2 * (omega ** 2 + beta ** 2) - beta ** 2)
+        self.assertAlmostEqual(plain_number(text, r"grain and grain +t_col = .* e_N = (\S+)"),
+                               math.exp(-2 * beta / pair * math.atan2(pair, beta)), delta=1e-4)
+
     def test_a_tangential_spring_is_told_by_its_half_period(self):
         """Of two discs, whose turning leaves a third of the inertia."""
         text = self.check(MILD_TUBE, "--set", "contact.slip=spring", "--set",

@@ -18,7 +18,8 @@ PAGE, LONG_TABLES = DOCS / "paper.md", DOCS / "paper-tables.md"
 # file: number of its points
 POINTS = {
     "fig3": 3, "fig3_time_step": 7, "fig3_laws": 4, "fig4_5": 5, "fig6_short": 36, "fig6_slow": 250, "fig6_fast": 42,
-    "fig6_fast_long": 6, "fig6_stiff": 16, "fig6_checks": 54, "fig6_locking": 22, "fig6_clipped": 50,
+    "fig6_fast_long": 6, "fig6_stiff": 16, "fig6_checks": 39, "fig6_locking": 22, "fig6_clipped": 50,
+    "fig6_clipped_fast": 33,
     "fig6_spacing": 190, "fig6_narrow": 210, "fig6_length": 100, "fig6_choices": 230, "fig6_hysteresis": 78,
     "fig6_lifetimes": 150, "fig6_map": 180, "fig6_curves": 4, "fig6_stiffer": 40,
 }

@@ -59,25 +59,41 @@ TEST_CASE("an overdamped contact has no collision time") {
 }
 
 TEST_CASE("damping_for_restitution is the inverse of the restitution") {
-  const double e = GENERATE(1e-3, 0.1, 0.5, 0.7, 0.9, 0.999);
   const double k = GENERATE(200.0, 2e5);
   const double m = GENERATE(0.5e-6, 3e-6);
-  const LinearContact contact{k, damping_for_restitution(e, k, m), m};
-  CHECK(contact.rebounds());
-  CHECK_THAT(contact.restitution(), WithinRel(e, 1e-12));
+  const auto check = [&](double e, Attraction attraction) {
+    CAPTURE(e, static_cast<int>(attraction));
+    const LinearContact contact{k, damping_for_restitution(e, k, m, attraction), m, attraction};
+    CHECK(contact.rebounds());
+    CHECK_THAT(contact.restitution(), WithinRel(e, 1e-12));
+  };
+  for (const double e : {1e-3, 0.1, 0.5, 0.7, 0.9, 0.999}) check(e, Attraction::keep);
+  for (const double e : {0.1354, 0.2, 0.5, 0.7, 0.9, 0.999}) check(e, Attraction::clip);
 }
 
 TEST_CASE("an elastic contact needs no damping") {
-  CHECK(damping_for_restitution(1.0, 2000.0, 1e-6) == 0.0);
+  CHECK(damping_for_restitution(1.0, 2000.0, 1e-6, Attraction::keep) == 0.0);
+  CHECK(damping_for_restitution(1.0, 2000.0, 1e-6, Attraction::clip) == 0.0);
+}
+
+TEST_CASE("a contact that may not pull keeps more than exp(-2) of the velocity") {
+  for (const double e : {0.1353, 0.01})
+    CHECK_THROWS_AS(damping_for_restitution(e, 2000.0, 1e-6, Attraction::clip), std::domain_error);
 }
 
 TEST_CASE("the closed forms agree with integrated head-on contacts") {
   // The table holds 12 digits; its integrator is good to 1e-12 (linear) and 1e-10 (Hertz).
-  int linear = 0, hertz = 0;
+  int linear = 0, hertz = 0, clipped = 0;
   for (const reference::Row& row : reference::table("head_on")) {
-    if (row.text("attraction") != "keep") continue;  // the forms of eq. (1) as it stands
     const double k = row("k"), gamma = row("gamma"), v = row("v"), m = reduced_mass(row);
     CAPTURE(row.text("law"), k, gamma, m, v);
+    if (row.text("attraction") == "clip") {  // of the other forms, those of eq. (1) as it stands
+      if (row.text("law") != "linear") continue;
+      const LinearContact contact{k, gamma, m, Attraction::clip};
+      CHECK_THAT(contact.restitution(), WithinRel(row("restitution"), 1e-10));
+      ++clipped;
+      continue;
+    }
     if (row.text("law") == "linear") {
       const LinearContact contact{k, gamma, m};
       CHECK_THAT(contact.restitution(), WithinRel(row("restitution"), 1e-10));
@@ -98,6 +114,7 @@ TEST_CASE("the closed forms agree with integrated head-on contacts") {
   }
   CHECK(linear == 14);
   CHECK(hertz == 6);
+  CHECK(clipped == 3);
 }
 
 TEST_CASE("the largest overlap of an elastic linear contact is v t_col / pi") {

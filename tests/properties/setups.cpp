@@ -33,7 +33,7 @@ NormalLaw random_normal_law(Dice& dice) {
   default: {
     const double k = power_of_ten(dice, 2.3, 5.3);
     const double restitution = dice.below(5) == 0 ? 1.0 : dice.between(0.3, 1.0);
-    return LinearLaw{k, damping_for_restitution(restitution, k, 0.5 * mass)};
+    return LinearLaw{k, damping_for_restitution(restitution, k, 0.5 * mass, Attraction::keep)};
   }
   }
 }

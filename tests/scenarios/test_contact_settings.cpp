@@ -40,6 +40,20 @@ TEST_CASE("restitution is that of a grain and the wall, unless it is said to be 
   CHECK_THAT(damping({"contact.restitution_of=grains"}), WithinRel(grains, 1e-12));
 }
 
+TEST_CASE("the restitution is that of contacts as they are, also if they may not pull") {
+  const std::string e = GENERATE("0.2", "0.7", "0.97");
+  const ContactModel model =
+      flow(tube_of_restitution_yaml, {"contact.restitution=" + e, "contact.attraction=clip"}).model;
+  const LinearContact wall{k_n, damping_of(model), mass, Attraction::clip};
+  CHECK_THAT(wall.restitution(), WithinRel(std::stod(e), 1e-12));
+}
+
+TEST_CASE("a restitution that contacts which may not pull cannot have is refused") {
+  check_mentions(
+      complaint(tube_of_restitution_yaml, {"contact.restitution=0.1", "contact.attraction=clip"}),
+      {"contact.restitution:", "may not pull", "above 0.1353", "contact.attraction: keep"});
+}
+
 TEST_CASE("a law from outside cannot take the name of one of the house") {
   for (const char* name : {"linear", "power", "hertz"}) {
     std::string told;
