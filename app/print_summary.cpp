@@ -20,9 +20,10 @@ std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int
 }
 
 void print_balance(const io::FlowSummary::Balance& b) {
+  const char* none = std::isnan(b.n_dot.value) ? "not known" : "none begun, lasting ones";
   const std::string factors = b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s",
                                                                 b.n_dot.value, b.dv_y.value)
-                                                  : std::string("none begun, lasting ones");
+                                                  : std::string(none);
   fmt::print("  {:<22}{} = {}, gravity {:.4g} m/s^2\n", "wall collisions", factors,
              text_of(b.n_dot_dv_y, "m/s^2"), b.gravity);
 }
@@ -116,8 +117,9 @@ void print_summary(const io::ColumnSummary& s, const std::filesystem::path& dire
   fmt::print("{}: {} beads, {} drops\n", s.run.scenario, s.run.grains, s.column.size());
   fmt::print("  {:<22}{}\n", "hard beads", description_of(s.rigid));
   for (const io::ColumnPoint* p : {&s.column.front(), &s.column.back()})
-    fmt::print("  {:<22}effective restitution {:.4g} at gaps of {:.3g} v t_col\n", "these beads",
-               p->restitution, p->gap_ratio);
+    fmt::print("  {:<22}effective restitution {} at gaps of {:.3g} v t_col\n", "these beads",
+               std::isnan(p->restitution) ? "not known" : fmt::format("{:.4g}", p->restitution),
+               p->gap_ratio);
   fmt::print("  {:<22}{}\n", "validity", count_of_verdicts(s));
   fmt::print("  {:<22}{}\n", "contacts", where_hard(s));
   print_common(s.run, directory);

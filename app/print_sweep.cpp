@@ -1,5 +1,6 @@
 #include "app/print_sweep.hpp"
 
+#include "app/cell_text.hpp"
 #include "app/cost.hpp"
 #include "app/plain_words.hpp"
 #include "app/sweep_directory.hpp"
@@ -20,17 +21,13 @@ namespace riesel::app {
 
 namespace {
 
-std::string text_of(const io::Cell& cell) {
-  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{:.6g}", *number);
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  return "-";
-}
-
 /// "contact.restitution=0.9 seed=1 slow forward"
 std::string coordinates_of(const io::ManifestPoint& point, const io::Manifest& manifest) {
   std::vector<std::string> words;
-  for (std::size_t i = 0; i < manifest.varied.size(); ++i)
-    words.push_back(fmt::format("{}={}", manifest.varied[i].key, text_of(point.values[i])));
+  for (std::size_t i = 0; i < manifest.varied.size(); ++i) {
+    const std::string value = text_of(point.values[i]);
+    words.push_back(fmt::format("{}={}", manifest.varied[i].key, value.empty() ? "-" : value));
+  }
   for (const std::string* label : {&point.branch, &point.leg})
     if (!label->empty()) words.push_back(*label);
   return fmt::format("{}", fmt::join(words, " "));

@@ -7,6 +7,7 @@
 #include "io/settings.hpp"
 #include "io/settings_given.hpp"
 #include "io/settings_table.hpp"
+#include "io/settings_text.hpp"
 #include "io/summary.hpp"
 #include "io/summary_reader.hpp"
 #include "scenarios/scenario.hpp"
@@ -89,9 +90,9 @@ Prolongation::Prolongation(const io::Manifest& manifest, const fs::path& sweep,
     const fs::path file = point_directory(sweep, point.name) / point_settings_name;
     const io::Settings planned = io::Settings::from_file(file, tables);
     reject_without_length(planned, sweep);
-    goals_[point.name] = {
-        .planned = scenarios::run_length(planned).at_most,
-        .wanted = scenarios::run_length(io::Settings::from_file(file, tables, overrides_))};
+    goals_[point.name] = {.planned = scenarios::run_length(planned).at_most,
+                          .wanted = scenarios::run_length(resumed_settings(
+                              io::read_settings_text(file), file.string(), overrides_))};
   }
 }
 

@@ -196,7 +196,9 @@ private:
                              {"contacts per visit", with_error(v.contacts, "")},
                              {"axial velocity lost per visit", with_error(v.dv_y, "m/s")},
                              {"velocity above which a wall contact is cut short, v_crit",
-                              number(summary().validity.v_crit) + " m/s"}});
+                              std::isnan(summary().validity.v_crit)
+                                  ? "none"
+                                  : number(summary().validity.v_crit) + " m/s"}});
     page().table(rows);
     draft_.add_figure(
         "braking", draw_braking(record_->run, summary()),

@@ -1,5 +1,6 @@
 #include "app/report_sweep.hpp"
 
+#include "app/cell_text.hpp"
 #include "app/plain_words.hpp"
 #include "app/report_impacts.hpp"
 #include "app/report_sweep_curves.hpp"
@@ -175,7 +176,7 @@ private:
     const io::ManifestPoint& point = manifest().points[i];
     const SweepResult& result = record_->results[i];
     std::vector<io::HtmlCell> row = {{point.name, result.directory + "/"}};
-    for (const io::Cell& value : point.values) row.emplace_back(text_of(value, ""));
+    for (const io::Cell& value : point.values) row.emplace_back(text_of(value));
     row.emplace_back(point.branch);
     row.emplace_back(point.leg);
     if (const auto* summary = flow(i)) add_flow(*summary, row);

@@ -1,5 +1,6 @@
 #include "app/report_sweep_curves.hpp"
 
+#include "app/cell_text.hpp"
 #include "app/report_impacts.hpp"
 #include "app/report_panels.hpp"
 
@@ -107,7 +108,7 @@ VelocityPoint velocity_point(const SweepRecord& record, std::size_t index, std::
 std::string line_of(const io::Manifest& manifest, const io::ManifestPoint& point) {
   std::string line = point.leg;
   for (std::size_t i = 0; i < manifest.varied.size(); ++i)
-    if (is_seed(manifest.varied[i])) line += " " + text_of(point.values[i], "");
+    if (is_seed(manifest.varied[i])) line += " " + text_of(point.values[i]);
   return line;
 }
 
@@ -193,13 +194,6 @@ std::vector<ImpactPanel> impact_panels(const SweepRecord& record) {
     }
   }
   return panels;
-}
-
-std::string text_of(const io::Cell& cell, const std::string& unit) {
-  if (const auto* number = std::get_if<double>(&cell))
-    return fmt::format("{:.6g}{}", *number, unit.empty() || unit == "1" ? "" : " " + unit);
-  const auto* text = std::get_if<std::string>(&cell);
-  return text != nullptr ? *text : "";
 }
 
 std::string description_of(const io::Manifest& manifest, const io::ManifestPoint& point) {

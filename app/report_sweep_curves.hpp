@@ -33,9 +33,6 @@ struct ImpactPanel {
 /// The impacts of a sweep: a line for each point and v_x.
 std::vector<ImpactPanel> impact_panels(const SweepRecord& record);
 
-/// A value of a table with its unit; empty for nothing.
-std::string text_of(const io::Cell& cell, const std::string& unit);
-
 /// What tells a point from the others, in one line.
 std::string description_of(const io::Manifest& manifest, const io::ManifestPoint& point);
 

@@ -1,12 +1,15 @@
 #include "app/commands.hpp"
 #include "app/plain_words.hpp"
+#include "app/report_parts.hpp"
 #include "app/resumed_settings.hpp"
 #include "app/run_flow.hpp"
 #include "app/terminal.hpp"
 #include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
+#include "io/run_file.hpp"
 #include "io/summary.hpp"
+#include "io/trajectory_file.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -15,6 +18,12 @@
 namespace riesel::app {
 
 namespace {
+
+bool is_another_file_of_a_run(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return path.extension() == ".yaml" || name == io::run_file_name || name == io::trajectory_name
+         || name == io::summary_name || name == report_name;
+}
 
 void reject_what_is_no_run(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path))
@@ -30,7 +39,7 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
   if (std::filesystem::exists(path / io::manifest_name))
     throw UnusableInput(path.string() + ": holds a sweep; go on with it by '"
                         + call_of("sweep", path) + "'");
-  if (std::filesystem::is_regular_file(path) && path.extension() == ".yaml")
+  if (std::filesystem::is_regular_file(path) && is_another_file_of_a_run(path))
     throw UnusableInput(path.string() + ": is no checkpoint; give the directory of a run, or its "
                         + io::checkpoint_name);
   if (std::filesystem::is_directory(path) && !has_checkpoint(path))

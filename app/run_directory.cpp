@@ -2,12 +2,14 @@
 
 #include "app/commands.hpp"
 #include "app/plain_words.hpp"
+#include "app/report_parts.hpp"
 #include "io/build_info.hpp"
 #include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
+#include "io/sweep_manifest.hpp"
 #include "io/trajectory_file.hpp"
 
 namespace riesel::app {
@@ -37,8 +39,11 @@ namespace {
 void reject_directory_in_use(const fs::path& path) {
   if (fs::exists(path) && !fs::is_directory(path))
     throw UnusableInput(path.string() + ": is no directory; choose another one with --out");
+  if (fs::exists(path / io::manifest_name))
+    throw UnusableInput(path.string() + ": holds a sweep; choose another directory with --out");
   const bool holds_run = fs::exists(path / io::run_file_name)
-                         || fs::exists(path / io::trajectory_name) || has_checkpoint(path);
+                         || fs::exists(path / io::trajectory_name)
+                         || fs::exists(path / io::summary_name) || has_checkpoint(path);
   if (holds_run && stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": holds a run that was stopped before its first checkpoint; "
@@ -77,6 +82,7 @@ void RunDirectory::go_on(const io::Settings& settings) const {
   fs::rename(summary, io::previous_generation(summary), error);
   if (error && error != std::errc::no_such_file_or_directory)
     throw io::system_failure(summary, "cannot be set aside", error.value());
+  fs::remove(file(report_name), error);  // likewise; what cannot be removed is no result
   write_settings(settings);
 }
 

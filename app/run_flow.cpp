@@ -171,7 +171,7 @@ private:
 
   std::string ended_by() const {
     if (!schedule_.relative_error) return "duration";
-    return simulation_.state().step < schedule_.last_step ? "precision" : "at_most";
+    return is_precise_enough() ? "precision" : "at_most";
   }
 
   /// To the next row or frame, or a part of the way there, so that signals and the clock are heeded

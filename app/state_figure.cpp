@@ -110,7 +110,8 @@ io::Interval velocity_range(const io::FinalState& state) {
     return velocities[static_cast<std::size_t>(part * static_cast<double>(velocities.size() - 1))];
   };
   const io::Interval range{at(0.01), at(0.99)};
-  return range.low < range.high ? range : io::range_of(velocities);
+  const double narrowest = 1e-4 * std::max(std::abs(range.low), std::abs(range.high));
+  return range.high - range.low > narrowest ? range : io::range_of(velocities);
 }
 
 class Drawing {

@@ -17,6 +17,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -45,6 +46,27 @@ void write_plan(const SweepPlan& plan, const fs::path& sweep) {
   }
   io::write_durably(sweep / sweep_file_name, plan.sweep_file);
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
+}
+
+/// Points that were here, and are none of this sweep. Their runs stay, but no table lists them any
+/// more: not if they are all, and some are done.
+void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
+  if (!fs::exists(sweep / io::manifest_name)) return;
+  const std::vector<io::ManifestPoint> earlier = manifest_in(sweep).points;
+  const auto is_gone = [&](const io::ManifestPoint& point) {
+    return std::ranges::find(plan.manifest.points, point.name, &io::ManifestPoint::name)
+           == plan.manifest.points.end();
+  };
+  const auto gone = std::ranges::count_if(earlier, is_gone);
+  const bool any_done = std::ranges::any_of(
+      earlier, [](const auto& point) { return point.status == to_string(RunStatus::done); });
+  if (gone > 0 && gone == std::ssize(earlier) && any_done)
+    throw UnusableInput(sweep.string()
+                        + ": holds another sweep, of which no point is one of this; choose another "
+                          "directory with --out");
+  if (gone > 0)
+    tell("{}: {} of {} points that were here are not in this sweep; their runs stay\n",
+         sweep.string(), gone, earlier.size());
 }
 
 /// Not over a run, and not twice at a time.
@@ -174,7 +196,10 @@ int sweep(const SweepOptions& options) {
     return exit_done;
   }
   const io::DirectoryLock locked = lock(directory);
-  if (!begun) write_plan(plan, directory);
+  if (!begun) {
+    heed_earlier_sweep(plan, directory);
+    write_plan(plan, directory);
+  }
   if (options.prepare_only) {
     fmt::print("{}: {} points are ready for 'riesel sweep-task'\n", directory.string(),
                plan.manifest.points.size());

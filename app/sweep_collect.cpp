@@ -5,7 +5,9 @@
 #include "app/exit_status.hpp"
 #include "app/print_sweep.hpp"
 #include "app/sweep_directory.hpp"
+#include "app/terminal.hpp"
 #include "io/durable_file.hpp"
+#include "io/file_error.hpp"
 #include "io/settings_text.hpp"
 #include "io/summary.hpp"
 #include "io/summary_units.hpp"
@@ -60,7 +62,13 @@ void write_table(const io::Manifest& manifest, const fs::path& sweep) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const io::ManifestPoint& point = manifest.points[row];
     if (point.status != to_string(RunStatus::done)) continue;
-    add_results(point_directory(sweep, point.name) / io::summary_name, row, columns_of_plan, table);
+    const fs::path summary = point_directory(sweep, point.name) / io::summary_name;
+    try {
+      add_results(summary, row, columns_of_plan, table);
+    } catch (const io::FileError& error) {  // the others have results
+      table.set(row, "reason", std::string(error.what()));
+      tell("riesel: {}\n", error.what());
+    }
   }
   io::write_durably(sweep / io::sweep_csv_name, io::to_csv(table));
   io::write_hdf5(sweep / io::sweep_h5_name, table, io::read_settings_text(sweep / sweep_file_name));

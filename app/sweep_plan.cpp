@@ -130,6 +130,21 @@ void check_continuation(const io::SweepFile& sweep) {
   }
 }
 
+/// Whether results depend on one of the keys.
+bool matters(const io::SweepAxis& axis, const io::SettingsTable& table) {
+  return std::ranges::any_of(table, [&](const io::Setting& row) {
+    return row.matters && std::ranges::find(axis.keys, row.key) != axis.keys.end();
+  });
+}
+
+void reject_axes_in_vain(const io::SweepFile& sweep) {
+  for (const io::SweepAxis& axis : sweep.axes)
+    if (!matters(axis, scenarios::settings_tables().at(sweep.scenario)))
+      throw io::SettingsError(axis.values.front().front().key_place, axis.keys.front(),
+                              "changes no result: its runs would be the same",
+                              "leave it out, or write one value below 'set:'");
+}
+
 std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep) {
   const io::SettingsTable& table = scenarios::settings_tables().at(sweep.scenario);
   std::vector<io::VariedSetting> varied;
@@ -146,6 +161,7 @@ SweepPlan plan_sweep(const std::filesystem::path& file) {
   const io::SettingsTables& tables = scenarios::settings_tables();
   const io::SweepFile sweep = io::read_sweep_file(file, tables);
   check_continuation(sweep);
+  reject_axes_in_vain(sweep);
   const std::vector<io::SweepPoint> points = io::expand(sweep, tables);
 
   SweepPlan plan;

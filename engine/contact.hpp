@@ -42,18 +42,18 @@ std::optional<T> first_of(const std::optional<T>& a,
 /// tells when they met and when they will part.
 struct Contact {
   ContactName name{};
-  double begin = 0.0;                 ///< s, since step 0
-  double end = 0.0;                   ///< s, when the contact ends, or a step from now
-  double entry_rate = 0.0;            ///< m/s, normal approach velocity at the beginning
-  double entry_slip = 0.0;            ///< m/s, slip velocity of the centres at the beginning
-  double overlap = 0.0;               ///< m, now
-  double max_overlap = 0.0;           ///< m
-  double slip_path = 0.0;             ///< m, integral of |slip velocity| of the surfaces
-  double elastic_energy = 0.0;        ///< J, stored now, in the tangential spring too
-  double normal_loss = 0.0;           ///< J, dissipated by the normal damping so far
-  double friction_loss = 0.0;         ///< J, dissipated by friction before this step
-  double impulse_x = 0.0;             ///< kg m/s, given to `grain` across the tube so far
-  double impulse_y = 0.0;             ///< kg m/s, the same along y
+  double begin = 0.0;           ///< s, since step 0
+  double end = 0.0;             ///< s, when the contact ends, or a step from now
+  double entry_rate = 0.0;      ///< m/s, normal approach velocity at the beginning
+  double entry_slip = 0.0;      ///< m/s, slip velocity of the centres at the beginning
+  double overlap = 0.0;         ///< m, now
+  double max_overlap = 0.0;     ///< m
+  double slip_path = 0.0;       ///< m, integral of |slip velocity| of the surfaces
+  double elastic_energy = 0.0;  ///< J, stored now, in the tangential spring too
+  double normal_loss = 0.0;     ///< J, dissipated by the normal damping so far
+  double friction_loss = 0.0;   ///< J, dissipated by friction before this step
+  double impulse_x = 0.0;       ///< kg m/s, given to `grain` by a wall, across the tube, so far
+  double impulse_y = 0.0;       ///< kg m/s, the same along y
   double impulse_y_times_time = 0.0;  ///< kg m, that, each step's part times the time
   double friction_x = 0.0;            ///< N, friction on `grain` in this step, across the tube
   double friction_y = 0.0;            ///< N, the same along y

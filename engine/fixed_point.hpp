@@ -107,11 +107,12 @@ struct ByAddition {
 [[gnu::always_inline]] inline double real(Fixed a) { return ByConversion::real(a); }
 
 /// (since + 1) + (since + 2) + ... + now: how often the fall per step^2 adds to y in these steps,
-/// in a frame that falls since step 0. 0 <= since <= now.
+/// in a frame that falls since step 0. 0 <= since <= now < 2^62. Exact modulo 2^64.
 [[gnu::always_inline]] inline std::int64_t sum_of_steps(std::int64_t since, std::int64_t now) {
-  const auto twice =
-      static_cast<std::uint64_t>(now - since) * static_cast<std::uint64_t>(since + 1 + now);
-  return static_cast<std::int64_t>(twice >> 1);
+  // Half the product of two numbers, of which one is even.
+  const auto steps = static_cast<std::uint64_t>(now - since);
+  const auto ends = static_cast<std::uint64_t>(since + 1 + now);
+  return static_cast<std::int64_t>(steps % 2 == 0 ? steps / 2 * ends : ends / 2 * steps);
 }
 
 }  // namespace riesel

@@ -39,13 +39,13 @@ public:
   }
 
   /// The lower edge of the bin that holds the value below which this part of all lies, 0 <= part <
-  /// 1; 0 if there are none.
+  /// 1; 0 if that is the first bin, which holds all that is smaller, or if there are none.
   double quantile(double part) const {
     const double wanted = part * static_cast<double>(total());
     double below = 0.0;
     for (std::size_t bin = 0; bin < bins; ++bin) {
       below += static_cast<double>(counts_[bin]);
-      if (below > wanted) return lower_edge(bin);
+      if (below > wanted) return bin > 0 ? lower_edge(bin) : 0.0;
     }
     return 0.0;
   }

@@ -22,11 +22,12 @@ namespace riesel {
 struct Extent {
   std::uint64_t begin, length, margin;
 
-  /// How far `y` is from the part; 0 only within it, where it begins but not where it ends.
+  /// How far `y` is from the part; 0 only within it, where it begins but not where it ends. Nothing
+  /// is within a part without length.
   std::uint64_t distance(Fixed y) const {
     const std::uint64_t from_begin = static_cast<std::uint64_t>(y) - begin;
     if (from_begin < length) return 0;
-    return std::min(from_begin - length + 1, std::uint64_t{0} - from_begin);
+    return std::min(from_begin - length, ~from_begin) + 1;
   }
 };
 

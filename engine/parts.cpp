@@ -94,6 +94,7 @@ void Parts::plan(std::int64_t last) {
   if (stretches_ % stretches_per_order == 0) sort();
   // Equal stretches, so that none is short at the end.
   const auto steps = static_cast<double>(last - state_.step);
+  cut_short_ = steps <= habits_.steps;
   until_ =
       state_.step + static_cast<std::int64_t>(std::ceil(steps / std::ceil(steps / habits_.steps)));
   margin_ = quanta(reach_ + parts_.front()->skin() + habits_.buffer * diameter_);
@@ -165,14 +166,21 @@ void Parts::learn_from_success() {
   const bool sorted = std::any_of(parts_.begin(), parts_.end(),
                                   [](const auto& part) { return part->has_sorted(); });
   habits_.steps_known = habits_.steps_known || sorted;
-  habits_.steps *= sorted ? shorter : habits_.steps_known ? longer : longer_at_first;
+  if (sorted)
+    habits_.steps = std::max(1.0, habits_.steps * shorter);
+  else if (!cut_short_)
+    habits_.steps *= habits_.steps_known ? longer : longer_at_first;
   habits_.buffer = std::max(least_buffer, habits_.buffer * narrower);
   // Slowly, as much of what makes a part slow is chance.
   constexpr double least_change = 0.98, largest_change = 1.02;
   const double mean =
       std::accumulate(seconds_.begin(), seconds_.end(), 0.0) / static_cast<double>(seconds_.size());
-  for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] *= std::clamp(std::pow(mean / seconds_[i], 0.25), least_change, largest_change);
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    const double slowness = std::max(seconds_[i], 1e-9) / std::max(mean, 1e-9);
+    weights_[i] *= std::clamp(std::pow(slowness, -0.25), least_change, largest_change);
+  }
+  const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  for (double& weight : weights_) weight *= static_cast<double>(weights_.size()) / sum;
 }
 
 void Parts::learn_from_failure() {
@@ -192,6 +200,7 @@ void Parts::do_together(std::int64_t last, Profile& profile) {
   until_ = std::min(last, state_.step + steps);
   for (const auto& part : parts_) part->hand_over(state_, profile);
   whole_.emplace(state_, model_, by_flights_);
+  if (profile.on()) whole_->start_profile();
   whole_->advance(until_);
   whole_->complete_state(profile);
   if (whole_->candidates().in_trouble()) return;

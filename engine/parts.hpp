@@ -27,7 +27,7 @@ class Parts {
 public:
   /// What stretches are like, learned on the way. The results do not depend on it.
   struct Habits {
-    double steps = 16.0;  ///< of a stretch
+    double steps = 16.0;  ///< of a stretch: 1 or more
     /// Mean diameters of a margin, beyond what a grain may meet: so long is the way of news to the
     /// part.
     double buffer = 5.0;
@@ -83,6 +83,7 @@ private:
   std::int64_t until_ = 0;    // step: the end of the stretch
   std::uint64_t margin_ = 0;  // quanta of y
   Fixed drift_ = 0;           // quanta per step along y
+  bool cut_short_ = false;    // by the end of the advance: the stretch tells nothing of longer ones
   bool over_ = false;
   Grains next_;  // those of the state at the end of the stretch, in the same places
   std::optional<Stepper> whole_;  // with which the run could not go on

@@ -28,9 +28,9 @@ struct ContactTally {
   ExactSum normal_loss;      ///< J
   ExactSum friction_loss;    ///< J
   ExactSum energy_won;       ///< J, by those whose losses together are negative
-  /// kg m/s, impulse along y on the first grain of each contact; and the same with each step's part
-  /// weighted by the time, as a part of an `era`: for the walls the two tell how far the grains
-  /// have fallen (work_of_gravity).
+  /// kg m/s, impulse along y on the grains in contact with walls; and the same with each step's
+  /// part weighted by the time, as a part of an `era`: the two tell how far the grains have fallen
+  /// (work_of_gravity).
   ExactSum impulse_y;
   ExactSum impulse_y_times_time;
   DurationHistogram durations;  ///< of ended contacts
@@ -38,8 +38,9 @@ struct ContactTally {
   /// One that had max_overlap; none if no contact ended yet.
   std::optional<Contact> deepest;
 
-  /// s, some 34 years. In seconds the weighted impulses of a long run would leave the range of
-  /// ExactSum, as they grow with the square of the time.
+  /// s, some 34 years. The weighted impulses grow with the square of the time, up to the range of
+  /// ExactSum. At the other end they are lost: with grains below some 10 micrometres the work of
+  /// gravity, and so the residual of the energy, is wrong.
   static constexpr double era = 0x1p30;
 
   /// Adds to the sums and to the maximum.

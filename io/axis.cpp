@@ -55,7 +55,8 @@ std::vector<double> ticks(Interval range, int most) {
     const double first = std::ceil(range.low / step), last = std::floor(range.high / step);
     found.clear();
     if (last - first >= most) continue;
-    for (double k = first; k <= last; k += 1.0) found.push_back(k * step + 0.0);  // no -0
+    for (int k = 0; k <= static_cast<int>(last - first); ++k)
+      found.push_back((first + k) * step + 0.0);  // no -0
     break;
   }
   return found;

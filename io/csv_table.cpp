@@ -51,6 +51,8 @@ struct Heading {
 };
 
 Heading heading_of(const Text& cell, const Place& place) {
+  if (cell.text.find('"') != std::string_view::npos)
+    throw SettingsError(place, "", "has quotation marks in the first line", "leave them out");
   const std::size_t open = cell.text.find('(');
   std::string_view name = cell.text.substr(0, open);
   name = name.substr(0, name.find_last_not_of(' ') + 1);
@@ -110,7 +112,9 @@ private:
                             "the columns are " + names_of(*columns_));
       if (!index_.emplace(heading.name, headings_.size()).second)
         throw SettingsError(at(cell), heading.name, "stands there twice", "remove one");
-      headings_.push_back({heading.name, heading.unit, known->unit});
+      const bool also = !known->also.empty() && heading.unit == known->also;
+      headings_.push_back({heading.name, also ? "" : heading.unit, known->unit});
+      convert({.numeral = "1", .unit = headings_.back().unit}, headings_.back(), cell);
     }
     for (const CsvColumn& column : *columns_)
       if (column.required && !index_.contains(column.name))

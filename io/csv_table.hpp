@@ -20,6 +20,7 @@ struct CsvColumn {
   std::string name;
   std::string unit;  ///< SI unit of its values
   bool required = true;
+  std::string also = {};  ///< what its heading may say instead of a unit that converts to it
 };
 
 class CsvTable {

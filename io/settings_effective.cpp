@@ -24,7 +24,13 @@ std::string written(double value) {
 std::string written(std::int64_t value) { return fmt::format("{}", value); }
 std::string written(bool value) { return value ? "true" : "false"; }
 std::string written(Auto) { return "auto"; }
-std::string written(const std::string& text) { return nlohmann::json(text).dump(); }
+/// YAML takes all that JSON does but for one character.
+std::string written(const std::string& text) {
+  std::string quoted = nlohmann::json(text).dump();
+  for (auto at = quoted.find('\x7f'); at != std::string::npos; at = quoted.find('\x7f', at))
+    quoted.replace(at, 1, "\\u007f");
+  return quoted;
+}
 
 std::string written(const std::vector<double>& values) {
   std::string list = "[";

@@ -84,11 +84,19 @@ Manifest manifest_of(const Json& json) {
 
 }  // namespace
 
+/// A list, as effective.yaml has it.
+std::string in_one_line(std::string text) {
+  for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end))
+    text.replace(end, text.find_first_not_of(" \n", end) - end, " ");
+  return text;
+}
+
 Cell cell_of(const Settings& settings, const std::string& key) {
   const auto text = settings.written(key);
   if (text.empty()) return {};
   const auto json = Json::parse(text, nullptr, false);
-  return json.is_discarded() || json.is_structured() ? Cell(text) : cell_of(json);
+  if (json.is_structured()) return in_one_line(text);
+  return json.is_discarded() ? Cell(text) : cell_of(json);
 }
 
 std::string to_json(const Manifest& manifest) {

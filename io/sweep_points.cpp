@@ -1,12 +1,14 @@
 #include "io/sweep_points.hpp"
 
 #include "engine/hash.hpp"
+#include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "io/whole_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <utility>
@@ -43,10 +45,13 @@ std::string hash_text(std::string_view text) {
   return fmt::format("{:016x}", hash.value());
 }
 
-/// Of what stands in a file, if it can be read: whether it can is for the run to say.
+/// Of what stands in a file, or in the checkpoint of a run's directory, if it can be read: whether
+/// it can is for the run to say.
 std::string hash_content(const std::string& path) {
+  namespace fs = std::filesystem;
   try {
-    const auto content = read_whole_file(path);
+    const auto content =
+        read_whole_file(fs::is_directory(path) ? fs::path(path) / checkpoint_name : fs::path(path));
     return hash_text({content.data(), content.size()});
   } catch (const FileError&) {
     return "none";

@@ -98,7 +98,11 @@ std::vector<std::pair<std::string, Cell>> flat_summary(const std::filesystem::pa
   const auto json = read_json(path, remedy);
   if (!json.is_object()) throw FileError(path, "is no summary of a run", remedy);
   std::vector<std::pair<std::string, Cell>> values;
-  flatten(json, "", values);
+  try {
+    flatten(json, "", values);
+  } catch (const Json::exception& error) {
+    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)), remedy);
+  }
   return values;
 }
 

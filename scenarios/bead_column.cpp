@@ -48,9 +48,6 @@ void require_closed_form(const io::Settings& settings) {
   if (settings.text("contact.law") != "linear")
     settings.reject("contact.law", "its restitution depends on the speed",
                     "choose linear: hard beads to compare with need one restitution");
-  if (settings.text("contact.attraction") != "keep")
-    settings.reject("contact.attraction", "its restitution is not known in closed form",
-                    "choose keep: hard beads to compare with need the restitution");
 }
 
 Problem prepare(const io::Settings& settings) {
@@ -68,7 +65,7 @@ Problem prepare(const io::Settings& settings) {
                 0.5 * setup.bead_mass);
   const auto& law = std::get<LinearLaw>(setup.model.normal);
   const auto restitution = [&](double reduced_mass) {
-    return LinearContact{law.k_n, law.gamma_n, reduced_mass}.restitution();
+    return LinearContact{law.k_n, law.gamma_n, reduced_mass, setup.model.attraction}.restitution();
   };
   curve.rigid =
       rigid_column(setup.beads, restitution(0.5 * setup.bead_mass), restitution(setup.bead_mass));

@@ -6,8 +6,8 @@
 // follows from the contact settings, so they go through SI units. Contacts that last keep their
 // beginning, overlap and, for half a step, their force; from the first step on the new contact law
 // acts on them. What they did so far stays in the books of the earlier run: the clock and all
-// tallies begin at zero. The energy stored in them is that of the new law at the same overlap; no
-// one put it in, so that it shows in the energy residual of the run.
+// tallies begin at zero. The energy stored in them is that of the new law at the same overlap,
+// which counts as there from the start.
 #pragma once
 
 #include "engine/contact_law.hpp"

@@ -43,7 +43,8 @@ io::SettingsTable start_settings() {
        .doc = "The run to be continued: its directory or its checkpoint.h5. The settings of the "
               "grains, the walls and the tube must be the same, but for gravity, angles and what "
               "moves the walls.",
-       .only_when = io::When{"start.kind", {"continued"}}},
+       .only_when = io::When{"start.kind", {"continued"}},
+       .names_content = true},
       {.key = "start.from",
        .kind = io::Kind::path,
        .required = true,

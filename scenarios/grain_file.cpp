@@ -25,7 +25,7 @@ io::CsvTable read_table(const io::Settings& settings) {
                        {.name = "vy", .unit = "m/s"},
                        {.name = "diameter", .unit = "m"},
                        {.name = "mass", .unit = "kg", .required = false},
-                       {.name = "spin", .unit = "1/s", .required = false}});
+                       {.name = "spin", .unit = "1/s", .required = false, .also = "rad/s"}});
 }
 
 double positive(const io::CsvTable& table, std::size_t row, const std::string& column) {

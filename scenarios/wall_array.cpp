@@ -25,6 +25,7 @@ io::SettingsTable own_settings() {
               "wall)."},
       {.key = "impact.height",
        .unit = "m",
+       .example = "1 mm",
        .range = io::positive(),
        .doc = "Distance of the free grain's centre from the wall line at the start. By default the "
               "sum of the radii, where nothing can touch yet."},

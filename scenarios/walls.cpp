@@ -17,9 +17,9 @@ using std::numbers::pi;
 constexpr auto amplitude_key = "wall.shake_amplitude", frequency_key = "wall.shake_frequency",
                angle_key = "wall.shake_angle";
 
-/// Half of it is likely to be forgotten.
+/// Half of it is likely to be forgotten, unless it is nothing.
 void reject_half_given(const io::Settings& settings, const char* given, const char* missing) {
-  if (settings.given(given) && !settings.given(missing))
+  if (settings.given(given) && settings.number(given) != 0.0 && !settings.given(missing))
     settings.reject(given, std::string("moves nothing without ") + missing,
                     std::string("give ") + missing + ", too, or remove both");
 }

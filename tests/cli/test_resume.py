@@ -151,6 +151,20 @@ class ResumeRefuses(CommandTest):
             self.resume_to_end(out, *until)
         self.assertEqual(self.summary(out)["ended_by"], "at_most")
 
+    def test_a_report_does_not_outlive_its_result(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        self.assert_done(self.riesel("report", out))
+        self.resume_to_end(out, "--set", "run.duration=0.2 ms")
+        self.assertFalse((out / "report.html").exists())
+
+    def test_a_result_without_its_run_is_kept(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        for path in (*out.glob("*.h5"), *out.glob("*.previous")):
+            path.unlink()
+        before = bytes_of_files(out)
+        self.assert_refused(self.riesel("run", "tube.yaml", "--out", "out"), "out: holds a run already")
+        self.assertEqual(bytes_of_files(out), before)
+
     def test_what_is_not_there(self):
         self.assert_refused(self.riesel("resume", "nowhere"), "nowhere", "check the path")
         self.assert_nothing_written({})
@@ -165,6 +179,9 @@ class ResumeRefuses(CommandTest):
         result = self.riesel("resume", tube)
         self.assert_refused(result, "tube.yaml", "is no checkpoint", "directory of a run")
         self.assertEqual([path.name for path in self.home.iterdir()], ["tube.yaml"])
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        for name in ("run.h5", "summary.json", "effective.yaml"):
+            self.assert_refused(self.riesel("resume", out / name), name, "is no checkpoint")
 
     def test_a_missing_run_file(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")

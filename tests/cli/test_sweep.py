@@ -164,6 +164,59 @@ class Grid(SweepTest):
             self.assertEqual((slow["branch"], fast["branch"]), ("slow", "fast"))
             self.assertEqual(slow["state_hash"], fast["state_hash"])
 
+    def test_a_damaged_result_is_told_and_the_others_are_in_the_table(self):
+        out = self.sweep_to_end(CHAIN.replace("continue_along: contact.restitution\n", ""))
+        damaged = out / "points" / self.rows()[1]["point"]
+        for text, mention in {'{"validity": {"findings": [1]}}': "is damaged", "": "summary.json"}.items():
+            with self.subTest(text):
+                (damaged / "summary.json").write_text(text, encoding="utf-8")
+                result = self.riesel("collect", "out")
+                self.assertEqual(result.returncode, 0)
+                self.assertIn(f"{damaged.name}/summary.json", result.stderr)
+                self.assertIn(mention, result.stderr)
+                self.assertEqual([row["state_hash"] != "" for row in self.rows()], [True, False, True])
+                self.assertIn("summary.json", self.rows()[1]["reason"])
+
+    def test_large_numbers_are_told_with_all_their_digits(self):
+        listed = self.sweep(CHAIN.replace("continue_along: contact.restitution", "seeds: [20240101, 20240102]"), "out",
+                            "--dry-run")
+        for number in ("seed=20240101", "seed=20240102", "contact.restitution=0.7 "):
+            self.assertIn(number, listed.stdout)
+
+    def test_a_list_stands_in_one_line(self):
+        self.write("wall.yaml", "scenario: single_wall_grain\ncontact: {stiffness: 2000 N/m, restitution: 0.9}\n")
+        listed = self.sweep("base: wall.yaml\naxes: {impact.axial_velocity: [[1, 2, 3, 4, 5, 6], [2, 4]]}\n", "out",
+                            "--dry-run")
+        self.assertIn("impact.axial_velocity=[1.0, 2.0, 3.0, 4.0, 5.0, 6.0] seed", listed.stdout)
+
+    def test_another_sweep_is_not_put_in_its_place(self):
+        out = self.sweep_to_end(ONE_POINT)
+        before = bytes_of_files(out / "points") | {"table": (out / "sweep.csv").read_bytes()}
+        other = ONE_POINT.replace("2000", "3000")
+        self.assert_refused(self.sweep(other), "holds another sweep", "--out")
+        self.assertEqual(bytes_of_files(out / "points") | {"table": (out / "sweep.csv").read_bytes()}, before)
+        both = self.sweep(other.replace("[3000 N/m]", "[2000 N/m, 3000 N/m]"))
+        self.assertNotIn("are not in this sweep", both.stderr)
+        self.assertIn("1 of 2 points that were here are not in this sweep", self.sweep(other).stderr)
+        self.assertEqual(len(self.rows()), 1)
+
+    def test_a_start_counts_by_what_stands_in_it(self):
+        earlier = self.run_small_tube("earlier", "--set", "run.duration=1 ms")
+        text = ("base: tube.yaml\nset: {run.duration: 1 ms, start.kind: continued, start.from: earlier}\n"
+                "axes: {contact.friction: [0.5]}\n")
+        base = SMALL_TUBE.replace("start: {random_velocity: 2 m/s}\n", "")
+        self.write("tube.yaml", base)
+        self.sweep_to_end(text)
+        name = self.points()[0]["name"]
+        (self.home / "elsewhere").mkdir()
+        self.write("elsewhere/tube.yaml", base)
+        self.write("elsewhere/sweep.yaml", text.replace("earlier", str(earlier)))
+        self.assert_done(self.riesel("sweep", "elsewhere/sweep.yaml", "--out", "there", "--prepare"))
+        self.assertEqual(self.points("there")[0]["name"], name)
+        self.resume_to_end(earlier, "--set", "run.duration=2 ms")
+        self.assert_done(self.sweep(text, "again", "--prepare"))
+        self.assertNotEqual(self.points("again")[0]["name"], name)
+
     def test_the_table_holds_all_values_of_the_summaries(self):
         out = self.sweep_to_end(GRID)
         with h5py.File(out / "sweep.h5") as file:
@@ -363,6 +416,12 @@ class Tasks(SweepTest):
         self.assert_refused(self.sweep(CHAIN), "out: holds a run", "--out")
         self.assertEqual(bytes_of_files(self.home / "out"), before)
 
+    def test_the_directory_of_a_sweep_is_no_place_for_a_run(self):
+        self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
+        before = bytes_of_files(self.home / "out")
+        self.assert_refused(self.riesel("run", "tube.yaml", "--out", "out"), "out: holds a sweep", "--out")
+        self.assertEqual(bytes_of_files(self.home / "out"), before)
+
 
 class Mistakes(SweepTest):
     """One message that says where, which key, what is wrong and what to do; nothing written."""
@@ -392,6 +451,8 @@ class Mistakes(SweepTest):
             "seed: is set twice", "sweep.yaml:2:9"],
         "base: tube.yaml\nset: {gravity: 0}\naxes: {gravity: [1]}": ["gravity: is set twice"],
         "base: tube.yaml\naxes: {}": [":2:7: axes: expected keys"],
+        "base: tube.yaml\naxes: {run.stepping: [plain, windows]}": [
+            ":2:8: run.stepping: changes no result", "leave it out"],
         "base: tube.yaml\nseeds: 0": [":2:8: seeds: must be from 1"],
         "base: tube.yaml\nseeds: []": [":2:8: seeds: the list is empty"],
         "base: tube.yaml\nseeds: [1, x]": [":2:12: seed: expected an integer"],
@@ -454,9 +515,9 @@ class Shipped(SweepTest):
         examples = [text for text in re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
                     if "base:" in text]
         self.assertEqual(len(examples), 2)
-        for text in examples:
-            self.sweep_to_end(text.replace("base: ", f"base: {SHIPPED.parent}/"), "out", "--jobs", 2)
-            self.assertEqual({row["status"] for row in self.rows()}, {"done"})
+        for number, text in enumerate(examples):
+            self.sweep_to_end(text.replace("base: ", f"base: {SHIPPED.parent}/"), f"out{number}", "--jobs", 2)
+            self.assertEqual({row["status"] for row in self.rows(f"out{number}")}, {"done"})
 
     def test_the_files_of_the_figures_are_sweeps(self):
         files = sorted((SHIPPED / "paper").glob("*.yaml"))

@@ -253,6 +253,11 @@ class Prolonged(SweepTest):
         self.assert_is_whole("0.9", LONG_ENOUGH_TO_INTERRUPT)
 
 
+    def test_what_is_taken_out_need_not_be_there(self):
+        self.sweep_to_end(TWO)
+        self.assert_done(self.go_on("run.duration=5 ms", "limits.speed="))
+
+
 class Refused(SweepTest):
 
     def assert_refused_without_a_trace(self, arguments, *mentions):

@@ -88,6 +88,12 @@ class Until(UntilTest):
         self.assertEqual(self.end_of(out)[0], "at_most")
         self.assertAlmostEqual(self.summary(out)["time"], 0.4, delta=1e-5)
 
+    def test_a_precision_that_is_reached_just_at_the_limit_counts(self):
+        precise = self.summary(self.run_until("out"))
+        out = self.run_until("limited", "--set", f"run.until.at_most={precise['time']!r}")
+        self.assertEqual(self.summary(out)["ended_by"], "precision")
+        self.assertEqual(self.state_hash(out), precise["state_hash"])
+
     def test_a_runaway_goes_on_to_the_limit(self):
         out = self.run_until("out", "--set", "start.axial_velocity=20 m/s", "--set",
                              "run.until.relative_error=100 %", "--set", "run.until.at_most=0.5 s")

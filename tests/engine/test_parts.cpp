@@ -1,5 +1,6 @@
 // The tube in parts, each stepped by a thread of its own for many steps: the same bits, also where
 // news comes through the margins.
+#include "engine/part.hpp"
 #include "engine/parts.hpp"
 #include "engine/simulation.hpp"
 #include "engine/wall_watch.hpp"
@@ -94,6 +95,43 @@ TEST_CASE("parts of a run in pieces, in any order of the slots, come to the same
   while (simulation.state().step < 1000)
     simulation.advance(std::min(dice.below(90), 1000 - simulation.state().step));
   CHECK(same(simulation.state(), advanced(start, paper_model(), 1000, 1, Stepping::plain)));
+}
+
+TEST_CASE("parts of a run in very many short pieces go on") {
+  // Longer and longer stretches are tried; short ones must not be taken for a success of these.
+  constexpr std::int64_t steps = 3, pieces = 2500;
+  const State start = corrugated_tube(91, {.length = 180e-3,
+                                           .wall_grains = 150,
+                                           .grains = 60,
+                                           .speed = 0.01,
+                                           .polydispersity = 0.0,
+                                           .inertia = 0.0});
+  Simulation simulation(start, paper_model(), 2, Stepping::plain, {}, Sharing::apart);
+  for (std::int64_t i = 1; i <= pieces; ++i) {
+    simulation.advance(steps);
+    REQUIRE(simulation.state().step == i * steps);
+  }
+  CHECK(
+      same(simulation.state(), advanced(start, paper_model(), steps * pieces, 1, Stepping::plain)));
+}
+
+TEST_CASE("no grain belongs to a part without length") {
+  const Fixed y = GENERATE(Fixed{0}, Fixed{1} << 40, -(Fixed{1} << 52));
+  const auto begin = static_cast<std::uint64_t>(y);
+  CHECK(Extent{.begin = begin, .length = 0, .margin = 0}.distance(y) == 1);
+  CHECK(Extent{.begin = begin, .length = 1, .margin = 0}.distance(y) == 0);
+  CHECK(Extent{.begin = begin - 1, .length = 1, .margin = 0}.distance(y) == 1);
+}
+
+TEST_CASE("all grains in rows upon each other: some parts are empty") {
+  // All of them in one part of the 4096 of which the borders are made.
+  State start = empty_box(20e-3, 4.096);
+  for (const double y : {5.1e-3, 5.95e-3})
+    for (int i = 0; i < 10; ++i) add_grain(start, grain((2.0 + 1.5 * i) * 1e-3, y, 0.01 * i, 0.0));
+  const int threads = GENERATE(2, 3, 4);
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  CHECK(same(apart(start, paper_model(), 300, threads, stepping),
+             advanced(start, paper_model(), 300, 1, Stepping::plain)));
 }
 
 TEST_CASE("few grains begin on one thread or apart, many on all threads together") {

@@ -44,6 +44,13 @@ TEST_CASE("a column without a unit is in SI units, and a byte order mark is no p
   CHECK(table.value(0, "mass") == 3e-6);
 }
 
+TEST_CASE("a heading may have the other name of a unit") {
+  const std::vector<CsvColumn> spin = {{.name = "spin", .unit = "1/s", .also = "rad/s"}};
+  for (const char* heading : {"spin", "spin (1/s)", "spin (rad/s)"})
+    CHECK(parse_csv(std::string(heading) + "\n3\n", "t.csv", spin).value(0, "spin") == 3.0);
+  CHECK(parse_csv("spin (1/ms)\n3\n", "t.csv", spin).value(0, "spin") == 3000.0);
+}
+
 TEST_CASE("what is wrong with a table is told with its place and a remedy") {
   check_begins(complaint(""), "t.csv: has no rows; give a line with the columns x, vx, mass");
   check_begins(complaint("x,vx\n"), "t.csv: has no rows;");
@@ -51,7 +58,8 @@ TEST_CASE("what is wrong with a table is told with its place and a remedy") {
   check_begins(complaint("x,vx, y\n1,2,3\n"), "t.csv:1:7: y: unknown column;");
   check_begins(complaint("x,vx,x\n1,2,3\n"), "t.csv:1:6: x: stands there twice;");
   check_begins(complaint("x (mm,vx\n1,2\n"), "t.csv:1:1: x: has a unit without an end;");
-  check_begins(complaint("x (s),vx\n1,2\n"), "t.csv:2:1: x: 's' is no unit for it;");
+  check_begins(complaint("x (s),vx\n1,2\n"), "t.csv:1:1: x: 's' is no unit for it;");
+  check_begins(complaint("\"x\",vx\n1,2\n"), "t.csv:1:1: has quotation marks in the first line;");
   check_begins(complaint("x,vx\n1,2\n\n3\n"), "t.csv:4:1: has 1 cells, and the first line 2;");
   check_begins(complaint("x,vx\n1,2,3\n"), "t.csv:2:5: has 3 cells, and the first line 2;");
   for (const std::string bad : {"nan", "inf", "", "1 mm", "0x10", "one", "1e999"}) {
