@@ -19,11 +19,12 @@ std::string call_of(std::string_view subcommand, const std::filesystem::path& pa
 }
 
 std::string explanation_of_state(const io::FlowSummary& s) {
-  const char* of_what = s.judged_by == "granular_temperature" ? " of the granular temperature" : "";
+  const bool by_temperature = s.judged_by == "granular_temperature";
+  const char* of_what = by_temperature ? " of the granular temperature" : "";
   if (s.state == "steady") return fmt::format("no trend{} after the transient", of_what);
   if (s.state == "accelerating")
-    return *of_what != '\0' ? "the granular temperature still grows: its mean is no steady one"
-                            : "the grains still gain speed: the mean is no steady velocity";
+    return by_temperature ? "the granular temperature still grows: its mean is no steady one"
+                          : "the grains still gain speed: the mean is no steady velocity";
   if (s.state == "drifting")
     return fmt::format("there still is a trend{}: the mean is no steady one", of_what);
   if (s.independent_samples < min_independent_samples)

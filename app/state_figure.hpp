@@ -15,9 +15,9 @@ struct StateFigure {
   std::size_t grains_drawn;  ///< each once: those with y < length_shown
 };
 
-/// Gravity points down. A long tube is cut into the columns that fill the figure best. Of a tube so
-/// large that its grains would not be seen only the part from y = 0 on is shown. Grains of the
-/// class "grains", wall grains of "walls", contacts of "contacts".
+/// y, along the walls, points down. A long tube is cut into the columns that fill the figure best.
+/// Of a tube so large that its grains would not be seen only the part from y = 0 on is shown.
+/// Grains of the class "grains", wall grains of "walls", contacts of "contacts".
 StateFigure draw_state(const io::FinalState& state);
 
 }  // namespace riesel::app

@@ -11,6 +11,7 @@
 #include "app/terminal.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
+#include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/shell_words.hpp"
@@ -48,11 +49,19 @@ void write_plan(const SweepPlan& plan, const fs::path& sweep) {
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
 }
 
+/// Of the sweep that was here before; none if its manifest cannot be read: it is made anew.
+std::vector<io::ManifestPoint> points_before(const fs::path& sweep) {
+  try {
+    return io::read_manifest(sweep).points;
+  } catch (const io::FileError&) {
+    return {};
+  }
+}
+
 /// Points that were here, and are none of this sweep. Their runs stay, but no table lists them any
 /// more: not if they are all, and some are done.
 void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
-  if (!fs::exists(sweep / io::manifest_name)) return;
-  const std::vector<io::ManifestPoint> earlier = manifest_in(sweep).points;
+  const std::vector<io::ManifestPoint> earlier = points_before(sweep);
   const auto is_gone = [&](const io::ManifestPoint& point) {
     return std::ranges::find(plan.manifest.points, point.name, &io::ManifestPoint::name)
            == plan.manifest.points.end();

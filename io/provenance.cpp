@@ -2,6 +2,7 @@
 
 #include "io/build_info.hpp"
 #include "io/shell_words.hpp"
+#include "io/utf8.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ std::string date() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std
 std::string command_line(const std::vector<std::string>& arguments) {
   std::string line;
   for (const auto& argument : arguments) line += (line.empty() ? "" : " ") + in_quotes(argument);
-  return line;
+  return made_utf8(line);  // names of files may be anything
 }
 
 void add_build(Provenance& provenance) {

@@ -21,9 +21,9 @@
 namespace riesel::io {
 
 struct SweepPoint {
-  Settings settings;  ///< checked, its start included
-  std::string yaml;  ///< the settings file of the run; without its start where a neighbour gives it
-  std::string name;  ///< 16 hexadecimal digits; equal for points that are the same run
+  Settings settings;  ///< checked; in a continuation with the start of the first
+  std::string yaml;   ///< the settings file of the run; its start is the neighbour, if it has one
+  std::string name;   ///< 16 hexadecimal digits; equal for points that are the same run
   std::optional<std::size_t> parent;  ///< index of the neighbour that it starts from
   std::string branch;                 ///< its name; empty if the sweep has none
   std::string leg;                    ///< "forward" or "backward" in a continuation, else empty

@@ -35,7 +35,8 @@ private:
 };
 
 /// All single values of the summary.json of a run, nested names joined by dots
-/// ("mean_axial_velocity.error"); lists are left out. Throws FileError.
+/// ("mean_axial_velocity.error"); of lists only `findings`, by their names, and `lines`, by their
+/// v_x. Throws FileError.
 std::vector<std::pair<std::string, Cell>> flat_summary(const std::filesystem::path& path);
 
 inline constexpr auto sweep_csv_name = "sweep.csv";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace riesel::io {
@@ -40,6 +41,17 @@ inline bool is_utf8(std::string_view text) {
     i += length;
   }
   return true;
+}
+
+/// With a question mark for each byte that is no part of it.
+inline std::string made_utf8(std::string_view text) {
+  std::string made;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    made += length == 0 ? "?" : text.substr(i, length);
+    i += std::max<std::size_t>(length, 1);
+  }
+  return made;
 }
 
 /// Editors of other systems put one at the beginning of a file.
