@@ -25,13 +25,13 @@ bool stopped_before_checkpoint(const std::filesystem::path& directory);
 
 class RunDirectory {
 public:
-  /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run in
-  /// it already, io::FileError if it cannot be written.
+  /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run or a
+  /// sweep in it already, io::FileError if it cannot be written.
   static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
   /// The directory of a run that is to go on. Nothing in it is changed.
   static RunDirectory reopen(const std::filesystem::path& path);
   /// Nothing is in the way of the run: its settings may have changed, and it has no result now but
-  /// summary.json.previous.
+  /// summary.json.previous, and no report.
   void go_on(const io::Settings& settings) const;
   /// The result. Throws io::FileError.
   void write_summary(const std::string& text) const;

@@ -27,11 +27,13 @@ void Cells::forget() {
 
 void Cells::lay_out(const State& state, double range) {
   const Grains& grains = state.grains;
-  // A part of a tube may have no grains.
-  const auto [leftmost, rightmost] =
-      grains.size() > 0 ? std::ranges::minmax(grains.x) : std::ranges::minmax({Fixed{0}});
-  left_edge_ = leftmost;
-  const double extent = quanta_from_left(rightmost);
+  left_edge_ = 0;
+  double extent = 0.0;
+  if (grains.size() > 0) {  // a part of a tube may have none
+    const auto [leftmost, rightmost] = std::minmax_element(grains.x.begin(), grains.x.end());
+    left_edge_ = *leftmost;
+    extent = quanta_from_left(*rightmost);
+  }
   const double width = extent * state.box.quantum_x();
   // Cells may be larger than the range, and are where grains are few and small for the box: about
   // as many as grains are enough.

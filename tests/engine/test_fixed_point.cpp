@@ -51,4 +51,7 @@ TEST_CASE("the fall of many steps is that of single ones") {
     CHECK(sum_of_steps(7, step - 1) == sum);
     sum += step;
   }
+  constexpr std::int64_t late = std::int64_t{1} << 60;
+  CHECK(sum_of_steps(late, late + 3) == 3 * late + 6);
+  CHECK(sum_of_steps(late + 1, late + 5) == 4 * late + 14);
 }

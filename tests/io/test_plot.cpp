@@ -40,6 +40,11 @@ TEST_CASE("Ticks are round numbers within the range") {
   CHECK_FALSE(std::signbit(ticks({-0.5, 0.5}, 3).at(1)));
 }
 
+TEST_CASE("There are few ticks even where they are the same number") {
+  CHECK(ticks({1000.0, std::nextafter(1000.0, 1001.0)}, 6).size() <= 6);
+  CHECK(ticks({-3e19, -3e19 + 4096.0}, 6).size() <= 6);
+}
+
 TEST_CASE("There are at least one and at most so many ticks, whatever the range") {
   for (int exponent = -12; exponent <= 12; ++exponent)
     for (const double low : {0.0, -0.37, 1.7})

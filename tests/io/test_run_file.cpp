@@ -339,16 +339,17 @@ TEST_CASE("A run file holds a curve") {
 
 TEST_CASE("Provenance tells the origin, the build, the machine and the time") {
   setenv("SLURM_JOB_ID", "4711", 1);
-  const auto collected = collect_provenance({.arguments = {"riesel", "run", "it's a file.yaml"},
-                                             .seed = 7,
-                                             .threads = 3,
-                                             .source = "source",
-                                             .settings = "settings",
-                                             .run = 0x1f});
+  const auto collected =
+      collect_provenance({.arguments = {"riesel", "run", "it's a file.yaml", "bad\xff"},
+                          .seed = 7,
+                          .threads = 3,
+                          .source = "source",
+                          .settings = "settings",
+                          .run = 0x1f});
   unsetenv("SLURM_JOB_ID");
   const std::map<std::string, std::string> values(collected.begin(), collected.end());
   CHECK(values.size() == collected.size());
-  CHECK(values.at("command") == "riesel run 'it'\\''s a file.yaml'");
+  CHECK(values.at("command") == "riesel run 'it'\\''s a file.yaml' 'bad?'");
   CHECK(values.at("seed") == "7");
   CHECK(values.at("threads") == "3");
   CHECK(values.at("source") == "source");

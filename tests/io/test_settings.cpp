@@ -182,7 +182,7 @@ TEST_CASE("effective.yaml of the longest list can be read again") {
 
 TEST_CASE("texts of any content survive effective.yaml") {
   for (const std::string text :
-       {"null", "~", "true", "a: b # c", "it's \\\"x\\\"", "ü\\n\\tz", "- 1"}) {
+       {"null", "~", "true", "a: b # c", "it's \\\"x\\\"", "ü\\n\\tz", "- 1", "a\\x7Fb"}) {
     const auto first = read(tube + "output: {title: \"" + text + "\"}\n");
     CHECK(read(first.effective_yaml()).text("output.title") == first.text("output.title"));
   }

@@ -91,6 +91,14 @@ TEST_CASE("elastic beads lose no energy, but those that touch at once part") {
   CHECK(elastic.rebound < 0.99);
 }
 
+TEST_CASE("a drop that goes through the plate is given up at once") {
+  ColumnSetup setup = column(10, 2e3);
+  setup.velocity = 100.0;
+  const ColumnResult through = drop_at(setup, 30.0);
+  CHECK_FALSE(through.over);
+  CHECK(through.steps < 100'000);  // patience would last for millions
+}
+
 TEST_CASE("a column falls the same by windows and plainly") {
   const double gap_ratio = GENERATE(0.03, 0.5, 20.0);
   const ColumnSetup setup = column(6, 2e3);
