@@ -223,6 +223,7 @@ case $command in
   test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     build ci
+    sync # what has been built: tests with limits on the clock would wait for it
     say "Testing"
     ctest --preset ci --parallel "$(nproc)" "$@"
     ;;
