@@ -29,15 +29,14 @@ double slope_of_pushed_decay(double decay) {
 /// below never lead too far, and have come to the end when they do not go up any more.
 double decay_by_pushed(double pushed) {
   double decay = pushed;
-  for (double next = 0.0;; decay = next) {
-    next = decay + (pushed - pushed_decay(decay)) / slope_of_pushed_decay(decay);
+  while (true) {
+    const double next = decay + (pushed - pushed_decay(decay)) / slope_of_pushed_decay(decay);
     if (!(next > decay)) return decay;
+    decay = next;
   }
 }
 
 }  // namespace
-
-const double least_restitution_without_pull = std::exp(-2.0);
 
 bool LinearContact::rebounds() const { return frequency_squared(*this) > 0.0; }
 

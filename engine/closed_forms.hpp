@@ -25,8 +25,8 @@ struct LinearContact {
   double restitution() const;
 };
 
-/// What critical damping leaves to a linear contact that may not pull.
-extern const double least_restitution_without_pull;
+/// What critical damping leaves to a linear contact that may not pull: exp(-2).
+inline constexpr double least_restitution_without_pull = 0.13533528323661270;
 
 /// 1/s, the gamma_N that gives restitution 0 < e_N <= 1 to a linear contact. Throws
 /// std::domain_error if it may not pull and e_N is not above least_restitution_without_pull.

@@ -77,6 +77,7 @@ TEST_CASE("an elastic contact needs no damping") {
 }
 
 TEST_CASE("a contact that may not pull keeps more than exp(-2) of the velocity") {
+  CHECK_THAT(least_restitution_without_pull, WithinRel(std::exp(-2.0), 1e-15));
   for (const double e : {0.1353, 0.01})
     CHECK_THROWS_AS(damping_for_restitution(e, 2000.0, 1e-6, Attraction::clip), std::domain_error);
 }
