@@ -20,9 +20,9 @@ browser_packages=(chromium)
 coverage_packages=(gcovr)
 # Show trajectories to the tests, which are skipped without them.
 look_packages=(paraview python3-paraview ffmpeg)
-# Another code and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
+# Other codes and libraries of vector types, to compare speeds with (docs/suite.md); nothing else
 # needs them.
-peer_packages=(lammps openmpi-bin libxsimd-dev libhwy-dev)
+peer_packages=(lammps liggghts yade openmpi-bin libxsimd-dev libhwy-dev)
 
 # A queue, in which tests can run sweeps (docs/cluster.md).
 cluster_packages=(slurm-wlm munge)
@@ -50,7 +50,8 @@ Usage: ./setup.sh COMMAND
              test does, or below 95 % of engine or of io; further arguments go to ctest
   format     let clang-format rewrite the C++ sources
   packages   install the Debian packages that are missing
-  peers      install LAMMPS too, for bench/peers/run.py, xsimd and Highway, for bench/simd
+  peers      install LAMMPS, LIGGGHTS and YADE too, for bench/peers/run.py, xsimd and Highway,
+             for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
   look       install ParaView and ffmpeg too, and test that they show trajectories
   cluster    install Slurm and munge too: sweeps can be tested on them

@@ -58,6 +58,7 @@ void make_state(const StartStates& states, const std::string& case_name, const s
   const ContactModel model = model_of(checkpoint);
   const auto* linear = std::get_if<LinearLaw>(&model.normal);
   const auto* viscous = std::get_if<ViscousSlip>(&model.slip);
+  const auto* spring = std::get_if<SpringSlip>(&model.slip);
   print({{"checkpoint", std::filesystem::absolute(path).string()},
          {"grains", checkpoint.state.grains.size()},
          {"time_step", checkpoint.state.time_step},
@@ -66,6 +67,7 @@ void make_state(const StartStates& states, const std::string& case_name, const s
          {"gamma_n", linear != nullptr ? Json(linear->gamma_n) : Json()},
          {"mu", model.friction},
          {"gamma_t", viscous != nullptr ? Json(viscous->gamma_t) : Json()},
+         {"k_t", spring != nullptr ? Json(spring->k_t) : Json()},
          {"state", json(checkpoint.state)}});
 }
 

@@ -1,67 +1,85 @@
-"""Runs tube.lmp with LAMMPS and reads what it says."""
+"""Runs the tube with LAMMPS and with LIGGGHTS, which began as a copy of it: both read the same data file, and say the same."""
 
-import os
 import re
-import shutil
-import subprocess
 from pathlib import Path
 
-INPUT = Path(__file__).resolve().parent / "tube.lmp"
+import numpy as np
+from peer import debian_version, find_program, output_of, pinned, run
 
-
-class NotInstalled(Exception):
-    """A program that is needed is not there."""
-
-
-def output_of(command):
-    """What a program that may fail prints."""
-    return subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
-
-
-def installed_version(program):
-    """As LAMMPS calls itself, and as Debian does where it is from there."""
-    own = re.search(r"Simulator - (.*)", output_of([program, "-h"]))
-    debian = output_of(["dpkg-query", "-W", "-f=${Version}", "lammps"])
-    return (own.group(1).strip() if own else "of unknown version") + (f", Debian package {debian}" if debian else "")
+HERE = Path(__file__).resolve().parent
 
 
 class Lammps:
-    """`pinned` turns a command into one that stays on one core."""
+    """Settings are the skin (m) and the steps between two looks at the neighbour list."""
+    name, law, about = "lammps", "viscous", 4e7
+    usual = {"skin": 0.2e-3, "every": 5}
+    choices = {"skin": (0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3), "every": (1, 5, 10)}
 
-    def __init__(self, pinned):
-        self.program = os.environ.get("LMP", "lmp")
-        for needed in (self.program, "mpirun", "taskset"):
-            if shutil.which(needed) is None:
-                raise NotInstalled(f"{needed} is not installed; on Debian, `./setup.sh peers` installs it")
-        self.pinned = pinned
-        self.version = installed_version(self.program)
-        self.skin, self.every = 0.2e-3, 5  # until tuned
+    def __init__(self):
+        self.program = find_program("lmp", "LMP", "mpirun", "taskset")
+        own = re.search(r"Simulator - (.*)", output_of([self.program, "-h"]))
+        self.version = (own[1].strip() if own else "of unknown version") + debian_version("lammps")
 
-    def advance(self, start, ranks, warm_up, steps):
-        """Steps the state in start["data"]: the time of the last `steps` steps, and the state after them."""
-        variables = {name: start[name] for name in ("data", "gravity", "k_n", "gamma_n", "gamma_t", "mu")}
-        variables |= {"dt": start["time_step"], "skin": self.skin, "every": self.every, "warm_up": warm_up, "steps": steps}
-        command = [self.program, "-in", str(INPUT), "-log", "none"]
+    @staticmethod
+    def density(mass, radius):
+        """kg/m^3, of which it makes the mass: all are spheres."""
+        return mass / (4.0 / 3.0 * np.pi * radius**3)
+
+    def write(self, start):
+        write_data(start["state of grains"], self.density, start["files"][self.name])
+
+    def advance(self, start, settings, cores, warm_up, steps):
+        variables = {name: start[name] for name in ("gravity", "k_n", "gamma_n", "gamma_t", "mu")}
+        variables |= settings | {"data": start["files"][self.name], "dt": start["time_step"], "warm_up": warm_up, "steps": steps}
+        command = [self.program, "-in", str(HERE / f"tube.{self.name}"), "-log", "none"]
         for name, value in variables.items():
             command += ["-var", name, value if isinstance(value, str) else repr(value)]
-        command = self.pinned(command) if ranks == 1 else ["mpirun", "-np", str(ranks), "--bind-to", "core", *command]
-        environment = os.environ | {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                                    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        done = subprocess.run(command, check=False, env=environment, text=True, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT)
-        if done.returncode != 0:
-            raise RuntimeError(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}")
-        return read_answer(done.stdout, start["grains"], steps)
+        command = pinned(command) if cores == 1 else ["mpirun", "-np", str(cores), "--bind-to", "core", *command]
+        return read_answer(run(command, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+                               OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1"))
 
 
-def read_answer(text, grains, steps):
-    """What the log of a run says of its last `steps` steps."""
-    seconds = float(re.findall(r"^Loop time of (\S+)", text, re.MULTILINE)[-1])
+class Liggghts(Lammps):
+    """The same, but for its grains in two dimensions and how it is called."""
+    name, about = "liggghts", 2e7
+
+    def __init__(self):
+        self.program = find_program("liggghts", "LIGGGHTS", "mpirun", "taskset")
+        own = re.search(r"Version LIGGGHTS-PUBLIC ([0-9.]+)", output_of([self.program, "-h"]))
+        self.version = (own[1] if own else "of unknown version") + debian_version("liggghts")
+
+    @staticmethod
+    def density(mass, radius):
+        """kg/m^2, of which it makes the mass: all are discs."""
+        return mass / (np.pi * radius**2)
+
+
+def write_data(state, density, path):
+    """Atoms as `atom_style sphere` wants them: id, type, diameter, density, x, y, z. Free grains are atoms 1 ... N of type 1,
+    the wall grains follow as type 2."""
+    free, walls = len(state.radius), len(state.wall_radius)
+    radius = np.concatenate([state.radius, state.wall_radius])
+    mass = np.concatenate([state.mass, np.full(walls, state.mass.mean())])  # of frozen grains: of no consequence
+    position = np.concatenate([state.position, state.wall_position])
+    ids, zeros = np.arange(1, free + walls + 1), np.zeros(free + walls)
+    margin = 2.0 * radius.max()  # across the tube, where the box ends beyond the walls
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"tube\n\n{free + walls} atoms\n2 atom types\n\n"
+                   f"{-margin:.17g} {state.width + margin:.17g} xlo xhi\n0 {state.length:.17g} ylo yhi\n"
+                   f"{-margin:.17g} {margin:.17g} zlo zhi\n\nAtoms # sphere\n\n")
+        kind = np.where(ids <= free, 1, 2)
+        np.savetxt(file, np.column_stack([ids, kind, 2.0 * radius, density(mass, radius), position, zeros]),
+                   fmt="%d %d %.17g %.17g %.17g %.17g %g")
+        file.write("\nVelocities\n\n")
+        velocity = np.concatenate([state.velocity, np.zeros((walls, 2))])
+        np.savetxt(file, np.column_stack([ids, velocity, zeros, zeros, zeros, zeros]), fmt="%d %.17g %.17g %g %g %g %g")
+
+
+def read_answer(text):
+    """What the log of a run says of its last steps."""
     # One row of numbers at the beginning of each run, one at its end: step, mean v_x, mean v_y, energy, contacts.
     last = [row.split() for row in text.splitlines() if re.fullmatch(r"\s*\d+(\s+[-+.e\d]+){4}\s*", row)][-1]
-    dangerous = re.findall(r"^Dangerous builds = (\d+)", text, re.MULTILINE)
-    return {"seconds": seconds,
-            "particle_steps_per_second": grains * steps / seconds,
-            "dangerous_builds": sum(map(int, dangerous)),
+    return {"seconds": float(re.findall(r"^Loop time of (\S+)", text, re.MULTILINE)[-1]),
+            "too_late": sum(map(int, re.findall(r"^Dangerous builds = (\d+)", text, re.MULTILINE))),
             "state": {"mean_vx": float(last[1]), "mean_vy": float(last[2]), "kinetic_energy": float(last[3]),
                       "contacts_of_grains": float(last[4])}}

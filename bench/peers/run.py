@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""riesel and LAMMPS side by side on the same states: python3 bench/peers/run.py
+"""riesel and other codes side by side on the same states: python3 bench/peers/run.py
 
-For each case both start from the same riesel checkpoints, with the same contact law and the same time step. First it is
-checked that they do the same physics over a short time. Then LAMMPS's neighbour list is tuned. Then all are timed in turns
-over the same steps, each time from the state of another seed. docs/suite.md says more. Exit status: 1 if the physics does
-not agree or a program fails.
+For each case all start from the same riesel checkpoints, with the same contact law and the same time step. First it is
+checked that they do the same physics over a short time. Then the others' neighbour lists are tuned. Then all are timed in
+turns, each time from the state of another seed. docs/suite.md says more. Without --peer it takes those that are installed.
+Exit status: 1 if the physics does not agree or a program fails.
 """
 
 import argparse
@@ -13,32 +13,35 @@ import json
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from compare import FORMAT_VERSION, PEERS, paired_ratio  # noqa: E402
-from lammps import Lammps, NotInstalled  # noqa: E402
-from lammps_data import read_state, write_lammps_data  # noqa: E402
+from lammps import Lammps, Liggghts  # noqa: E402
+from peer import NotInstalled, pinned  # noqa: E402
+from states import read_state  # noqa: E402
+from yade import Yade  # noqa: E402
 
-# case of the suite -> gamma_t (1/s) of the viscous slip law, which both codes have
-CASES = {"tube_start": 2e5, "tube_slow": 2e5, "tube_stiff": 2e6, "dense_sheared": 2e5}
+CODES = {code.name: code for code in (Lammps, Liggghts, Yade)}
+
+# case of the suite -> k_N (N/m) and gamma_t (1/s) of its viscous slip law
+CASES = {"tube_start": (2e3, 2e5), "tube_slow": (2e3, 2e5), "tube_stiff": (2e5, 2e6), "dense_sheared": (2e3, 2e5)}
 SIZES = ("1.4k", "10k", "100k", "1M")
 
-RIESEL = {"riesel plain 1": ("plain", 1, "together"), "riesel plain 2": ("plain", 2, "together"),
-          "riesel plain 2 apart": ("plain", 2, "apart"), "riesel windows 1": ("windows", 1, "together"),
-          "riesel windows 2": ("windows", 2, "together"), "riesel windows 2 apart": ("windows", 2, "apart")}
-LAMMPS_RANKS = {"lammps 1": 1, "lammps 2": 2}
-RATIOS = [("riesel plain 1", "lammps 1"), ("riesel plain 2", "lammps 2"), ("riesel plain 2 apart", "lammps 2"),
-          ("riesel windows 1", "lammps 1"), ("riesel windows 2", "lammps 2"), ("riesel windows 2 apart", "lammps 2")]
+# Contact laws that riesel shares with others: its settings.
+LAWS = {"viscous": lambda k_n, gamma_t: ["contact.slip=viscous", f"contact.slip_damping={gamma_t!r}"],
+        "spring": lambda k_n, gamma_t: ["contact.slip=spring", f"contact.slip_stiffness={2.0 / 7.0 * k_n!r} N/m",
+                                        "contact.attraction=clip"]}
 
-SKINS = (0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3)  # m
-LOOKS = (1, 5, 10)  # steps between two looks at the neighbour list
-
-
-def pinned(command):
-    """On one core, so that nothing moves it about."""
-    return ["taskset", "-c", "0", *command]
+CORES = (1, 2)
+RIESEL = {"plain 1": ("plain", 1, "together"), "plain 2": ("plain", 2, "together"), "plain 2 apart": ("plain", 2, "apart"),
+          "windows 1": ("windows", 1, "together"), "windows 2": ("windows", 2, "together"),
+          "windows 2 apart": ("windows", 2, "apart")}
+LEAST_SPEED = 4e7  # particle-steps/s: riesel is timed over no less than what takes a code of that speed a repetition
 
 
 class Riesel:
@@ -52,9 +55,10 @@ class Riesel:
         return json.loads(subprocess.run(pinned(command) if pin else command, check=True,
                                          stdout=subprocess.PIPE).stdout)
 
-    def state(self, case, size, seed):
-        return self.ask("state", case, size, "--set", f"seed={seed}", "--set", "contact.slip=viscous",
-                        "--set", f"contact.slip_damping={CASES[case]!r}")
+    def start(self, case, size, seed, law):
+        settings = [f"seed={seed}", *LAWS[law](*CASES[case])]
+        start = self.ask("state", case, size, *(word for setting in settings for word in ("--set", setting)))
+        return start | {"state of grains": read_state(start["checkpoint"])}
 
     def advance(self, start, variant, warm_up, steps):
         stepping, threads, sharing = RIESEL[variant]
@@ -62,57 +66,53 @@ class Riesel:
                         "--warm-up", warm_up, "--steps", steps, pin=threads == 1)
 
 
-def physics(riesel, lammps, start, steps):
+def agreement(riesel, peer, start, steps):
     """What both codes make of a state, and whether that is the same. Over this short time the grains keep to their courses,
     so that the numbers agree to the errors of the time step; later only statistics would."""
-    ours = riesel.advance(start, "riesel plain 1", 0, steps)["state"]
-    theirs = lammps.advance(start, ranks=1, warm_up=0, steps=steps)["state"]
+    ours = riesel.advance(start, "plain 1", 0, steps)["state"]
+    theirs = peer.advance(start, peer.usual, cores=1, warm_up=0, steps=steps)["state"]
     before = start["state"]["mean_vy"]
     gain, scale = ours["mean_vy"] - before, start["gravity"] * steps * start["time_step"]
     difference = theirs["mean_vy"] - ours["mean_vy"]
     contacts = ours["contacts_of_grains"], theirs["contacts_of_grains"]
-    agree = abs(difference) < 0.01 * scale and abs(contacts[0] - contacts[1]) <= max(4, 0.03 * contacts[0])
-    print(f"  after {steps} steps: mean v_y riesel {ours['mean_vy']:.7g} m/s, LAMMPS {theirs['mean_vy']:.7g} m/s "
+    agree = abs(difference) < 0.02 * scale and abs(contacts[0] - contacts[1]) <= max(4, 0.03 * contacts[0])
+    print(f"  after {steps} steps: mean v_y riesel {ours['mean_vy']:.7g} m/s, {peer.name} {theirs['mean_vy']:.7g} m/s "
           f"(change {gain:.3g}, difference {difference:.2g}); contacts of grains {contacts[0]:.0f}, {contacts[1]:.0f}; "
           f"kinetic energy {ours['kinetic_energy']:.7g} J, {theirs['kinetic_energy']:.7g} J"
-          f"{'' if agree else '  DO NOT AGREE'}")
-    return {"steps": steps, "riesel": ours, "lammps": theirs, "agree": agree}
+          f"{'' if agree else '  DO NOT AGREE'}", flush=True)
+    return {"steps": steps, "riesel": ours, "peer": theirs, "agree": agree}
 
 
-def tuned(lammps, start, steps):
-    """The skin and the steps between two looks with which LAMMPS is fastest without ever looking too late."""
-    tried = []
-
-    def speed(skin, every):
-        lammps.skin, lammps.every = skin, every
-        answer = lammps.advance(start, ranks=1, warm_up=steps // 4, steps=steps)
-        if answer["dangerous_builds"] == 0:
-            tried.append((answer["particle_steps_per_second"], skin, every))
-
-    for skin in SKINS:
-        speed(skin, 5)
-    if not tried:
-        raise RuntimeError("no skin is safe for LAMMPS")
-    skin = max(tried)[1]
-    for every in LOOKS:
-        speed(skin, every)
-    best, lammps.skin, lammps.every = max(tried)
-    print(f"  LAMMPS at its best: skin {lammps.skin * 1e3:g} mm, look every {lammps.every} steps "
-          f"({best * 1e-6:.1f} M/s while tuning)")
-    return best
+def tuned(peer, start, steps):
+    """The settings with which a peer is fastest without ever looking too late, and its speed then (particle-steps/s)."""
+    best, speed = peer.usual, 0.0
+    for name, values in peer.choices.items():
+        for settings in [best | {name: value} for value in values]:
+            answer = peer.advance(start, settings, cores=1, warm_up=steps // 4, steps=steps)
+            this_speed = start["grains"] * steps / answer["seconds"]
+            if answer["too_late"] == 0 and this_speed > speed:
+                best, speed = settings, this_speed
+    if speed == 0.0:
+        raise RuntimeError(f"no settings are safe for {peer.name}")
+    print(f"  {peer.name} at its best: {', '.join(f'{name} {value:g}' for name, value in best.items())} "
+          f"({speed * 1e-6:.1f} M/s while tuning)", flush=True)
+    return best, speed
 
 
-def timed(riesel, lammps, starts, steps):
-    """{variant: seconds of each repetition, for as many grains as the first start has}, in turns. Each repetition has a
-    start of its own: a state of few grains has by chance half or twice as many contacts as the mean."""
-    warm_up = max(20, steps // 10)
-    contenders = {name: lambda start, name=name: riesel.advance(start, name, warm_up, steps) for name in RIESEL}
-    contenders |= {name: lambda start, ranks=ranks: lammps.advance(start, ranks, warm_up, steps)
-                   for name, ranks in LAMMPS_RANKS.items()}
+class Contender(NamedTuple):
+    """One way to step a state."""
+    advance: Callable  # of start, warm_up, steps
+    steps: int
+
+
+def timed(contenders, starts):
+    """{name: seconds of each repetition, for as many grains as the first start has}, in turns. Each repetition has a start of
+    its own: a state of few grains has by chance half or twice as many contacts as the mean."""
     seconds = {name: [] for name in contenders}
     for start in starts:
-        for name, measure in contenders.items():
-            seconds[name].append(measure(start)["seconds"] * starts[0]["grains"] / start["grains"])
+        for name, (advance, steps) in contenders.items():
+            answer = advance(start, warm_up=max(20, steps // 10), steps=steps)
+            seconds[name].append(answer["seconds"] * starts[0]["grains"] / start["grains"])
     return seconds
 
 
@@ -125,44 +125,82 @@ def row_of(case, size, variant, grains, steps, seconds):
             "per_second": {"median": grains * steps / median, "max": grains * steps / min(seconds)}}
 
 
-def compare_case(riesel, lammps, case, size, options):
-    """All of one case in one size."""
-    starts = [riesel.state(case, size, seed) for seed in range(1, options.repetitions + 1)]
-    start = starts[0]
-    grains = start["grains"]
-    print(f"\n{case}, {grains} grains, k_n = {start['k_n']:g} N/m, gamma_n = {start['gamma_n']:.4g} 1/s, "
-          f"gamma_t = {start['gamma_t']:g} 1/s, time step {start['time_step']:.4g} s", flush=True)
-    with tempfile.TemporaryDirectory() as folder:
-        for seed, one in enumerate(starts, 1):
-            one["data"] = str(Path(folder) / f"{seed}.data")
-            write_lammps_data(read_state(one["checkpoint"]), one["data"])
-        agreement = physics(riesel, lammps, start, steps=200)
-        scan_steps = max(200, int(0.5 * options.seconds * 4e7 / grains))
-        best = tuned(lammps, start, scan_steps)
-        steps = max(200, int(options.seconds * best / grains))
-        seconds = timed(riesel, lammps, starts, steps)
+def riesel_name(variant, law):
+    """Of a row: rows of one case and size have names of their own."""
+    return f"riesel {variant}" + ("" if law == "viscous" else f", {law}")
 
-    rows = {name: row_of(case, size, name, grains, steps, times) for name, times in seconds.items()}
+
+def ratios_of(rows, peers, law):
+    """riesel over each peer on as many cores."""
+    pairs = [(riesel_name(variant, law), f"{peer.name} {threads}") for peer in peers
+             for variant, (_, threads, _) in RIESEL.items()]
+    return [{"over": over, "under": under, **paired_ratio(rows[over], rows[under])._asdict()} for over, under in pairs]
+
+
+def compare_case(riesel, peers, law, case, size, options):
+    """All of one case in one size with one law."""
+    starts = [riesel.start(case, size, seed, law) for seed in range(1, options.repetitions + 1)]
+    start, grains = starts[0], starts[0]["grains"]
+    print(f"\n{case}, {grains} grains, slip law {law}, k_n = {start['k_n']:g} N/m, gamma_n = {start['gamma_n']:.4g} 1/s, "
+          f"time step {start['time_step']:.4g} s", flush=True)
+
+    def steps_at(speed):
+        return max(200, int(options.seconds * speed / grains))
+
+    with tempfile.TemporaryDirectory() as folder:
+        for seed, one in enumerate(starts):
+            one["files"] = {peer.name: str(Path(folder) / f"{peer.name}-{seed}") for peer in peers}
+            for peer in peers:
+                peer.write(one)
+        agreements = {peer.name: agreement(riesel, peer, start, steps=100) for peer in peers}
+        best = {peer.name: tuned(peer, start, steps_at(0.5 * peer.about)) for peer in peers}
+        contenders = {}
+        steps = steps_at(max(LEAST_SPEED, *(speed for _, speed in best.values())))
+        for variant in RIESEL:
+            contenders[riesel_name(variant, law)] = Contender(partial(riesel.advance, variant=variant), steps)
+        for peer in peers:
+            settings, speed = best[peer.name]
+            for cores in CORES:
+                contenders[f"{peer.name} {cores}"] = Contender(partial(peer.advance, settings=settings, cores=cores),
+                                                               steps_at(speed))
+        seconds = timed(contenders, starts)
+
+    rows = {name: row_of(case, size, name, grains, contender.steps, seconds[name]) for name, contender in contenders.items()}
     for name, row in rows.items():
-        print(f"  {name:18} {row['per_second']['median'] * 1e-6:9.1f} M/s, best {row['per_second']['max'] * 1e-6:9.1f}")
-    for name in LAMMPS_RANKS:
-        rows[name] |= {"skin": lammps.skin, "every": lammps.every}
-    ratios = [{"over": over, "under": under, **paired_ratio(rows[over], rows[under])._asdict()} for over, under in RATIOS]
+        print(f"  {name:24} {row['per_second']['median'] * 1e-6:9.1f} M/s, best {row['per_second']['max'] * 1e-6:9.1f}")
+    ratios = ratios_of(rows, peers, law)
     for ratio in ratios:
         print(f"  {ratio['over']} / {ratio['under']}: {ratio['value']:.2f}  [{ratio['least']:.2f} {ratio['most']:.2f}]",
               flush=True)
-    return {"case": case, "size": size, "grains": grains, "agreement": agreement, "ratios": ratios,
+    return {"case": case, "size": size, "law": law, "grains": grains, "agreements": agreements,
+            "settings": {name: settings for name, (settings, _) in best.items()}, "ratios": ratios,
             "rows": list(rows.values())}
+
+
+def installed(names):
+    """The codes of these names; without names all that are there, and there must be one."""
+    if names:
+        return [CODES[name]() for name in dict.fromkeys(names)]
+    found = []
+    for code in CODES.values():
+        try:
+            found.append(code())
+        except NotInstalled as problem:
+            print(f"without {code.name}: {problem}")
+    if not found:
+        raise NotInstalled("none of the codes is installed")
+    return found
 
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--speed", type=Path, default=HERE.parents[1] / "build/bench/bench/speed",
                         help="the suite's program")
+    parser.add_argument("--peer", action="append", choices=list(CODES), help="default: all that are installed")
     parser.add_argument("--case", action="append", choices=list(CASES))
     parser.add_argument("--size", action="append", choices=SIZES, help="default: 1.4k and 10k")
     parser.add_argument("--repetitions", type=int, default=7, help="each from the state of another seed")
-    parser.add_argument("--seconds", type=float, default=2.0, help="that a repetition takes LAMMPS on one core")
+    parser.add_argument("--seconds", type=float, default=2.0, help="that a repetition takes the others on one core")
     parser.add_argument("--out", type=Path, help="default: bench/results/peers-<machine>-<commit>.json")
     return parser.parse_args()
 
@@ -175,21 +213,23 @@ def usual_place(origin):
 
 def main():
     options = parse()
-    riesel, lammps = Riesel(options.speed), Lammps(pinned)
+    riesel, peers = Riesel(options.speed), installed(options.peer)
     origin = riesel.ask("origin")
     results = {"format": PEERS, "format_version": FORMAT_VERSION,
                "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
-               **origin, "lammps": lammps.version, "cases": []}
-    print(f"riesel {origin['build']['commit'][:7]}, LAMMPS {lammps.version}\n{origin['machine']['cpu']}, "
-          f"{origin['machine']['cores']} cores, load {origin['machine']['load_average'][0]:.2f}")
+               **origin, "peers": {peer.name: peer.version for peer in peers}, "cases": []}
+    print(f"riesel {origin['build']['commit'][:7]}, {', '.join(f'{peer.name} {peer.version}' for peer in peers)}\n"
+          f"{origin['machine']['cpu']}, {origin['machine']['cores']} cores, load {origin['machine']['load_average'][0]:.2f}")
     for case in options.case or CASES:
         for size in options.size or SIZES[:2]:
-            results["cases"].append(compare_case(riesel, lammps, case, size, options))
+            for law in LAWS:
+                if sharing := [peer for peer in peers if peer.law == law]:
+                    results["cases"].append(compare_case(riesel, sharing, law, case, size, options))
     out = options.out or usual_place(origin)
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
     print(f"\nkept in {out}")
-    return 0 if all(case["agreement"]["agree"] for case in results["cases"]) else 1
+    return 0 if all(one["agree"] for case in results["cases"] for one in case["agreements"].values()) else 1
 
 
 if __name__ == "__main__":

@@ -1,0 +1,57 @@
+"""What the codes beside which riesel is measured have in common.
+
+A peer is an object with
+
+    name, version        texts; "lammps 2" is LAMMPS on two cores
+    law                  the contact law that it shares with riesel: a key of LAWS in run.py
+    about                particle-steps/s on one core, roughly: how long a first try may be
+    usual, choices       its settings, and for each that is tuned what is tried, one after the other
+    write(start)         writes start["state of grains"] as the peer reads it, into start["files"][name]
+    advance(start, settings, cores, warm_up, steps)
+                         steps it: {"seconds" of the last `steps` steps, "too_late": how often neighbours were looked for too
+                         late, "state" after them}
+
+`start` is what `speed state` says of a state, with these two besides.
+"""
+
+import os
+import shutil
+import subprocess
+
+class NotInstalled(Exception):
+    """A program that is needed is not there."""
+
+
+def find_program(name, variable, *others):
+    """The program that the environment's `variable` names, or else `name`; it needs `others` to be there, too."""
+    program = os.environ.get(variable, name)
+    for needed in (program, *others):
+        if shutil.which(needed) is None:
+            raise NotInstalled(f"{needed} is not installed; on Debian, `./setup.sh peers` installs it")
+    return program
+
+
+def output_of(command):
+    """What a program that may fail prints."""
+    return subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+
+
+def debian_version(package):
+    """", Debian package 1.2-3" where it is from there."""
+    done = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], check=False, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, text=True)
+    return f", Debian package {done.stdout}" if done.stdout else ""
+
+
+def pinned(command):
+    """On one core, so that nothing moves it about."""
+    return ["taskset", "-c", "0", *command]
+
+
+def run(command, **environment):
+    """What a program prints that must not fail."""
+    done = subprocess.run(command, check=False, env=os.environ | environment, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}")
+    return done.stdout
