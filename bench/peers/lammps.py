@@ -12,6 +12,7 @@ HERE = Path(__file__).resolve().parent
 class Lammps:
     """Settings are the skin (m) and the steps between two looks at the neighbour list."""
     name, law, about = "lammps", "viscous", 4e7
+    least_steps = 200
     usual = {"skin": 0.2e-3, "every": 5}
     choices = {"skin": (0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3), "every": (1, 5, 10)}
 

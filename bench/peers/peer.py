@@ -5,6 +5,7 @@ A peer is an object with
     name, version        texts; "lammps 2" is LAMMPS on two cores
     law                  the contact law that it shares with riesel: a key of LAWS in run.py
     about                particle-steps/s on one core, roughly: how long a first try may be
+    least_steps          fewer tell little, as neighbours are looked for now and then
     usual, choices       its settings, and for each that is tuned what is tried, one after the other
     write(start)         writes start["state of grains"] as the peer reads it, into start["files"][name]
     advance(start, settings, cores, warm_up, steps)

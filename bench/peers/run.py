@@ -144,8 +144,8 @@ def compare_case(riesel, peers, law, case, size, options):
     print(f"\n{case}, {grains} grains, slip law {law}, k_n = {start['k_n']:g} N/m, gamma_n = {start['gamma_n']:.4g} 1/s, "
           f"time step {start['time_step']:.4g} s", flush=True)
 
-    def steps_at(speed):
-        return max(200, int(options.seconds * speed / grains))
+    def steps_at(speed, least=1):
+        return max(least, int(options.seconds * speed / grains))
 
     with tempfile.TemporaryDirectory() as folder:
         for seed, one in enumerate(starts):
@@ -153,7 +153,7 @@ def compare_case(riesel, peers, law, case, size, options):
             for peer in peers:
                 peer.write(one)
         agreements = {peer.name: agreement(riesel, peer, start, steps=100) for peer in peers}
-        best = {peer.name: tuned(peer, start, steps_at(0.5 * peer.about)) for peer in peers}
+        best = {peer.name: tuned(peer, start, steps_at(0.5 * peer.about, peer.least_steps)) for peer in peers}
         contenders = {}
         steps = steps_at(max(LEAST_SPEED, *(speed for _, speed in best.values())))
         for variant in RIESEL:
@@ -162,7 +162,7 @@ def compare_case(riesel, peers, law, case, size, options):
             settings, speed = best[peer.name]
             for cores in CORES:
                 contenders[f"{peer.name} {cores}"] = Contender(partial(peer.advance, settings=settings, cores=cores),
-                                                               steps_at(speed))
+                                                               steps_at(speed, peer.least_steps))
         seconds = timed(contenders, starts)
 
     rows = {name: row_of(case, size, name, grains, contender.steps, seconds[name]) for name, contender in contenders.items()}

@@ -15,8 +15,9 @@ class Yade:
     """Its only setting is the skin (m), which it calls verletDist. It finds out itself when to look for neighbours, never
     too late."""
     name, law, about = "yade", "spring", 4e6
-    usual = {"skin": 0.4e-3}
-    choices = {"skin": (0.2e-3, 0.4e-3, 0.7e-3, 1e-3)}
+    least_steps = 500
+    usual = {"skin": 0.2e-3}
+    choices = {"skin": (0.05e-3, 0.1e-3, 0.2e-3, 0.4e-3)}
 
     def __init__(self):
         self.program = find_program("yade", "YADE", "taskset")

@@ -2,6 +2,10 @@
 #include "tests/catch.hpp"
 #include "tests/physics/collisions.hpp"
 
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 using namespace collisions;
 
 namespace {
@@ -30,6 +34,23 @@ TEST_CASE("eq. (3) with alpha = 1, beta = 0, g = 1 is eq. (1)") {
 
 TEST_CASE("eq. (3) with alpha = 3/2, beta = 1/2, g = 1 is Hertz-Kuwabara-Kono") {
   check_equal(oblique(PowerLaw{5e5, 3.3, 1.5, 0.5, 1.0}), oblique(HertzKuwabaraKonoLaw{5e5, 3.3}));
+}
+
+TEST_CASE(
+    "Hertz with damping as the fourth root of the overlap has one restitution for all speeds") {
+  // With xi^(5/4) in the place of xi it is a linear contact: Antypov and Elliott, EPL 94, 50004.
+  constexpr double restitution = 0.8, stiff = 5e5;
+  const double log_e = std::log(restitution);
+  const double damped =
+      -log_e / std::hypot(log_e, std::numbers::pi) * std::sqrt(5.0 * stiff * mass);
+  ContactModel model = frictionless(0.0);
+  model.normal = PowerLaw{stiff, damped, 1.5, 0.25, 1.0};
+  const double speed = GENERATE(0.1, 1.0, 10.0);
+  const HeadOn head_on_wall{.mass_1 = mass,
+                            .mass_2 = std::numeric_limits<double>::infinity(),
+                            .speed = speed,
+                            .dt = collision_time(model.normal, mass, speed) / 400.3};
+  CHECK(std::abs(head_on(head_on_wall, model).restitution - restitution) < 5e-4);
 }
 
 TEST_CASE("the damping of eq. (3) is odd in the rate") {
