@@ -70,7 +70,7 @@ def load(path, formats=(SUITE,)):
     except (OSError, ValueError) as error:
         raise BadInput(f"{path}: cannot be read ({error})") from error
     if not isinstance(results, dict) or results.get("format") not in formats:
-        raise BadInput(f"{path}: is no result of the benchmark suite{' nor beside LAMMPS' if PEERS in formats else ''}")
+        raise BadInput(f"{path}: is no result of the benchmark suite{' nor beside other codes' if PEERS in formats else ''}")
     if results["format_version"] != FORMAT_VERSION:
         raise BadInput(f"{path}: has version {results['format_version']} of the format, "
                        f"known is {FORMAT_VERSION}")

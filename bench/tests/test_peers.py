@@ -17,6 +17,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "peers"))
 import run  # noqa: E402
+import table as peers_table  # noqa: E402
 from lammps import Lammps, Liggghts, read_answer, write_data  # noqa: E402
 from states import read_state  # noqa: E402
 from yade import Yade  # noqa: E402
@@ -215,6 +216,17 @@ class Timing(unittest.TestCase):
         self.assertEqual(ratios["riesel windows 1, spring", "steady 1"], 2.0)
         self.assertEqual(ratios["riesel plain 2 apart, spring", "steady 2"], 4.0)
         self.assertEqual(len(ratios), len(run.RIESEL))
+
+
+class Table(unittest.TestCase):
+
+    def test_each_code_beside_riesel_with_its_law(self):
+        speeds = {"lammps 1": 50e6, "riesel plain 1": 400e6, "riesel windows 1": 600e6,  # particle-steps/s
+                  "yade 1": 4e6, "riesel plain 1, spring": 300e6, "yade 2": 1.0}
+        rows = {("tube_slow", "10k", name): run.row_of("tube_slow", "10k", name, 10_000, 100, [1e6 / speed])
+                for name, speed in speeds.items()}
+        lines = peers_table.table(rows, cores=1).splitlines()
+        self.assertEqual(lines[2:], ["| slow tube | 10,000 | 50 | 8.0 | 12.0 |  |  |  | 4.0 | 75 |  |"])
 
 
 if __name__ == "__main__":

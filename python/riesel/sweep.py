@@ -40,19 +40,32 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Mean:
-    """Of a result over the runs of a sweep that differ in one setting alone, the seed for instance."""
+class _OfRuns:
+    """Of the runs of a sweep that differ in one setting alone, the seed for instance."""
 
     settings: Mapping[str, float | str | None]  #: the others that vary, in SI units
     branch: str  #: or ""
     leg: str  #: or ""
+    runs: int  #: that count
+    steady: int  #: how many of them are steady flows; of impacts none is
+
+
+@dataclass(frozen=True)
+class Mean(_OfRuns):
+    """Of a result, over the runs that have it."""
+
     value: float
     error: float  #: 68 %, by the scatter of the runs, see mean_of(); NaN of a single one
-    runs: int  #: that have such a result
-    steady: int  #: how many of them are steady flows; of impacts none is
 
     def __str__(self) -> str:
         return f"{Estimate(self.value, self.error)} ({self.runs} runs, {self.steady} steady)"
+
+
+@dataclass(frozen=True)
+class MeanProfiles(_OfRuns):
+    """Of the profiles, over the runs that are done."""
+
+    profiles: Table  #: as Run.profiles; errors by the scatter of the runs; no columns if none is done
 
 
 class Sweep:
@@ -89,23 +102,44 @@ class Sweep:
     def means(self, column: str, over: str = "seed") -> list[Mean]:
         """The means of a column of `table` over the points that differ in the setting `over` alone, in
         the order of the sweep file. Whether runs that are not steady may count is for you to say."""
-        if over not in self.varied:
-            raise NotThere(f"{self.directory}: does not vary {over}; choose one of {', '.join(self.varied)}")
+        groups = self._groups(over)
         table = self.table
         if column not in table or table[column].dtype.kind != "f":
             raise NotThere(f"{self.directory}: no run has a number {column}; 'list(sweep.table)' tells what they have")
         states = table.get("state", np.full(len(table[column]), ""))
         result_of = {name: (float(value), state == "steady")
                      for name, value, state in zip(table["point"], table[column], states)}
-        groups: dict[tuple[Any, ...], list[Point]] = {}
-        for point in self.points:
-            if point.name not in result_of:
+        means = []
+        for group in groups:
+            if any(point.name not in result_of for point in group):
                 raise NotThere(f"{self.directory}: its table lacks a point; make it anew by 'riesel collect "
                                f"{self.directory}'")
+            there = [result_of[point.name] for point in group if math.isfinite(result_of[point.name][0])]
+            mean = mean_of([value for value, _ in there])
+            means.append(Mean(**_common(group[0], over), runs=len(there), steady=sum(steady for _, steady in there),
+                              value=mean.value, error=mean.error))
+        return means
+
+    def mean_profiles(self, over: str = "seed") -> list[MeanProfiles]:
+        """The means of the profiles over the points that differ in the setting `over` alone, strip by
+        strip, likewise."""
+        found = []
+        for group in self._groups(over):
+            done = [run for point in group if point.directory.is_dir() and (run := point.run).is_done]
+            found.append(MeanProfiles(**_common(group[0], over), runs=len(done),
+                                      steady=sum(run.summary.get("state") == "steady" for run in done),
+                                      profiles=_mean_of_profiles(done)))
+        return found
+
+    def _groups(self, over: str) -> list[list[Point]]:
+        """Points that differ in this setting alone, each once, in the order of the sweep file."""
+        if over not in self.varied:
+            raise NotThere(f"{self.directory}: does not vary {over}; choose one of {', '.join(self.varied)}")
+        groups: dict[tuple[Any, ...], dict[str, Point]] = {}
+        for point in self.points:
             others = tuple(item for item in point.settings.items() if item[0] != over)
-            groups.setdefault((others, point.branch, point.leg), []).append(point)
-        return [_mean_of([result_of[name] for name in {point.name: None for point in group}], group[0], over)
-                for group in groups.values()]
+            groups.setdefault((others, point.branch, point.leg), {})[point.name] = point
+        return [list(group.values()) for group in groups.values()]
 
     def _point(self, entry: Mapping[str, Any]) -> Point:
         return Point(directory=self.directory / "points" / entry["name"], name=entry["name"],
@@ -114,9 +148,25 @@ class Sweep:
                      reason=entry["reason"])
 
 
-def _mean_of(results: list[tuple[float, bool]], first: Point, over: str) -> Mean:
-    there = [(value, steady) for value, steady in results if math.isfinite(value)]
-    mean = mean_of([value for value, _ in there])
-    return Mean(settings={key: value for key, value in first.settings.items() if key != over},
-                branch=first.branch, leg=first.leg,
-                value=mean.value, error=mean.error, runs=len(there), steady=sum(steady for _, steady in there))
+def _common(point: Point, over: str) -> dict[str, Any]:
+    """What a group of points has in common, by one of them."""
+    return {"settings": {key: value for key, value in point.settings.items() if key != over},
+            "branch": point.branch, "leg": point.leg}
+
+
+def _mean_of_profiles(runs: list[Run]) -> Table:
+    if not runs:
+        return Table({}, {}, {})
+    first = runs[0].profiles
+    for run in runs:
+        if not np.array_equal(run.profiles["x"], first["x"]):
+            raise NotThere(f"{run.directory}: its strips are others than those of {runs[0].directory}")
+    columns = {"x": first["x"]}
+    for name in first:
+        if f"{name}_error" not in first:
+            continue
+        strips = [mean_of([value for value in strip if math.isfinite(value)])
+                  for strip in zip(*(run.profiles[name].tolist() for run in runs))]
+        columns[name] = np.array([mean.value for mean in strips])
+        columns[f"{name}_error"] = np.array([mean.error for mean in strips])
+    return Table(columns, first.unit, first.doc)

@@ -239,6 +239,38 @@ class Mean(unittest.TestCase):
 
 class OfSweep(CommandTest):
 
+    def test_mean_profiles_over_seeds(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        self.write("sweep.yaml", SWEEP.replace("3 ms", "20 ms") + "seeds: 3\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
+        sweep = riesel.Sweep(self.home / "out")
+        fast = sweep.mean_profiles()[3]
+        self.assertEqual((fast.settings["contact.restitution"], fast.branch, fast.runs, fast.steady), (0.9, "fast", 3, 0))
+        tables = [point.run.profiles for point in sweep.points
+                  if (point.settings["contact.restitution"], point.branch) == (0.9, "fast")]
+        self.assertEqual(set(fast.profiles), set(tables[0]))
+        np.testing.assert_array_equal(fast.profiles["x"], tables[0]["x"])
+        for name in ("area_fraction", "stress_yy"):
+            values = np.array([table[name] for table in tables])
+            np.testing.assert_allclose(fast.profiles[name], values.mean(axis=0), rtol=1e-12)
+            np.testing.assert_allclose(fast.profiles[f"{name}_error"], 1.321 * values.std(axis=0, ddof=1) / 3 ** 0.5, rtol=1e-3)
+        self.assertEqual(fast.profiles.label("stress_yy"), "stress_yy (N/m)")
+        # One run less, and then another that has other strips.
+        points = self.home / "out/points"
+        (points / sweep.points[0].name / "summary.json").unlink()
+        self.assertEqual([mean.runs for mean in riesel.Sweep(self.home / "out").mean_profiles()], [2, 3, 3, 3])
+        with h5py.File(points / sweep.points[-1].name / "run.h5", "r+") as file:
+            file["profiles/x"][:] *= 2.0
+        with self.assertRaisesRegex(riesel.NotThere, "its strips are others"):
+            riesel.Sweep(self.home / "out").mean_profiles()
+
+    def test_mean_profiles_of_what_has_not_begun(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        self.write("sweep.yaml", SWEEP + "seeds: 3\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--prepare", "--out", "out"))
+        planned = riesel.Sweep(self.home / "out").mean_profiles()
+        self.assertEqual([(mean.runs, len(mean.profiles)) for mean in planned], [(0, 0)] * 4)
+
     def test_means_over_seeds(self):
         self.write("tube.yaml", SMALL_TUBE)
         self.write("sweep.yaml", SWEEP + "seeds: 3\n")
