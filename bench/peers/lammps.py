@@ -14,7 +14,7 @@ class Lammps:
     name, law, about = "lammps", "viscous", 4e7
     least_steps = 200
     usual = {"skin": 0.2e-3, "every": 5}
-    choices = {"skin": (0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3), "every": (1, 5, 10)}
+    choices = {"skin": (0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3), "every": (1, 5, 10, 20)}
 
     def __init__(self):
         self.program = find_program("lmp", "LMP", "mpirun", "taskset")
@@ -27,7 +27,7 @@ class Lammps:
         return mass / (4.0 / 3.0 * np.pi * radius**3)
 
     def write(self, start):
-        write_data(start["state of grains"], self.density, start["files"][self.name])
+        write_data(start["grains_state"], self.density, start["files"][self.name])
 
     def advance(self, start, settings, cores, warm_up, steps):
         variables = {name: start[name] for name in ("gravity", "k_n", "gamma_n", "gamma_t", "mu")}

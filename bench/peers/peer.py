@@ -7,17 +7,18 @@ A peer is an object with
     about                particle-steps/s on one core, roughly: how long a first try may be
     least_steps          fewer tell little, as neighbours are looked for now and then
     usual, choices       its settings, and for each that is tuned what is tried, one after the other
-    write(start)         writes start["state of grains"] as the peer reads it, into start["files"][name]
+    write(start)         writes start["grains_state"] as the peer reads it, into start["files"][name]
     advance(start, settings, cores, warm_up, steps)
                          steps it: {"seconds" of the last `steps` steps, "too_late": how often neighbours were looked for too
                          late, "state" after them}
 
-`start` is what `speed state` says of a state, with these two besides.
+`start` is what `speed state` says of a state, besides "grains_state" (State) and "files".
 """
 
 import os
 import shutil
 import subprocess
+import tempfile
 
 class NotInstalled(Exception):
     """A program that is needed is not there."""
@@ -33,15 +34,16 @@ def find_program(name, variable, *others):
 
 
 def output_of(command):
-    """What a program that may fail prints."""
-    return subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+    """What a program prints that may fail, and may write files where it is."""
+    with tempfile.TemporaryDirectory() as folder:
+        return subprocess.run(command, check=False, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              text=True).stdout
 
 
 def debian_version(package):
     """", Debian package 1.2-3" where it is from there."""
-    done = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], check=False, stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL, text=True)
-    return f", Debian package {done.stdout}" if done.stdout else ""
+    version = output_of(["dpkg-query", "-W", "-f=${Version}", package])
+    return f", Debian package {version}" if version else ""
 
 
 def pinned(command):
@@ -56,3 +58,8 @@ def run(command, **environment):
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}")
     return done.stdout
+
+
+def riesel_name(variant, law):
+    """Of a row of riesel: all rows of one case and size have names of their own."""
+    return f"riesel {variant}" + ("" if law == "viscous" else f", {law}")

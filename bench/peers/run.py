@@ -22,7 +22,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from compare import FORMAT_VERSION, PEERS, paired_ratio  # noqa: E402
 from lammps import Lammps, Liggghts  # noqa: E402
-from peer import NotInstalled, pinned  # noqa: E402
+from peer import NotInstalled, pinned, riesel_name  # noqa: E402
 from states import read_state  # noqa: E402
 from yade import Yade  # noqa: E402
 
@@ -41,7 +41,8 @@ CORES = (1, 2)
 RIESEL = {"plain 1": ("plain", 1, "together"), "plain 2": ("plain", 2, "together"), "plain 2 apart": ("plain", 2, "apart"),
           "windows 1": ("windows", 1, "together"), "windows 2": ("windows", 2, "together"),
           "windows 2 apart": ("windows", 2, "apart")}
-LEAST_SPEED = 4e7  # particle-steps/s: riesel is timed over no less than what takes a code of that speed a repetition
+LEAST_SPEED = 4e7  # particle-steps/s: riesel does no fewer steps than a code of that speed in the time of a repetition
+LEAST_TIME = 0.2  # s, that riesel is timed for, by a first try
 
 
 class Riesel:
@@ -58,7 +59,7 @@ class Riesel:
     def start(self, case, size, seed, law):
         settings = [f"seed={seed}", *LAWS[law](*CASES[case])]
         start = self.ask("state", case, size, *(word for setting in settings for word in ("--set", setting)))
-        return start | {"state of grains": read_state(start["checkpoint"])}
+        return start | {"grains_state": read_state(start["checkpoint"])}
 
     def advance(self, start, variant, warm_up, steps):
         stepping, threads, sharing = RIESEL[variant]
@@ -68,19 +69,29 @@ class Riesel:
 
 def agreement(riesel, peer, start, steps):
     """What both codes make of a state, and whether that is the same. Over this short time the grains keep to their courses,
-    so that the numbers agree to the errors of the time step; later only statistics would."""
+    so that the numbers agree to the errors of the time step; later only statistics would. The others' errors are of first
+    order: they do ten times as many steps of a tenth. Energy tells of forces between grains, momentum of those of walls."""
+    finer = start | {"time_step": start["time_step"] / 10, "files": {peer.name: start["files"][peer.name] + "-finer"}}
+    peer.write(finer)
     ours = riesel.advance(start, "plain 1", 0, steps)["state"]
-    theirs = peer.advance(start, peer.usual, cores=1, warm_up=0, steps=steps)["state"]
-    before = start["state"]["mean_vy"]
-    gain, scale = ours["mean_vy"] - before, start["gravity"] * steps * start["time_step"]
-    difference = theirs["mean_vy"] - ours["mean_vy"]
-    contacts = ours["contacts_of_grains"], theirs["contacts_of_grains"]
-    agree = abs(difference) < 0.02 * scale and abs(contacts[0] - contacts[1]) <= max(4, 0.03 * contacts[0])
-    print(f"  after {steps} steps: mean v_y riesel {ours['mean_vy']:.7g} m/s, {peer.name} {theirs['mean_vy']:.7g} m/s "
-          f"(change {gain:.3g}, difference {difference:.2g}); contacts of grains {contacts[0]:.0f}, {contacts[1]:.0f}; "
-          f"kinetic energy {ours['kinetic_energy']:.7g} J, {theirs['kinetic_energy']:.7g} J"
-          f"{'' if agree else '  DO NOT AGREE'}", flush=True)
-    return {"steps": steps, "riesel": ours, "peer": theirs, "agree": agree}
+    theirs = peer.advance(finer, peer.usual, cores=1, warm_up=0, steps=10 * steps)["state"]
+
+    def change(state, quantity):
+        return state[quantity] - start["state"][quantity]
+
+    def difference(quantity):
+        return theirs[quantity] - ours[quantity]
+
+    fallen, energy = start["gravity"] * steps * start["time_step"], start["state"]["kinetic_energy"]
+    agree = (abs(difference("mean_vy")) < 0.01 * fallen
+             and abs(difference("kinetic_energy")) < 0.01 * max(abs(change(ours, "kinetic_energy")), 1e-3 * energy)
+             and abs(difference("contacts_of_grains")) <= max(4, 0.03 * ours["contacts_of_grains"]))
+    print(f"  {peer.name} after {steps} steps, beside riesel: mean v_y {change(theirs, 'mean_vy'):.3g} and "
+          f"{change(ours, 'mean_vy'):.3g} m/s more (difference {difference('mean_vy'):.1g}), kinetic energy "
+          f"{change(theirs, 'kinetic_energy'):.4g} and {change(ours, 'kinetic_energy'):.4g} J, contacts of grains "
+          f"{theirs['contacts_of_grains']:.0f} and {ours['contacts_of_grains']:.0f}{'' if agree else '  DO NOT AGREE'}",
+          flush=True)
+    return {"steps": steps, "start": start["state"], "riesel": ours, "peer": theirs, "agree": agree}
 
 
 def tuned(peer, start, steps):
@@ -105,13 +116,19 @@ class Contender(NamedTuple):
     steps: int
 
 
+def warm_up_of(steps):
+    return max(20, steps // 10)
+
+
 def timed(contenders, starts):
     """{name: seconds of each repetition, for as many grains as the first start has}, in turns. Each repetition has a start of
     its own: a state of few grains has by chance half or twice as many contacts as the mean."""
     seconds = {name: [] for name in contenders}
     for start in starts:
         for name, (advance, steps) in contenders.items():
-            answer = advance(start, warm_up=max(20, steps // 10), steps=steps)
+            answer = advance(start, warm_up=warm_up_of(steps), steps=steps)
+            if answer.get("too_late", 0) > 0:
+                print(f"  {name} looked for neighbours too late", flush=True)
             seconds[name].append(answer["seconds"] * starts[0]["grains"] / start["grains"])
     return seconds
 
@@ -123,11 +140,6 @@ def row_of(case, size, variant, grains, steps, seconds):
             "work": grains * steps, "steps": steps,
             "seconds": {"min": min(seconds), "median": median, "all": seconds},
             "per_second": {"median": grains * steps / median, "max": grains * steps / min(seconds)}}
-
-
-def riesel_name(variant, law):
-    """Of a row: rows of one case and size have names of their own."""
-    return f"riesel {variant}" + ("" if law == "viscous" else f", {law}")
 
 
 def ratios_of(rows, peers, law):
@@ -157,7 +169,9 @@ def compare_case(riesel, peers, law, case, size, options):
         contenders = {}
         steps = steps_at(max(LEAST_SPEED, *(speed for _, speed in best.values())))
         for variant in RIESEL:
-            contenders[riesel_name(variant, law)] = Contender(partial(riesel.advance, variant=variant), steps)
+            advance = partial(riesel.advance, variant=variant)
+            first_try = advance(start, warm_up=warm_up_of(steps), steps=steps)["seconds"]
+            contenders[riesel_name(variant, law)] = Contender(advance, int(steps * max(1.0, LEAST_TIME / first_try)))
         for peer in peers:
             settings, speed = best[peer.name]
             for cores in CORES:

@@ -7,11 +7,12 @@ import numpy as np
 
 
 class State(NamedTuple):
-    """SI units; position and velocity have a row for each grain, ordered by id; y is in [0, length)."""
+    """SI units; position, velocity and acceleration have a row for each grain, ordered by id; y is in [0, length)."""
     width: float
     length: float
     position: np.ndarray
     velocity: np.ndarray
+    acceleration: np.ndarray
     radius: np.ndarray
     mass: np.ndarray
     wall_position: np.ndarray
@@ -44,14 +45,16 @@ def read_state(path):
         fall = np.int64(np.rint(file.attrs["gravity_y"] * dt * dt / qy))
         with np.errstate(over="ignore"):  # integers wrap, as they do in the engine
             falling = grains["uy"][:] + fall * np.int64(file.attrs["step"])
+        half_step_velocity = np.column_stack([grains["ux"][:] * (qx / dt), falling * (qy / dt)])
+        acceleration = np.column_stack([grains["kick_x"][:] * (qx / dt**2), (grains["kick_y"][:] + fall) * (qy / dt**2)])
         length = float(file.attrs["box_length"])
         wall_position, wall_radius = wall_grains(file["walls"], length)
         return State(
             width=float(file.attrs["box_width"]),
             length=length,
             position=np.column_stack([grains["x"][:] * qx, grains["y"][:].astype(np.uint64) * qy % length]),
-            velocity=np.column_stack([(grains["ux"][:] + 0.5 * grains["kick_x"][:]) * (qx / dt),
-                                      (falling + 0.5 * (grains["kick_y"][:] + fall)) * (qy / dt)]),
+            velocity=half_step_velocity + 0.5 * dt * acceleration,
+            acceleration=acceleration,
             radius=grains["radius"][:],
             mass=grains["mass"][:],
             wall_position=wall_position,

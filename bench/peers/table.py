@@ -16,8 +16,9 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from compare import PEERS, BadInput, load, paired_ratio  # noqa: E402
 from goals import SIZES, STATES  # noqa: E402
+from peer import riesel_name  # noqa: E402
 
-CODES = {"lammps": ("LAMMPS", ""), "liggghts": ("LIGGGHTS", ""), "yade": ("YADE", ", spring")}  # name, and end of riesel's rows
+CODES = ("lammps", "liggghts", "yade")
 
 
 def number(value):
@@ -25,25 +26,28 @@ def number(value):
     return f"{value:,.0f}" if value >= 20.0 else f"{value:.1f}"
 
 
-def cells(rows, case, size, cores):
-    """Three for each code, empty where it was not measured."""
-    found = []
-    for code, (_, ending) in CODES.items():
-        peer = rows.get((case, size, f"{code} {cores}"))
-        ours = [rows.get((case, size, f"riesel {stepping} {cores}{ending}")) for stepping in ("plain", "windows")]
-        found.append(number(peer["per_second"]["median"] * 1e-6) if peer else "")
-        found += [number(paired_ratio(row, peer).value) if peer and row else "" for row in ours]
-    return found
+def beside(code, case, cores):
+    """The speed of a code, and how many times as fast riesel is: three cells, or None if it was not measured."""
+    rows = {row["variant"]: row for row in case["rows"]}
+    peer = rows.get(f"{code} {cores}")
+    ours = [rows.get(riesel_name(f"{stepping} {cores}", case.get("law", "viscous"))) for stepping in ("plain", "windows")]
+    if not (peer and all(ours)):
+        return None
+    return [number(peer["per_second"]["median"] * 1e-6), *(number(paired_ratio(row, peer).value) for row in ours)]
 
 
-def table(rows, cores):
-    lines = ["| state | grains | " + " | ".join(f"{name} | plain | windows" for name, _ in CODES.values()) + " |",
+def table(cases, cores):
+    found = {(case["case"], case["size"], code): (case["grains"], cells)
+             for case in cases for code in CODES if (cells := beside(code, case, cores))}
+    lines = ["| state | grains | " + " | ".join(f"{code.upper()} | plain | windows" for code in CODES) + " |",
              "|---|---:|" + "---:|" * (3 * len(CODES))]
     for case, state in STATES.items():
         for size in SIZES:
-            if any(found := cells(rows, case, size, cores)):
-                grains = next(row["grains"] for key, row in rows.items() if key[:2] == (case, size))
-                lines.append(f"| {state} | {grains:,} | {' | '.join(found)} |")
+            of_codes = [found.get((case, size, code)) for code in CODES]
+            if any(of_codes):
+                grains = next(grains for grains, _ in filter(None, of_codes))
+                cells = [cell for one in of_codes for cell in (one[1] if one else ("", "", ""))]
+                lines.append(f"| {state} | {grains:,} | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
@@ -52,10 +56,7 @@ def main():
     parser.add_argument("files", metavar="FILE.json", nargs="+")
     parser.add_argument("--cores", type=int, choices=(1, 2), default=1)
     options = parser.parse_args()
-    rows = {}
-    for path in options.files:
-        rows |= load(path, (PEERS,))["rows"]
-    print(table(rows, options.cores))
+    print(table([case for path in options.files for case in load(path, (PEERS,))["cases"]], options.cores))
 
 
 if __name__ == "__main__":

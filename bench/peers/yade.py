@@ -17,7 +17,7 @@ class Yade:
     name, law, about = "yade", "spring", 4e6
     least_steps = 500
     usual = {"skin": 0.2e-3}
-    choices = {"skin": (0.05e-3, 0.1e-3, 0.2e-3, 0.4e-3)}
+    choices = {"skin": (0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.4e-3)}
 
     def __init__(self):
         self.program = find_program("yade", "YADE", "taskset")
@@ -26,8 +26,10 @@ class Yade:
 
     def write(self, start):
         values = {name: start[name] for name in ("time_step", "gravity", "k_n", "k_t", "gamma_n", "mu")}
+        state = start["grains_state"]
+        half_step_velocity = state.velocity - 0.5 * start["time_step"] * state.acceleration  # it has that of half a step before
         with open(start["files"][self.name], "wb") as file:  # given a name, numpy would add to it
-            np.savez(file, **start["state of grains"]._asdict(), **values)
+            np.savez(file, **state._asdict(), **values, half_step_velocity=half_step_velocity)
 
     def advance(self, start, settings, cores, warm_up, steps):
         with tempfile.NamedTemporaryFile(suffix=".json") as answer:

@@ -255,11 +255,19 @@ class OfSweep(CommandTest):
             np.testing.assert_allclose(fast.profiles[name], values.mean(axis=0), rtol=1e-12)
             np.testing.assert_allclose(fast.profiles[f"{name}_error"], 1.321 * values.std(axis=0, ddof=1) / 3 ** 0.5, rtol=1e-3)
         self.assertEqual(fast.profiles.label("stress_yy"), "stress_yy (N/m)")
-        # One run less, and then another that has other strips.
+        # One run less, one that is steady and has a strip without grains, and then one that has other strips.
         points = self.home / "out/points"
         (points / sweep.points[0].name / "summary.json").unlink()
-        self.assertEqual([mean.runs for mean in riesel.Sweep(self.home / "out").mean_profiles()], [2, 3, 3, 3])
-        with h5py.File(points / sweep.points[-1].name / "run.h5", "r+") as file:
+        last = points / sweep.points[-1].name
+        summary = json.loads((last / "summary.json").read_text(encoding="utf-8"))
+        (last / "summary.json").write_text(json.dumps(summary | {"state": "steady"}), encoding="utf-8")
+        with h5py.File(last / "run.h5", "r+") as file:
+            file["profiles/temperature_x"][0] = np.nan
+        means = riesel.Sweep(self.home / "out").mean_profiles()
+        self.assertEqual([(mean.runs, mean.steady) for mean in means], [(2, 0), (3, 0), (3, 0), (3, 1)])
+        others = [table["temperature_x"][0] for table in tables[:-1]]
+        self.assertAlmostEqual(means[3].profiles["temperature_x"][0], statistics.mean(others), places=12)
+        with h5py.File(last / "run.h5", "r+") as file:
             file["profiles/x"][:] *= 2.0
         with self.assertRaisesRegex(riesel.NotThere, "its strips are others"):
             riesel.Sweep(self.home / "out").mean_profiles()
