@@ -149,46 +149,60 @@ def ratios_of(rows, peers, law):
     return [{"over": over, "under": under, **paired_ratio(rows[over], rows[under])._asdict()} for over, under in pairs]
 
 
+def ways_of_riesel(riesel, law, start, steps):
+    """{name: contender}; at least so many steps each, by a first try."""
+    ways = {}
+    for variant in RIESEL:
+        advance = partial(riesel.advance, variant=variant)
+        first_try = advance(start, warm_up=warm_up_of(steps), steps=steps)["seconds"]
+        ways[riesel_name(variant, law)] = Contender(advance, int(steps * max(1.0, LEAST_TIME / first_try)))
+    return ways
+
+
+def race(riesel, peers, law, starts, seconds):
+    """The agreements of all peers, their best settings, and contenders and times of a repetition of so many seconds."""
+    start = starts[0]
+
+    def steps_at(speed, least=1):
+        return max(least, int(seconds * speed / start["grains"]))
+
+    agreements = {peer.name: agreement(riesel, peer, start, steps=100) for peer in peers}
+    best = {peer.name: tuned(peer, start, steps_at(0.5 * peer.about, peer.least_steps)) for peer in peers}
+    fastest = max(LEAST_SPEED, *(speed for _, speed in best.values()))
+    contenders = ways_of_riesel(riesel, law, start, steps_at(fastest))
+    for peer in peers:
+        settings, speed = best[peer.name]
+        for cores in CORES:
+            contenders[f"{peer.name} {cores}"] = Contender(partial(peer.advance, settings=settings, cores=cores),
+                                                           steps_at(speed, peer.least_steps))
+    return agreements, {name: settings for name, (settings, _) in best.items()}, contenders, timed(contenders, starts)
+
+
+def tell(rows, ratios):
+    for name, row in rows.items():
+        print(f"  {name:24} {row['per_second']['median'] * 1e-6:9.1f} M/s, best {row['per_second']['max'] * 1e-6:9.1f}")
+    for ratio in ratios:
+        print(f"  {ratio['over']} / {ratio['under']}: {ratio['value']:.2f}  [{ratio['least']:.2f} {ratio['most']:.2f}]",
+              flush=True)
+
+
 def compare_case(riesel, peers, law, case, size, options):
     """All of one case in one size with one law."""
     starts = [riesel.start(case, size, seed, law) for seed in range(1, options.repetitions + 1)]
     start, grains = starts[0], starts[0]["grains"]
     print(f"\n{case}, {grains} grains, slip law {law}, k_n = {start['k_n']:g} N/m, gamma_n = {start['gamma_n']:.4g} 1/s, "
           f"time step {start['time_step']:.4g} s", flush=True)
-
-    def steps_at(speed, least=1):
-        return max(least, int(options.seconds * speed / grains))
-
     with tempfile.TemporaryDirectory() as folder:
         for seed, one in enumerate(starts):
             one["files"] = {peer.name: str(Path(folder) / f"{peer.name}-{seed}") for peer in peers}
             for peer in peers:
                 peer.write(one)
-        agreements = {peer.name: agreement(riesel, peer, start, steps=100) for peer in peers}
-        best = {peer.name: tuned(peer, start, steps_at(0.5 * peer.about, peer.least_steps)) for peer in peers}
-        contenders = {}
-        steps = steps_at(max(LEAST_SPEED, *(speed for _, speed in best.values())))
-        for variant in RIESEL:
-            advance = partial(riesel.advance, variant=variant)
-            first_try = advance(start, warm_up=warm_up_of(steps), steps=steps)["seconds"]
-            contenders[riesel_name(variant, law)] = Contender(advance, int(steps * max(1.0, LEAST_TIME / first_try)))
-        for peer in peers:
-            settings, speed = best[peer.name]
-            for cores in CORES:
-                contenders[f"{peer.name} {cores}"] = Contender(partial(peer.advance, settings=settings, cores=cores),
-                                                               steps_at(speed, peer.least_steps))
-        seconds = timed(contenders, starts)
-
+        agreements, settings, contenders, seconds = race(riesel, peers, law, starts, options.seconds)
     rows = {name: row_of(case, size, name, grains, contender.steps, seconds[name]) for name, contender in contenders.items()}
-    for name, row in rows.items():
-        print(f"  {name:24} {row['per_second']['median'] * 1e-6:9.1f} M/s, best {row['per_second']['max'] * 1e-6:9.1f}")
     ratios = ratios_of(rows, peers, law)
-    for ratio in ratios:
-        print(f"  {ratio['over']} / {ratio['under']}: {ratio['value']:.2f}  [{ratio['least']:.2f} {ratio['most']:.2f}]",
-              flush=True)
-    return {"case": case, "size": size, "law": law, "grains": grains, "agreements": agreements,
-            "settings": {name: settings for name, (settings, _) in best.items()}, "ratios": ratios,
-            "rows": list(rows.values())}
+    tell(rows, ratios)
+    return {"case": case, "size": size, "law": law, "grains": grains, "agreements": agreements, "settings": settings,
+            "ratios": ratios, "rows": list(rows.values())}
 
 
 def installed(names):
