@@ -20,17 +20,18 @@ import shutil
 import subprocess
 import tempfile
 
+
 class NotInstalled(Exception):
     """A program that is needed is not there."""
 
 
 def find_program(name, variable, *others):
-    """The program that the environment's `variable` names, or else `name`; it needs `others` to be there, too."""
+    """The path of the program that the environment's `variable` names, or else `name`; it needs `others`, too."""
     program = os.environ.get(variable, name)
     for needed in (program, *others):
         if shutil.which(needed) is None:
             raise NotInstalled(f"{needed} is not installed; on Debian, `./setup.sh peers` installs it")
-    return program
+    return os.path.abspath(shutil.which(program))
 
 
 def output_of(command):

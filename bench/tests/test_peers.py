@@ -5,6 +5,7 @@ import contextlib
 import io
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -172,6 +173,10 @@ class Answers(unittest.TestCase):
     def test_versions(self):
         with programs("lmp", says="Large-scale Atomic/Molecular Massively Parallel Simulator - 1 Apr 2025"):
             self.assertTrue(Lammps().version.startswith("1 Apr 2025"))
+            # Named by the environment, from where one is.
+            there = os.path.relpath(shutil.which("lmp"))
+            with unittest.mock.patch.dict(os.environ, {"LMP": there}):
+                self.assertTrue(Lammps().version.startswith("1 Apr 2025"))
         with programs("liggghts", says="LIGGGHTS (Version LIGGGHTS-PUBLIC 3.9.0, compiled)"):
             self.assertTrue(Liggghts().version.startswith("3.9.0"))
         with programs("yade", says="Yade version: 2025.01"):
