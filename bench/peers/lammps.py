@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import numpy as np
-from peer import debian_version, find_program, output_of, pinned, run
+from peer import find_program, pinned, run, version_of
 
 HERE = Path(__file__).resolve().parent
 
@@ -18,8 +18,7 @@ class Lammps:
 
     def __init__(self):
         self.program = find_program("lmp", "LMP", "mpirun", "taskset")
-        own = re.search(r"Simulator - (.*)", output_of([self.program, "-h"]))
-        self.version = (own[1].strip() if own else "of unknown version") + debian_version("lammps")
+        self.version = version_of([self.program, "-h"], r"Simulator - (.*)", "lammps")
 
     @staticmethod
     def density(mass, radius):
@@ -46,8 +45,7 @@ class Liggghts(Lammps):
 
     def __init__(self):
         self.program = find_program("liggghts", "LIGGGHTS", "mpirun", "taskset")
-        own = re.search(r"Version LIGGGHTS-PUBLIC ([0-9.]+)", output_of([self.program, "-h"]))
-        self.version = (own[1] if own else "of unknown version") + debian_version("liggghts")
+        self.version = version_of([self.program, "-h"], r"Version LIGGGHTS-PUBLIC ([0-9.]+)", "liggghts")
 
     @staticmethod
     def density(mass, radius):

@@ -16,6 +16,7 @@ A peer is an object with
 """
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -41,10 +42,11 @@ def output_of(command):
                               text=True).stdout
 
 
-def debian_version(package):
-    """", Debian package 1.2-3" where it is from there."""
-    version = output_of(["dpkg-query", "-W", "-f=${Version}", package])
-    return f", Debian package {version}" if version else ""
+def version_of(command, pattern, package):
+    """As the program calls itself when it is asked by this command, and as Debian does where it is from there."""
+    own = re.search(pattern, output_of(command))
+    debian = output_of(["dpkg-query", "-W", "-f=${Version}", package])
+    return (own[1].strip() if own else "of unknown version") + (f", Debian package {debian}" if debian else "")
 
 
 def pinned(command):

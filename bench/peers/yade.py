@@ -1,12 +1,11 @@
 """Runs the tube with YADE."""
 
 import json
-import re
 import tempfile
 from pathlib import Path
 
 import numpy as np
-from peer import debian_version, find_program, output_of, pinned, run
+from peer import find_program, pinned, run, version_of
 
 INPUT = Path(__file__).resolve().parent / "tube_yade.py"
 
@@ -21,8 +20,7 @@ class Yade:
 
     def __init__(self):
         self.program = find_program("yade", "YADE", "taskset")
-        own = re.search(r"Yade version: (\S+)", output_of([self.program, "--version"]))
-        self.version = (own[1] if own else "of unknown version") + debian_version("yade")
+        self.version = version_of([self.program, "--version"], r"Yade version: (\S+)", "yade")
 
     def write(self, start):
         values = {name: start[name] for name in ("time_step", "gravity", "k_n", "k_t", "gamma_n", "mu")}
