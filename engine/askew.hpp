@@ -38,6 +38,9 @@ struct Askew {
   std::int64_t most_steps(const State& state) const;
   /// How many slices each of the threads is to have: one if they cannot go askew.
   std::size_t slices_per_thread(const State& state, int threads) const;
+  /// Whether flights with so many contacts gain by it. If they go askew `now`, somewhat fewer are
+  /// enough, so that it is not now one, now the other.
+  bool flights_gain(std::size_t in_contact, std::size_t grains, bool now) const;
 };
 
 /// Where a slice is in the ring of all.

@@ -47,6 +47,7 @@ struct alignas(cache_line) Announcement {
   std::int64_t hold_until = 0;  ///< step until which the candidates hold for sure
   double fastest2 = 0.0;        ///< (m per step)^2, as SkinGuard::fastest2()
   bool trouble = false;         ///< the run cannot go on
+  std::size_t contacts = 0;     ///< that the slice had when the candidates were listed
   std::vector<Stray> strays;    ///< while slices are askew
 };
 

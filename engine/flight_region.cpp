@@ -80,6 +80,7 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
 
 void FlightRegion::set_out(std::int64_t step, Kicks kicks) {
   suffer(step);
+  border_.mine().contacts = slice_.pair_contacts.size() + slice_.wall_contacts.size();
   skin_guard_.start_over({slice_.begin, slice_.end}, leeway_.room);
   for (DeflectedGrains::Place place = 0; place < deflected_.end(); ++place) {
     if (is_guest(place)) continue;

@@ -8,7 +8,10 @@ namespace riesel {
 Flights::Flights(State& state, const ContactModel& model, Candidates& candidates,
                  const Askew& askew)
     : airspace_(state, model, candidates),
+      askew_(askew),
       most_steps_askew_(askew.most_steps(state)),
+      may_go_askew_(askew.slices_per_thread(state, static_cast<int>(candidates.team().members()))
+                    > 1),
       progress_(candidates.slices().size()) {
   for (std::size_t number = 0; number < candidates.team().members(); ++number) {
     const std::span<Slice> share = candidates.share(number);
@@ -29,7 +32,8 @@ void Flights::start_over() {
 void Flights::advance(std::size_t number, std::int64_t now, std::int64_t last) {
   Member& member = members_[number];
   take_off(member, now);
-  while (!member.trouble && now < last) {
+  member.ill_cut = false;  // whoever gave these slices has thought about it
+  while (!member.trouble && !member.ill_cut && now < last) {
     const std::int64_t steps = steps_askew(member, now, last);
     member.profile.begin_steps(now + 1, steps);
     if (steps > 1)
@@ -87,6 +91,7 @@ void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks
   for_each_region(member, [&](FlightRegion& region) { region.set_out(step, kicks); });
   wait(member);
   heed(member);
+  member.ill_cut = ill_cut();
   const std::int64_t earliest = kicks == FlightRegion::Kicks::taken_up ? step : step + 1;
   for_each_region(member, [&](FlightRegion& region) {
     region.make_all_appointments(step, earliest, member.hold_until);
@@ -118,6 +123,16 @@ void Flights::heed(Member& member) const {
     member.fastest2 = std::max(member.fastest2, one.fastest2);
     member.trouble = member.trouble || one.trouble;
   }
+}
+
+/// Whether the slices would better be more, or one for each thread: all members get the same answer
+/// from what was told when the candidates were listed.
+bool Flights::ill_cut() const {
+  if (!may_go_askew_) return false;
+  std::size_t contacts = 0;
+  for (const Announcement& one : airspace_.announcements) contacts += one.contacts;
+  const bool askew = regions_.size() > members_.size();
+  return askew_.flights_gain(contacts, airspace_.state.grains.size(), askew) != askew;
 }
 
 /// What a step is, in the order in which it happens. Between the barriers all take up what others

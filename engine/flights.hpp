@@ -48,9 +48,9 @@ public:
   /// The candidates have started from another state.
   void start_over();
 
-  /// From step `now`, that of the state, to `last`, or until the run cannot go on: then perhaps
-  /// some steps beyond the trouble. To be called by all threads of a team with the same steps;
-  /// `number` is that of the thread.
+  /// From step `now`, that of the state, to `last`, or until the slices should be others (Askew),
+  /// or until the run cannot go on: then perhaps some steps beyond the trouble. To be called by all
+  /// threads of a team with the same steps; `number` is that of the thread.
   void advance(std::size_t number, std::int64_t now, std::int64_t last);
 
 private:
@@ -64,6 +64,7 @@ private:
     double fastest2 = 0.0;        // (m per step)^2 relative to the drift, of any grain
     bool trouble = false;         // of any slice
     bool under_way = false;       // appointments are made
+    bool ill_cut = false;         // the slices should be others
     Leeway leeway = {};           // since they were
   };
 
@@ -79,6 +80,7 @@ private:
   void land(Member& member, std::int64_t step);
   void renew(Member& member, std::int64_t step);
   void heed(Member& member) const;
+  bool ill_cut() const;
   void step_together(Member& member, std::int64_t step);
   std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last) const;
   void step_askew(Member& member, std::int64_t now, std::int64_t last);
@@ -91,7 +93,9 @@ private:
   void wait_and_meanwhile(const Member& member, Do something);
 
   Airspace airspace_;
+  const Askew askew_;
   const std::int64_t most_steps_askew_;
+  const bool may_go_askew_;  // all threads have several slices, or may have
   std::vector<std::unique_ptr<FlightRegion>> regions_;
   std::vector<Member> members_;
   std::vector<Progress> progress_;  // of regions

@@ -123,11 +123,13 @@ void Simulation::advance(std::int64_t steps) {
   } while (state_.step < last);
 }
 
-/// Steps between two thoughts about the stepping: many enough to be timed, for flights, which land
-/// after them, and for parts, which would do a longer stretch.
+/// Steps between two thoughts about the stepping: many enough to be timed, for flights, as landing
+/// costs them as much as ten steps, and for parts, which would do a longer stretch. While all is
+/// still to be looked at, none may take long.
 std::int64_t Simulation::piece() const {
-  constexpr double particle_steps = 2e7, fewest = 64.0, duration = 0.03;  // s
+  constexpr double particle_steps = 2e7, duration = 0.03;  // s
   if (!choice_.open()) return INT64_MAX / 2;
+  const double fewest = choice_.past_first_looks() ? 512.0 : 64.0;
   double steps = std::max(fewest, particle_steps / static_cast<double>(state_.grains.size()));
   if (choice_.pace() > 0.0) steps = std::max(steps, duration / choice_.pace());
   return static_cast<std::int64_t>(steps);
@@ -157,11 +159,9 @@ void Simulation::advance_piece(std::int64_t last) {
 Simulation::Preparation Simulation::wanted() const {
   const auto [by_flights, threads, apart] = choice_.way();
   const std::size_t slices = threads == 1 ? slices_alone_ : slices_together_;
-  constexpr double ample = 0.6;  // so that it is not now one, now the other
   const bool before = prepared_ && prepared_->manner.slices_per_thread > 1;
-  const double enough =
-      (before ? ample : 1.0) * askew_.contacts * static_cast<double>(state_.grains.size());
-  const bool askew = !by_flights || static_cast<double>(state_.contacts.size()) >= enough;
+  const bool askew =
+      !by_flights || askew_.flights_gain(state_.contacts.size(), state_.grains.size(), before);
   return {{by_flights, threads, askew ? slices : 1}, apart};
 }
 

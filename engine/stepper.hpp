@@ -40,7 +40,8 @@ public:
   /// The state has become another one: as Candidates::start_from().
   void start_from(State& state, Fixed drift);
 
-  /// Up to step `last`, or until the run cannot go on.
+  /// Up to step `last`, or until the run cannot go on, or until flights would better go on in
+  /// another manner, as their contacts have become many, or few: that is asked when they sort.
   void advance(std::int64_t last);
 
   const Candidates& candidates() const { return candidates_; }

@@ -41,6 +41,10 @@ public:
   Way preferred() const { return ways_[preferred_]; }
   /// Whether there is anything to choose.
   bool open() const { return ways_.size() > 1; }
+  /// Whether each has been looked at as often as at the beginning.
+  bool past_first_looks() const {
+    return std::all_of(looks_.begin(), looks_.end(), [](int looks) { return looks == 0; });
+  }
 
   /// A piece of so many steps was done that way, in `seconds`; `preparation` (s) came before it.
   void note(std::int64_t steps, double seconds, double preparation) {
@@ -65,17 +69,13 @@ private:
 
   void go_on(double seconds) {
     since_trial_ += seconds;
-    trying_ = won_once_ || in_first_looks() || (open() && since_trial_ >= patience_);
+    trying_ = won_once_ || !past_first_looks() || (open() && since_trial_ >= patience_);
     if (trying_ && !won_once_) tried_ = next_to_try();
-  }
-
-  bool in_first_looks() const {
-    return std::any_of(looks_.begin(), looks_.end(), [](int looks) { return looks > 0; });
   }
 
   /// All others in turn, or those that are still to be looked at.
   std::size_t next_to_try() const {
-    const bool first_looks_only = in_first_looks();
+    const bool first_looks_only = !past_first_looks();
     std::size_t other = tried_;
     do other = (other + 1) % ways_.size();
     while (other == preferred_ || (first_looks_only && looks_[other] == 0));

@@ -3,6 +3,7 @@
 #include "engine/askew.hpp"
 #include "engine/flights.hpp"
 #include "engine/simulation.hpp"
+#include "engine/stepper.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/same_states.hpp"
 #include "tests/engine/systems.hpp"
@@ -224,6 +225,50 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
   const int threads = GENERATE(1, 2);
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
   CHECK(same(askew(start, paper_model(), 500, threads, tiny_slices, stepping), expected));
+}
+
+TEST_CASE("flights go askew while they have contacts enough") {
+  constexpr Askew with_contacts{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = 0.1};
+  CHECK_FALSE(with_contacts.flights_gain(39, 400, false));
+  CHECK(with_contacts.flights_gain(40, 400, false));
+  CHECK(with_contacts.flights_gain(24, 400, true));  // with somewhat fewer, if they do already
+  CHECK_FALSE(with_contacts.flights_gain(23, 400, true));
+}
+
+TEST_CASE("flights stop, at a whole step, where their contacts become many or few") {
+  constexpr std::int64_t steps = 20'000;
+  const int threads = GENERATE(1, 2);
+  const auto stopped_at = [&](State& state, double contacts, std::size_t slices) {
+    const Askew how{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = contacts};
+    Stepper stepper(state, paper_model(),
+                    {.by_flights = true, .threads = threads, .slices_per_thread = slices}, how);
+    stepper.advance(steps);
+    Profile profile;
+    stepper.complete_state(profile);
+    return state.step;
+  };
+  const State start = askew(long_tube(0.1), paper_model(), 0, 1);
+  State state = start;
+  CHECK(stopped_at(state, 1.0, 1) == steps);  // more than there are
+  state = start;
+  REQUIRE(state.contacts.empty());
+  constexpr double a_few = 4.0 / 400.0;
+  const std::int64_t now_many = stopped_at(state, a_few, 1);
+  CHECK(now_many > 0);
+  REQUIRE(now_many < steps);
+  CHECK(state.contacts.size() >= 3);  // one may have ended in that step
+  CHECK(same(state, advanced(start, paper_model(), now_many, 1, Stepping::plain)));
+  const std::int64_t now_few = stopped_at(state, a_few, 4);
+  CHECK(now_few > now_many);
+  REQUIRE(now_few < steps);
+  CHECK(state.contacts.size() <= 3);  // one may have begun
+}
+
+TEST_CASE("a long advance by flights that now go askew and now do not comes to the same bits") {
+  const int threads = GENERATE(1, 3);
+  const Askew how{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = 4.0 / 400.0};
+  CHECK(same(askew(long_tube(0.1), paper_model(), 6000, threads, how, Stepping::windows),
+             advanced(long_tube(0.1), paper_model(), 6000, 1, Stepping::plain)));
 }
 
 TEST_CASE("slices do each step together where grains are too fast for more") {

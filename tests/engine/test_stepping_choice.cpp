@@ -62,6 +62,7 @@ TEST_CASE("each way is tried twice at the beginning, between two pieces of the p
   std::vector<Way> done;
   for (int piece = 0; piece < 10; ++piece) {
     done.push_back(choice.way());
+    CHECK(choice.past_first_looks() == (piece >= 8));
     choice.note(steps, choice.way() == flights ? 0.010 : 0.014, 0.0);
   }
   CHECK(done
