@@ -10,6 +10,7 @@
 #include "engine/observables.hpp"
 #include "io/trajectory_file.hpp"
 #include "scenarios/run_length.hpp"
+#include "scenarios/run_limits.hpp"
 
 #include <fmt/core.h>
 
@@ -158,11 +159,30 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
 void print_brake(const scenarios::Flow& flow, double random, double mean_vy) {
   constexpr double at_rest = 1e-6;  // m/s: how fast grains will be is not known then
   const WallLattice& wall = flow.state.walls.front();
-  if (wall.smooth() || random < at_rest) return;
+  if (wall.smooth()) return;
+  if (random < at_rest) {
+    constexpr double about_at_rest = 0.01;  // m/s
+    if (std::abs(mean_vy) > about_at_rest)
+      warn("all grains move with the same velocity, and so slowly across that any along the walls "
+           "is above v_crit (brake failure): give start.random_velocity");
+    return;
+  }
   const double t_col =
       collision_time(flow.model.normal, mean_mass(flow.state.grains), std::max(random, 1e-3));
   const double reach = 0.5 * mean_diameter(flow.state.grains) + wall.radius;
   print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
+}
+
+/// Those that the run would be beyond from its beginning.
+void warn_of_limits(const io::Settings& settings, const State& state) {
+  const scenarios::RunLimits limits = scenarios::run_limits(settings);
+  if (const double speed = fastest_grain(state).speed; limits.speed && speed > *limits.speed)
+    warn("limits.speed is exceeded from the start on, by grains of {:.3g} m/s", speed);
+  const double steps = settings.number("run.steps_per_collision");
+  if (limits.steps_per_contact && *limits.steps_per_contact > steps)
+    warn("limits.steps_per_contact is above run.steps_per_collision, the {:.3g} steps of the "
+         "shortest contact of two",
+         steps);
 }
 
 void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
@@ -194,6 +214,7 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   print_bodies(flow.state);
   print_contacts(settings, flow, random);
   print_brake(flow, random, start.mean_vy);
+  warn_of_limits(settings, flow.state);
   print_cost(settings, flow);
 }
 

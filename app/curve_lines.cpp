@@ -12,22 +12,22 @@ namespace {
 
 using Points = std::vector<io::CurvePoint>;
 
-/// v_y at which the value rises through the level for the first time, on the straight line between
-/// the points on both sides.
+/// v_y at which the value rises through the level, not to come below it again, on the straight line
+/// between the points on both sides: the means of few starts scatter, and may touch it before.
 double where_it_rises(const Points& points, double io::CurvePoint::*value, double level) {
   const io::CurvePoint* below = nullptr;
+  double rise = unknown;  // also if it is above from the beginning
   for (const io::CurvePoint& point : points) {
     if (std::isnan(point.*value)) continue;
     if (point.*value < level) {
       below = &point;
-    } else if (below != nullptr) {
+      rise = unknown;
+    } else if (below != nullptr && std::isnan(rise)) {
       const double part = (level - below->*value) / (point.*value - below->*value);
-      return below->v_y + part * (point.v_y - below->v_y);
-    } else {
-      return unknown;  // it is above from the beginning
+      rise = below->v_y + part * (point.v_y - below->v_y);
     }
   }
-  return unknown;
+  return rise;
 }
 
 io::CurveLine line_of(double v_x, Points points) {

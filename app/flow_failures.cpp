@@ -20,11 +20,12 @@ void fail_if_too_fast(const State& state) {
 }
 
 std::optional<std::string> way_through_a_wall(const State& state, double diameter) {
+  const double smallest = 2.0 * std::ranges::min(state.grains.radius);
   for (const WallLattice& wall : state.walls)
     if (diameter < wall.gap(state.box))
       return fmt::format("grains of {:.3g} m fit between the wall grains, {:.3g} m apart, and may "
                          "leave the tube; choose wall.spacing below {:.3g} m",
-                         diameter, wall.gap(state.box), diameter + 2.0 * wall.radius);
+                         diameter, wall.gap(state.box), smallest + 2.0 * wall.radius);
   return std::nullopt;
 }
 

@@ -1,6 +1,6 @@
 // How many steps a run makes before it looks at the clock and for signals again: as many as take
-// about a fifth of a second, on a machine that is busy with other work or has fewer cores than the
-// run has threads, too.
+// about a second, on a machine that is busy with other work or has fewer cores than the run has
+// threads, too. Shorter pieces would cost large systems much, as each ends with a complete state.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ public:
 
   /// A piece of so many steps took so long. The next is at most twice as long as has been tried.
   void note(std::int64_t steps, double seconds) {
-    constexpr double aim = 0.2;  // s
+    constexpr double aim = 1.0;  // s
     const auto most = std::max(steps_, 2 * steps);
     const double fitting = aim / std::max(seconds, shortest_time) * static_cast<double>(steps);
     steps_ =

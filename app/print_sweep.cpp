@@ -59,9 +59,8 @@ void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& s
       const io::Summary any =
           io::read_summary(point_directory(sweep, point.name) / io::summary_name);
       if (const auto* flow = std::get_if<io::FlowSummary>(&any))
-        ++verdicts[fmt::format(
-            "{} and {}{}", flow->state, name(flow->validity.verdict.verdict),
-            flow->ended_by == "at_most" ? " (not known as precisely as asked for)" : "")];
+        ++verdicts[fmt::format("{} and {}{}", flow->state, name(flow->validity.verdict.verdict),
+                               flow->ended_by == "at_most" ? " (ended at run.until.at_most)" : "")];
     } catch (const io::FileError&) {
       ++verdicts["unreadable"];
     }
@@ -97,6 +96,10 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
     if (!point.reason.empty())
       fmt::print("  {} {} ({}): {}\n", point.name, point.status, coordinates_of(point, manifest),
                  point.reason);
+  if (counts[to_string(RunStatus::failed)] > 0)
+    fmt::print("  what has failed is run again, with changes by --set if there are any, by '{} "
+               "--retry-failed'\n",
+               call_of("sweep", sweep));
   if (std::filesystem::exists(sweep / io::sweep_csv_name))
     fmt::print("  table in {}/{} and {}\n", sweep.string(), io::sweep_csv_name, io::sweep_h5_name);
 }

@@ -92,8 +92,8 @@ private:
                                            "flow of hard grains."),
                      is_good ? "good" : "doubtful");
     if (imprecise > 0)
-      page().paragraph(fmt::format("{} of them ended because their time was up, before they were "
-                                   "known as precisely as was asked for.",
+      page().paragraph(fmt::format("{} of them ended at run.until.at_most, before two looks in a "
+                                   "row found the mean as precise as was asked for.",
                                    imprecise),
                        "doubtful");
   }

@@ -5,6 +5,7 @@
 #include "io/settings_table.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace riesel::app {
@@ -19,6 +20,13 @@ bool may_change(const std::string& key) {
   return names.contains(key) || names.contains(io::section_of(key));
 }
 
+/// To any scenario: what else it may be is told when the settings are read.
+bool is_known(const std::string& key) {
+  return std::ranges::any_of(scenarios::settings_tables(), [&](const auto& table) {
+    return io::has_key(table.second, key) || io::has_section(table.second, key);
+  });
+}
+
 /// "key=" for a key of the table that has no value.
 bool takes_out_nothing(const std::string& override, const io::Settings& from) {
   const io::YamlEntry setting = io::parse_overrides({override}).front();
@@ -31,7 +39,7 @@ bool takes_out_nothing(const std::string& override, const io::Settings& from) {
 
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
   for (const io::YamlEntry& setting : io::parse_overrides(overrides)) {
-    if (!may_change(setting.key))
+    if (is_known(setting.key) && !may_change(setting.key))
       throw io::SettingsError(setting.key_place, setting.key, "cannot change when a run is resumed",
                               "only run.duration, run.until, run.threads, run.stepping, limits and "
                               "output.checkpoint_interval can; for anything else start a new run");

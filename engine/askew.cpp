@@ -35,10 +35,10 @@ std::size_t Askew::slices_per_thread(const State& state, int threads) const {
   return slices * static_cast<std::size_t>(threads) < 3 ? 1 : slices;
 }
 
-bool Askew::flights_gain(std::size_t in_contact, std::size_t grains, bool now) const {
+bool Askew::flights_gain(std::size_t contact_count, std::size_t grains, bool now) const {
   constexpr double ample = 0.6;
   const double enough = (now ? ample : 1.0) * contacts * static_cast<double>(grains);
-  return static_cast<double>(in_contact) >= enough;
+  return static_cast<double>(contact_count) >= enough;
 }
 
 }  // namespace riesel

@@ -40,7 +40,7 @@ struct Askew {
   std::size_t slices_per_thread(const State& state, int threads) const;
   /// Whether flights with so many contacts gain by it. If they go askew `now`, somewhat fewer are
   /// enough, so that it is not now one, now the other.
-  bool flights_gain(std::size_t in_contact, std::size_t grains, bool now) const;
+  bool flights_gain(std::size_t contact_count, std::size_t grains, bool now) const;
 };
 
 /// Where a slice is in the ring of all.

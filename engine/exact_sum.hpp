@@ -18,8 +18,6 @@ public:
   /// Adds a finite term, |term| < 1e11.
   void add(double term) { quanta_ += quanta(term); }
   void add(const ExactSum& other) { quanta_ += other.quanta_; }
-  /// Adds another sum `times` over.
-  void add(const ExactSum& other, std::int64_t times) { quanta_ += other.quanta_ * times; }
 
   double value() const { return static_cast<double>(quanta_) * unit_per_quantum; }
 

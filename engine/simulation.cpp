@@ -119,7 +119,10 @@ void Simulation::start_profile() {
 void Simulation::advance(std::int64_t steps) {
   const std::int64_t last = state_.step + steps;
   do {
-    advance_piece(std::min(last, state_.step + piece()));
+    // In pieces of equal length: a short one at the end would tell little about its way.
+    const std::int64_t left = last - state_.step;
+    const std::int64_t pieces = std::max<std::int64_t>(1, left / piece());
+    advance_piece(state_.step + left / pieces);
   } while (state_.step < last);
 }
 
@@ -148,7 +151,8 @@ void Simulation::advance_piece(std::int64_t last) {
   const std::int64_t first = state_.step;
   const auto start = now();
   step_up_to(last);
-  if (state_.step > first)
+  // Flights that stopped early went on with slices that should have been others.
+  if (state_.step == last && state_.step > first)
     choice_.note(state_.step - first, seconds(now() - start), seconds(start - begin));
   if (parts_)
     parts_->fail_if_in_trouble();

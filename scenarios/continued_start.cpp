@@ -1,5 +1,6 @@
 #include "scenarios/continued_start.hpp"
 
+#include "engine/encounter.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "scenarios/scenario.hpp"
@@ -112,6 +113,21 @@ void reject_other_swing_across(const io::Settings& settings, const State& earlie
                                   "continued by {:.6g} m",
                                   now, before),
                       "shake them as far across, by amplitude and angle, or start afresh");
+}
+
+std::vector<Grain> half_a_step_before(const State& earlier, double time_step) {
+  const StepUnits units(earlier);
+  const double half_step = 0.5 * time_step / earlier.time_step;
+  const GrainView grains(earlier);
+  std::vector<Grain> result;
+  for (std::size_t i = 0; i < earlier.grains.size(); ++i) {
+    Grain grain = grains[i];
+    grain.vx -= half_step * real(earlier.grains.kick_x[i]) * units.velocity_x;
+    grain.vy -= half_step * real(earlier.grains.kick_y[i]) * units.velocity_y;
+    grain.spin -= half_step * real(earlier.grains.spin_kick_of(i)) * units.spin;
+    result.push_back(grain);
+  }
+  return result;
 }
 
 void take_over(const State& earlier, const ContactModel& model, State& state) {

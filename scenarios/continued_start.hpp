@@ -15,6 +15,7 @@
 #include "io/settings.hpp"
 
 #include <string>
+#include <vector>
 
 namespace riesel::scenarios {
 
@@ -26,6 +27,10 @@ State earlier_state(const io::Settings& settings, const State& empty);
 /// as far in that direction as those of `earlier`.
 void reject_other_swing_across(const io::Settings& settings, const State& earlier,
                                const State& state);
+
+/// The grains of `earlier`, with the velocities and spins that a state with this time step (s) is
+/// to hold for them: half a step before, as the forces of the last step are not yet in them.
+std::vector<Grain> half_a_step_before(const State& earlier, double time_step);
 
 /// Moves grains and contacts of `earlier` to `state`, whose box, walls, gravity and time step are
 /// set and which has no grains yet. Walls go on from where they were and at the phase of their

@@ -144,16 +144,16 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
   const bool held =
       std::ranges::all_of(grains, [&](const Grain& g) { return std::hypot(g.vx, g.vy) < largest; });
   if (held) return;
-  const bool of_file = settings.text("start.kind") == "file";
-  const auto speed_by = [&](const char* key) {
-    return of_file ? 0.0 : std::abs(settings.number(key));
-  };
-  const bool by_chance = speed_by("start.random_velocity") > speed_by("start.axial_velocity");
-  settings.reject(of_file     ? "start.from"
-                  : by_chance ? "start.random_velocity"
-                              : "start.axial_velocity",
-                  "too fast for this tube and time step",
-                  fmt::format("choose velocities below {:.3g} m/s", largest));
+  const std::string problem = "too fast for this tube and time step";
+  const std::string remedy = fmt::format("choose velocities below {:.3g} m/s", largest);
+  const std::string kind = settings.text("start.kind");
+  if (kind == "file") settings.reject("start.from", problem, remedy);
+  if (kind == "continued")
+    settings.reject("start.from", "has grains too fast for this tube and time step",
+                    remedy + ", or stiffer contacts, whose time step is shorter");
+  const bool by_chance = std::abs(settings.number("start.random_velocity"))
+                         > std::abs(settings.number("start.axial_velocity"));
+  settings.reject(by_chance ? "start.random_velocity" : "start.axial_velocity", problem, remedy);
 }
 
 /// An eighth of a turn in a step; a few times more, and it would seem slow again.
@@ -196,6 +196,9 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   reject_fast_walls(settings, room.empty);
   reject_strong_gravity(settings, earlier.grains.size(), room.empty);
   reject_rounded_gravity(settings, room.empty);
+  const auto grains = half_a_step_before(earlier, room.empty.time_step);
+  reject_fast_grains(settings, grains, room.empty);
+  reject_fast_spins(settings, grains, room.empty);
   take_over(earlier, model, room.empty);
   return {.state = std::move(room.empty), .model = model};
 }

@@ -48,6 +48,7 @@ class _OfRuns:
     leg: str  #: or ""
     runs: int  #: that count
     steady: int  #: how many of them are steady flows; of impacts none is
+    valid: int  #: how many of them the verdict calls valid: look before using a mean of others
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ class Mean(_OfRuns):
     error: float  #: 68 %, by the scatter of the runs, see mean_of(); NaN of a single one
 
     def __str__(self) -> str:
-        return f"{Estimate(self.value, self.error)} ({self.runs} runs, {self.steady} steady)"
+        return f"{Estimate(self.value, self.error)} ({self.runs} runs, {self.steady} steady, {self.valid} valid)"
 
 
 @dataclass(frozen=True)
@@ -101,23 +102,25 @@ class Sweep:
 
     def means(self, column: str, over: str = "seed") -> list[Mean]:
         """The means of a column of `table` over the points that differ in the setting `over` alone, in
-        the order of the sweep file. Whether runs that are not steady may count is for you to say."""
+        the order of the sweep file. Whether runs that are not steady, or not valid, may
+        count is for you to say: the means tell how many of them are."""
         groups = self._groups(over)
         table = self.table
         if column not in table or table[column].dtype.kind != "f":
             raise NotThere(f"{self.directory}: no run has a number {column}; 'list(sweep.table)' tells what they have")
-        states = table.get("state", np.full(len(table[column]), ""))
-        result_of = {name: (float(value), state == "steady")
-                     for name, value, state in zip(table["point"], table[column], states)}
+        unknown = np.full(len(table[column]), "")
+        result_of = {name: (float(value), state == "steady", verdict == "valid")
+                     for name, value, state, verdict in zip(table["point"], table[column], table.get("state", unknown),
+                                                            table.get("validity.verdict", unknown))}
         means = []
         for group in groups:
             if any(point.name not in result_of for point in group):
                 raise NotThere(f"{self.directory}: its table lacks a point; make it anew by 'riesel collect "
                                f"{self.directory}'")
             there = [result_of[point.name] for point in group if math.isfinite(result_of[point.name][0])]
-            mean = mean_of([value for value, _ in there])
-            means.append(Mean(**_common(group[0], over), runs=len(there), steady=sum(steady for _, steady in there),
-                              value=mean.value, error=mean.error))
+            mean = mean_of([value for value, _, _ in there])
+            means.append(Mean(**_common(group[0], over), runs=len(there), steady=sum(steady for _, steady, _ in there),
+                              valid=sum(valid for _, _, valid in there), value=mean.value, error=mean.error))
         return means
 
     def mean_profiles(self, over: str = "seed") -> list[MeanProfiles]:
@@ -128,6 +131,7 @@ class Sweep:
             done = [run for point in group if point.directory.is_dir() and (run := point.run).is_done]
             found.append(MeanProfiles(**_common(group[0], over), runs=len(done),
                                       steady=sum(run.summary.get("state") == "steady" for run in done),
+                                      valid=sum(run.summary.get("validity.verdict") == "valid" for run in done),
                                       profiles=_mean_of_profiles(done)))
         return found
 

@@ -155,6 +155,16 @@ class Check(CommandTest):
             self.assertEqual("brake failure" in text, is_due, text)
         self.assert_warned(text, "v_crit", "brake failure")
 
+    def test_grains_in_lockstep_are_above_any_critical_velocity(self):
+        text = self.check(MILD_TUBE, "--set", "start.random_velocity=0", "--set", "start.axial_velocity=20")
+        self.assert_warned(text, "the same velocity", "start.random_velocity")
+
+    def test_of_limits_that_the_run_would_be_beyond_at_once(self):
+        for limit, is_due in (("limits.speed=0.1 m/s", True), ("limits.speed=100 m/s", False),
+                              ("limits.steps_per_contact=51", True), ("limits.steps_per_contact=49", False)):
+            text = self.check(MILD_TUBE, "--set", limit)
+            self.assertEqual(f"warning: {limit.partition('=')[0]} is " in text, is_due, text)
+
     def test_of_grains_that_fit_between_the_wall_grains(self):
         """Eight of 0.66 mm in 10 mm leave 0.59 mm."""
         for diameter, is_due in (("0.62 mm", False), ("0.56 mm", True)):

@@ -174,6 +174,10 @@ class ResumeRefuses(CommandTest):
         self.assert_refused(result, "holds no run", "the directory of one")
         self.assert_nothing_written({})
 
+    def test_a_setting_that_does_not_exist(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        self.assert_refused(self.riesel("resume", out, "--set", "run.durations=3"), "run.durations", "unknown key", "run.duration")
+
     def test_another_file(self):
         tube = self.write("tube.yaml", "scenario: periodic_tube\n")
         result = self.riesel("resume", tube)

@@ -378,6 +378,7 @@ class Failures(SweepTest):
         result = self.riesel("status", "out")
         self.assert_done(result)
         self.assertIn("3 points: 2 done, 1 failed", result.stdout)
+        self.assertIn("--retry-failed'", result.stdout)
         self.assertRegex(result.stdout, r"failed \(contact.stiffness=0.5 seed=1\): .*a wall")
 
 

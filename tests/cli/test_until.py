@@ -115,7 +115,7 @@ class Until(UntilTest):
                                  "axes: {start.axial_velocity: [20 m/s, 25 m/s]}\n")
         result = self.riesel("sweep", "sweep.yaml", "--out", "out")
         self.assert_done(result)
-        self.assertRegex(result.stdout, r"\n  flows: 2 accelerating and \w+ \(not known as precisely as asked for\)\n")
+        self.assertRegex(result.stdout, r"\n  flows: 2 accelerating and \w+ \(ended at run\.until\.at_most\)\n")
         with open(self.home / "out/sweep.csv", newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["state"] for row in rows], ["accelerating"] * 2)
@@ -125,7 +125,7 @@ class Until(UntilTest):
             self.assertTrue(np.isnan(file["points/mean_axial_velocity.error"][()]).all())
         self.assert_done(self.riesel("report", "out"))
         page = (self.home / "out/report.html").read_text(encoding="utf-8")
-        self.assertIn("2 of them ended because their time was up", page)
+        self.assertIn("2 of them ended at run.until.at_most", page)
         self.assertRegex(page, r"[0-9.]+ \(error not known\)</td><td[^>]*>accelerating")
         self.assertRegex(page, r"[0-9.]+ \(error not known\) m/s, accelerating")
 

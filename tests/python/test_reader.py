@@ -260,11 +260,14 @@ class OfSweep(CommandTest):
         (points / sweep.points[0].name / "summary.json").unlink()
         last = points / sweep.points[-1].name
         summary = json.loads((last / "summary.json").read_text(encoding="utf-8"))
+        summary["validity"]["verdict"] = "valid"
         (last / "summary.json").write_text(json.dumps(summary | {"state": "steady"}), encoding="utf-8")
         with h5py.File(last / "run.h5", "r+") as file:
             file["profiles/temperature_x"][0] = np.nan
         means = riesel.Sweep(self.home / "out").mean_profiles()
         self.assertEqual([(mean.runs, mean.steady) for mean in means], [(2, 0), (3, 0), (3, 0), (3, 1)])
+        verdicts = [table["validity.verdict"] for table in (point.run.summary for point in sweep.points[-3:])]
+        self.assertEqual(means[3].valid, verdicts[:2].count("valid") + 1)
         others = [table["temperature_x"][0] for table in tables[:-1]]
         self.assertAlmostEqual(means[3].profiles["temperature_x"][0], statistics.mean(others), places=12)
         with h5py.File(last / "run.h5", "r+") as file:
@@ -293,7 +296,10 @@ class OfSweep(CommandTest):
                       if (point.settings["contact.restitution"], point.branch)
                       == (mean.settings["contact.restitution"], mean.branch)]
             self.assertNotIn("seed", mean.settings)
-            self.assertEqual((mean.runs, mean.steady), (3, 0))
+            valid = [point for point in sweep.points if point.settings["contact.restitution"] == mean.settings[
+                "contact.restitution"] and point.branch == mean.branch and point.run.validity.verdict == "valid"]
+            self.assertEqual((mean.runs, mean.steady, mean.valid), (3, 0, len(valid)))
+            self.assertIn(f"(3 runs, 0 steady, {len(valid)} valid)", str(mean))
             self.assertAlmostEqual(mean.value, statistics.mean(values), places=12)
             self.assertAlmostEqual(mean.error, 1.321 * statistics.stdev(values) / 3 ** 0.5, delta=0.001 * mean.error)
         (single,) = {mean.runs for mean in sweep.means(column, over="contact.restitution")}

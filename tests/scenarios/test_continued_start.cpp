@@ -12,6 +12,7 @@
 #include <cmath>
 
 using namespace scenario_fixture;
+using Catch::Matchers::WithinAbs;
 using file_fixture::ScratchDirectory;
 
 namespace {
@@ -155,6 +156,42 @@ TEST_CASE("A continued start is refused where the earlier run does not fit") {
   check_mentions(complaint(yaml, {"start.from=/nowhere"}), {"start.from", "has no effect"});
   check_mentions(complaint(continued, {"start.axial_velocity=1"}), {"has no effect"});
   check_mentions(complaint(yaml, {"start.kind=continued"}), {"start.from", "is missing"});
+}
+
+TEST_CASE("Velocities half a step before a continued start are those that it holds") {
+  const EarlierRun earlier;
+  const Overrides softer{"contact.damping=", "contact.restitution=0.9", "contact.stiffness=10 N/m"};
+  const State continued = earlier.continued(softer);
+  const std::vector<Grain> half =
+      scenarios::half_a_step_before(earlier.state(), continued.time_step);
+  const double metres_per_second = continued.box.quantum_x() / continued.time_step;
+  double largest_change = 0.0;
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    CHECK_THAT(real(continued.grains.ux[i]) * metres_per_second, WithinAbs(half[i].vx, 1e-12));
+    largest_change = std::max(largest_change, std::abs(half[i].vx - grain_at(continued, i).vx));
+  }
+  CHECK(largest_change > 1e-3);  // some are in contact
+}
+
+TEST_CASE("A continued start is refused if its time step is too long for the earlier motion") {
+  const EarlierRun earlier;
+  check_mentions(complaint(continued_yaml(earlier.directory()),
+                           {"gravity=0", "contact.damping=", "contact.restitution=0.9",
+                            "contact.stiffness=1e-4 N/m"}),
+                 {"start.from", "too fast", "velocities below"});
+
+  const std::string rotating = yaml + "grains: {rotation: disc}\n";
+  State state = flow(rotating).state;
+  state.grains.spin[0] = Fixed{1} << 60;  // of 2^64 quanta in a turn, in each step
+  const ScratchDirectory directory;
+  io::write_checkpoint(directory / io::checkpoint_name,
+                       {.state = state, .settings = read(rotating).effective_yaml(), .source = {}});
+  const std::string continued = continued_yaml(directory.path()) + "grains: {rotation: disc}\n";
+  CHECK(flow(continued).state.grains.size() == state.grains.size());
+  const double stiffness = read(rotating).number("contact.stiffness");
+  check_mentions(complaint(continued, {"contact.damping=", "contact.restitution=0.9",
+                                       "contact.stiffness=" + std::to_string(stiffness / 16.0)}),
+                 {"start.from", "spins too fast"});
 }
 
 TEST_CASE("A continued start is refused if the earlier state has not as many walls") {
