@@ -43,10 +43,10 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
     throw UnusableInput(path.string() + ": is no checkpoint; give the directory of a run, or its "
                         + io::checkpoint_name);
   if (std::filesystem::is_directory(path) && !has_checkpoint(path))
-    throw UnusableInput(path.string()
-                        + ": holds no run of a flow to go on with; give the directory of one "
-                          "(curves of impacts and "
-                          "columns of beads are not resumed: run them again)");
+    throw UnusableInput(
+        path.string()
+        + ": holds no run of a flow to go on with; give the directory of one "
+          "(curves of impacts and columns of beads are not resumed: run them again)");
 }
 
 std::filesystem::path home_of(const std::filesystem::path& checkpoint) {
