@@ -179,7 +179,7 @@ FAULTS = [
     ("flights askew for as long as the present speeds allow", "engine/flights.cpp",
      "std::max(2.0 * fastest,", "std::max(1e-3 * fastest,"),
     ("slices of flights that stay as they were cut", "engine/flights.cpp",
-     "askew_.flights_gain(contacts, airspace_.state.grains.size(), askew) != askew", "contacts == SIZE_MAX"),
+     "askew_.flights_gain(contacts, airspace_.state.grains.size(), askew) != askew", "askew && contacts == SIZE_MAX"),
     ("flights askew in the very first step", "engine/flights.cpp", " || age == 0 ||", " || age < 0 ||"),
     ("flights askew that expect no wall to shake", "engine/flights.cpp",
      "fastest + 2.0 * airspace_.shaking)", "fastest)"),
