@@ -72,13 +72,13 @@ private:
 
   void tell_result() {
     std::map<std::string, int> statuses, states, verdicts;
-    int imprecise = 0;
+    int ended_at_most = 0;
     for (std::size_t i = 0; i < record_->results.size(); ++i) {
       ++statuses[manifest().points[i].status];
       const auto* summary = flow(i);
       if (summary == nullptr) continue;
       ++states[summary->state];
-      if (summary->ended_by == "at_most") ++imprecise;
+      if (summary->ended_by == "at_most") ++ended_at_most;
       ++verdicts[std::string(name(summary->validity.verdict.verdict))];
     }
     page().paragraph(fmt::format("{} points: {}.", manifest().points.size(), counted(statuses)));
@@ -91,10 +91,10 @@ private:
                                          : " Only a steady and valid mean is a property of the "
                                            "flow of hard grains."),
                      is_good ? "good" : "doubtful");
-    if (imprecise > 0)
+    if (ended_at_most > 0)
       page().paragraph(fmt::format("{} of them ended at run.until.at_most, before two looks in a "
                                    "row found the mean as precise as was asked for.",
-                                   imprecise),
+                                   ended_at_most),
                        "doubtful");
   }
 

@@ -102,25 +102,24 @@ class Sweep:
 
     def means(self, column: str, over: str = "seed") -> list[Mean]:
         """The means of a column of `table` over the points that differ in the setting `over` alone, in
-        the order of the sweep file. Whether runs that are not steady, or not valid, may
-        count is for you to say: the means tell how many of them are."""
+        the order of the sweep file. Whether runs that are not steady, or not valid, may count is for you to say:
+        the means tell how many are."""
         groups = self._groups(over)
         table = self.table
         if column not in table or table[column].dtype.kind != "f":
             raise NotThere(f"{self.directory}: no run has a number {column}; 'list(sweep.table)' tells what they have")
         unknown = np.full(len(table[column]), "")
-        result_of = {name: (float(value), state == "steady", verdict == "valid")
-                     for name, value, state, verdict in zip(table["point"], table[column], table.get("state", unknown),
-                                                            table.get("validity.verdict", unknown))}
+        states, verdicts = table.get("state", unknown), table.get("validity.verdict", unknown)
+        row_of = {name: row for row, name in enumerate(table["point"])}
         means = []
         for group in groups:
-            if any(point.name not in result_of for point in group):
+            if any(point.name not in row_of for point in group):
                 raise NotThere(f"{self.directory}: its table lacks a point; make it anew by 'riesel collect "
                                f"{self.directory}'")
-            there = [result_of[point.name] for point in group if math.isfinite(result_of[point.name][0])]
-            mean = mean_of([value for value, _, _ in there])
-            means.append(Mean(**_common(group[0], over), runs=len(there), steady=sum(steady for _, steady, _ in there),
-                              valid=sum(valid for _, _, valid in there), value=mean.value, error=mean.error))
+            rows = [row for point in group if math.isfinite(table[column][row := row_of[point.name]])]
+            mean = mean_of([float(value) for value in table[column][rows]])
+            means.append(Mean(**_common(group[0], over), runs=len(rows), steady=sum(states[row] == "steady" for row in rows),
+                              valid=sum(verdicts[row] == "valid" for row in rows), value=mean.value, error=mean.error))
         return means
 
     def mean_profiles(self, over: str = "seed") -> list[MeanProfiles]:
