@@ -68,7 +68,7 @@ const std::vector<Entry>& entries() {
        [](auto& o, auto&) { return o.energies.kinetic; }},
       {{"rotational_energy", "J", "Kinetic energy of rotation; 0 where grains do not rotate."},
        [](auto& o, auto&) { return o.energies.rotational; }},
-      {{"mean_spin", "rad/s", "Mean spin of the grains, counter-clockwise."},
+      {{"mean_spin", "rad/s", "Mean spin of the grains, positive from x towards y."},
        [](auto& o, auto&) { return o.mean_spin; }},
       {{"rotational_temperature", "m^2/s^2", "Mean of I w^2 / m over the grains."},
        [](auto& o, auto&) { return o.rotational_temperature; }},

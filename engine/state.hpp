@@ -41,7 +41,7 @@ struct Grains {
   AlignedVector<double> radius;         ///< m
   AlignedVector<double> mass;           ///< kg
   AlignedVector<std::int32_t> id;
-  AlignedVector<Fixed> spin, spin_kick;  ///< S and J: counter-clockwise, quanta of angle
+  AlignedVector<Fixed> spin, spin_kick;  ///< S and J: positive from x towards y, quanta of angle
   double inertia = 0.0;  ///< moment of inertia over m r^2, the same for all; 0: no rotation
 
   std::size_t size() const { return x.size(); }
@@ -105,7 +105,7 @@ struct Grain {
   double vx, vy;      ///< m/s
   double radius;      ///< m
   double mass;        ///< kg
-  double spin = 0.0;  ///< rad/s, counter-clockwise; without meaning where grains do not rotate
+  double spin = 0.0;  ///< rad/s, positive from x towards y; without meaning where grains do not rotate
 };
 
 /// Adds a grain that touches nothing; its id is the number of grains before it. At step 0 only.
