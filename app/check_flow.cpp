@@ -129,20 +129,40 @@ void print_bodies(const State& state) {
   warn_of_open_walls(state);
 }
 
+/// Without collisions grains that start upwards rise so far, which may be too far.
+void warn_of_low_chute(const State& state) {
+  if (state.walls.size() > 1 || state.gravity.x >= 0.0) return;
+  const GrainView grains(state);
+  double highest = 0.0;
+  for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
+    const Grain g = grains[slot];
+    const double up = std::max(g.vx, 0.0);
+    highest = std::max(highest, g.x - up * up / (2.0 * state.gravity.x));
+  }
+  const double lost = 2.0 * state.box.width;
+  if (highest > lost)
+    warn("grains start upwards so fast that they may rise to {:.2g} m; the run ends where one is "
+         "higher than {:.2g} m, twice chute.height: choose that larger, or start.random_velocity "
+         "smaller",
+         highest, lost);
+}
+
 /// Of a grain of mean mass and size, as in the summary of a run. `random`: m/s, root mean square of
-/// the random velocities at the start, per component.
-void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random) {
+/// the random velocities at the start, per component; `mean_vx`: m/s, of all together, which
+/// brings no two to each other, but each to a wall.
+void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random,
+                    double mean_vx) {
   const State& state = flow.state;
   const double mass = mean_mass(state.grains);
   const double radius = 0.5 * mean_diameter(state.grains);
-  // Grains of a normal distribution are rarely faster than four standard deviations; the common
-  // fall brings no two together.
+  // Grains of a normal distribution are rarely faster than four standard deviations.
   const double fastest = std::max(4.0 * random, 1e-3);
   const double both_fastest = std::numbers::sqrt2 * fastest;
   const double smaller = state.walls.front().smaller_radius(radius);
   const HeadOnContact grains{
       .reduced_mass = 0.5 * mass, .speed = both_fastest, .smaller_radius = radius};
-  const double fastest_at_wall = fastest + state.walls.front().motion.fastest_oscillation();
+  const double fastest_at_wall =
+      fastest + std::abs(mean_vx) + state.walls.front().motion.fastest_oscillation();
   const HeadOnContact wall{
       .reduced_mass = mass, .speed = fastest_at_wall, .smaller_radius = smaller};
   print_contact("grain and grain", flow.model, grains.reduced_mass, grains.speed);
@@ -156,11 +176,12 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
 }
 
-void print_brake(const scenarios::Flow& flow, double random, double mean_vy) {
+/// `across`: m/s, the typical velocity towards a wall.
+void print_brake(const scenarios::Flow& flow, double across, double mean_vy) {
   constexpr double at_rest = 1e-6;  // m/s: how fast grains will be is not known then
   const WallLattice& wall = flow.state.walls.front();
   if (wall.smooth()) return;
-  if (random < at_rest) {
+  if (across < at_rest) {
     constexpr double about_at_rest = 0.01;  // m/s
     if (std::abs(mean_vy) > about_at_rest)
       warn("all grains move with the same velocity, and so slowly across that any along the walls "
@@ -168,9 +189,9 @@ void print_brake(const scenarios::Flow& flow, double random, double mean_vy) {
     return;
   }
   const double t_col =
-      collision_time(flow.model.normal, mean_mass(flow.state.grains), std::max(random, 1e-3));
+      collision_time(flow.model.normal, mean_mass(flow.state.grains), std::max(across, 1e-3));
   const double reach = 0.5 * mean_diameter(flow.state.grains) + wall.radius;
-  print_critical_velocity(chord_of_impact(reach, random, t_col), t_col, std::abs(mean_vy));
+  print_critical_velocity(chord_of_impact(reach, across, t_col), t_col, std::abs(mean_vy));
 }
 
 /// Those that the run would be beyond from its beginning.
@@ -212,8 +233,9 @@ void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const Observables start = observe(flow.state);
   const double random = std::sqrt(start.granular_temperature);
   print_bodies(flow.state);
-  print_contacts(settings, flow, random);
-  print_brake(flow, random, start.mean_vy);
+  print_contacts(settings, flow, random, start.mean_vx);
+  print_brake(flow, std::hypot(random, start.mean_vx), start.mean_vy);
+  warn_of_low_chute(flow.state);
   warn_of_limits(settings, flow.state);
   print_cost(settings, flow);
 }

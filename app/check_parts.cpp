@@ -1,6 +1,7 @@
 #include "app/check_parts.hpp"
 
 #include "engine/closed_forms.hpp"
+#include "engine/impact.hpp"
 #include "engine/validity.hpp"
 #include "scenarios/contact_settings.hpp"
 
@@ -11,14 +12,31 @@
 
 namespace riesel::app {
 
-void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed) {
-  const double t_col = collision_time(model.normal, reduced_mass, speed);
-  if (const auto* linear = std::get_if<LinearLaw>(&model.normal)) {
-    const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass, model.attraction};
-    line(what, "t_col = {:.4g} s, e_N = {:.4f}", t_col, contact.restitution());
-  } else {
-    line(what, "t_col = {:.4g} s at {:.3g} m/s", t_col, speed);
+namespace {
+
+/// Of a law whose restitution depends on the speed.
+void print_contact_at_speeds(const char* what, const ContactModel& model, double reduced_mass,
+                             double speed) {
+  const double t_col = collision_time(model.normal, reduced_mass, speed), slower = 0.1 * speed;
+  const auto fast = restitution(model, reduced_mass, speed);
+  const auto slow = restitution(model, reduced_mass, slower);
+  if (fast && slow) {
+    line(what, "t_col = {:.4g} s at {:.3g} m/s, e_N = {:.4f} then and {:.4f} at a tenth of it",
+         t_col, speed, *fast, *slow);
+    return;
   }
+  line(what, "t_col = {:.4g} s at {:.3g} m/s without damping", t_col, speed);
+  warn("{}: so much damping that they do not rebound at {:.3g} m/s; lower contact.damping", what,
+       fast ? slower : speed);
+}
+
+}  // namespace
+
+void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed) {
+  const auto* linear = std::get_if<LinearLaw>(&model.normal);
+  if (linear == nullptr) return print_contact_at_speeds(what, model, reduced_mass, speed);
+  const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass, model.attraction};
+  line(what, "t_col = {:.4g} s, e_N = {:.4f}", contact.collision_time(), contact.restitution());
 }
 
 double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact) {

@@ -22,7 +22,8 @@ void warn(fmt::format_string<Parts...> format, Parts&&... parts) {
   fmt::print("  warning: {}\n", fmt::format(format, std::forward<Parts>(parts)...));
 }
 
-/// t_col and e_N, the latter in closed form for the linear law only.
+/// t_col and e_N: of the linear law in closed form, of others at `speed` (m/s) and at a tenth of
+/// it.
 void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed);
 
 /// A head-on contact of the kind that a system has.

@@ -1,5 +1,6 @@
 #include "app/flow_failures.hpp"
 
+#include "engine/exact_sum.hpp"
 #include "engine/simulation.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 
 namespace riesel::app {
 
+namespace {
+
 void fail_if_too_fast(const State& state) {
   const FastestGrain fastest = fastest_grain(state);
   const double largest = largest_speed(state.box, state.time_step, state.grains.size());
@@ -17,6 +20,22 @@ void fail_if_too_fast(const State& state) {
       "grain {} moves with {:.3g} m/s {}, too fast for this tube and time step, which hold {:.3g} "
       "m/s; stiffer contacts, a shorter time step or a slower start may help",
       fastest.id, fastest.speed, when(state), largest));
+}
+
+void fail_if_too_heavy(const State& state) {
+  const double largest = largest_sum(state);
+  if (largest < ExactSum::largest_sum) return;
+  throw RunFailure(fmt::format(
+      "energies or impulses add up to {:.3g} in SI units {}, more than the {:.3g} that sums hold; "
+      "lighter grains help: masses and stiffness may be scaled together, which changes no motion",
+      largest, when(state), ExactSum::largest_sum));
+}
+
+}  // namespace
+
+void fail_if_out_of_range(const State& state) {
+  fail_if_too_fast(state);
+  fail_if_too_heavy(state);
 }
 
 std::optional<std::string> way_through_a_wall(const State& state, double diameter) {

@@ -13,9 +13,10 @@ namespace riesel::app {
 /// it does.
 std::optional<std::string> way_through_a_wall(const State& state, double diameter);
 
-/// Throws RunFailure, with grain, time and remedy, if grains move so fast that nothing can be told
-/// of them, nor of how they went on (largest_speed).
-void fail_if_too_fast(const State& state);
+/// Throws RunFailure, with time and remedy, if grains move so fast that nothing can be told of
+/// them, nor of how they went on (largest_speed), or are so heavy that sums do not hold what they
+/// do (largest_sum).
+void fail_if_out_of_range(const State& state);
 
 /// Likewise if grains have gone through a wall. `seen` is of `state`.
 void fail_if_through_a_wall(const State& state, const Observables& seen);

@@ -76,7 +76,9 @@ io::Measured scaled(const io::Measured& m, double factor) {
 io::Measured balanced(const io::Measured& braking, std::span<const double> mean_vy,
                       double interval) {
   if (mean_vy.size() < 2) return braking;
-  const double of_difference = std::numbers::sqrt2 * standard_deviation(mean_vy);
+  // About the true mean, from which that of a short series is off.
+  const double deviation = std::hypot(standard_deviation(mean_vy), estimate_mean(mean_vy).error);
+  const double of_difference = std::numbers::sqrt2 * deviation;
   const double seconds = interval * static_cast<double>(mean_vy.size() - 1);
   return {.value = braking.value, .error = std::min(braking.error, of_difference / seconds)};
 }
@@ -154,13 +156,8 @@ double steps_per_contact(const State& state) {
 }
 
 Judged judged_by(const State& state, double interval) {
-  const bool agitated =
-      state.gravity.x != 0.0 || std::ranges::any_of(state.walls, [](const WallLattice& wall) {
-        return wall.motion.velocity != 0.0 || wall.motion.oscillates();
-      });
-  if (state.gravity.y != 0.0)
-    return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
-  return {.series = agitated ? "granular_temperature" : "mean_vy", .free_fall_gain = {}};
+  if (state.gravity.y == 0.0) return {.series = "granular_temperature", .free_fall_gain = {}};
+  return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
 }
 
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,

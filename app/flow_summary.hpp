@@ -23,7 +23,7 @@ struct FlowRecords {
 };
 
 /// By which of the series a flow is judged steady: its mean velocity, or how hot it is where
-/// nothing drives it along, but walls that move or gravity across.
+/// gravity does not drive it along the walls.
 struct Judged {
   const char* series;
   std::optional<double> free_fall_gain;  ///< per row, for the verdict

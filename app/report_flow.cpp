@@ -183,7 +183,7 @@ private:
     io::HtmlRows rows = {
         {"after the transient", "value"},
         {"wall contacts per grain, n_dot", with_error(b.n_dot, "1/s")},
-        {"axial velocity lost per wall contact", with_error(b.dv_y, "m/s")},
+        {"axial momentum lost per wall contact, over the mean mass", with_error(b.dv_y, "m/s")},
         {"their product, equal to gravity in a steady state", with_error(b.n_dot_dv_y, "m/s^2")},
         {"gravity", number(b.gravity) + " m/s^2"},
         {"contacts with other grains per grain", with_error(summary().grain_contact_rate, "1/s")},

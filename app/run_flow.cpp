@@ -206,7 +206,7 @@ private:
 
   void add_row() {
     const auto start = Clock::now();
-    fail_if_too_fast(simulation_.state());
+    fail_if_out_of_range(simulation_.state());
     measurements_.add(simulation_);
     times_.measuring += seconds_since(start);
     files_.record().append(series_row(measurements_.last(), simulation_.state().tally));
@@ -223,7 +223,7 @@ private:
   }
 
   void look() {
-    fail_if_too_fast(simulation_.state());
+    fail_if_out_of_range(simulation_.state());
     measurements_.look(simulation_.state());
     heed_limits();
   }

@@ -84,7 +84,10 @@ const std::vector<Entry>& entries() {
        [](auto& o, auto&) { return o.energies.friction_loss; }},
       {{"energy_residual", "J", "What is missing in the balance of energy."},
        [](auto& o, auto&) { return o.energies.residual; }},
-      {{"contacts", "1", "Lasting contacts per grain."}, [](auto& o, auto&) { return o.contacts; }},
+      {{"contacts", "1",
+        "Lasting contacts, each once, per grain: a mean coordination number is twice the part of "
+        "those between grains."},
+       [](auto& o, auto&) { return o.contacts; }},
       {{"grain_contacts", "1", "Contacts between grains begun since the start."},
        [](auto& o, auto&) { return o.grain_contacts_begun; }},
       {{"wall_contacts", "1", "Contacts with walls begun since the start."},

@@ -2,8 +2,9 @@
 //
 // Each term is rounded once, to a multiple of 2^-90 of its unit; the sum of the multiples is a
 // 128-bit integer and exact. So a number reported of many grains or contacts does not depend on how
-// the threads shared them. Range: |sum| < 1e11 units, resolution 8e-28 units: with SI values of
-// grains (energies of 1e-15 ... 1e3 J) both ends are far away.
+// the threads shared them. Range: |sum| < 2^37 = 1.4e11 units, resolution 8e-28 units: with SI
+// values of grains (energies of 1e-15 ... 1e3 J) both ends are far away. Of boulders they are not:
+// whoever adds sees to it that sums stay below largest_sum, beyond which they might wrap.
 #pragma once
 
 #include <bit>
@@ -15,6 +16,9 @@ __extension__ using Int128 = __int128;
 
 class ExactSum {
 public:
+  /// Half of the range.
+  static constexpr double largest_sum = 0x1p36;
+
   /// Adds a finite term, |term| < 1e11.
   void add(double term) { quanta_ += quanta(term); }
   void add(const ExactSum& other) { quanta_ += other.quanta_; }

@@ -1,14 +1,17 @@
 #include "engine/impact.hpp"
 
+#include "engine/closed_forms.hpp"
 #include "engine/hash.hpp"
 #include "engine/observables.hpp"
 #include "engine/parallel_problems.hpp"
 #include "engine/require.hpp"
+#include "engine/run_failure.hpp"
 #include "engine/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace riesel {
 
@@ -28,7 +31,7 @@ constexpr double patience_in_reaches = 50.0;
 constexpr double period_in_reaches = 64.0;
 
 State start(const ImpactSetup& setup, const Impact& impact) {
-  const double scale = period_in_reaches * setup.reach();
+  const double scale = greatest_height(setup);
   State state;
   std::int64_t wall_grains = 1;
   double length = scale;
@@ -73,6 +76,8 @@ double time_to_wall(const ImpactSetup& setup, const Impact& impact) {
 }
 
 }  // namespace
+
+double greatest_height(const ImpactSetup& setup) { return period_in_reaches * setup.reach(); }
 
 double just_upstream(const ImpactSetup& setup, double x) {
   constexpr double gap = 1e-3;  // of the reach: no contact yet
@@ -122,6 +127,35 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
 std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector<Impact>& impacts,
                                      int threads) {
   return solve_all(impacts, threads, [&](const Impact& impact) { return follow(setup, impact); });
+}
+
+std::optional<double> restitution(const ContactModel& model, double reduced_mass, double speed) {
+  constexpr double steps_per_contact = 400.0, radius_in_overlaps = 20.0, gap = 1e-3;
+  constexpr double least_restitution = 1e-3, most_error = 0.01;
+  const ElasticLine line =
+      std::visit([](const auto& law) { return law.elastic_line(); }, model.normal);
+  const double elastic_time = elastic_collision_time(line, reduced_mass, speed);
+  const double radius = radius_in_overlaps * elastic_max_overlap(line, reduced_mass, speed);
+  const ImpactSetup setup{.grain_radius = radius,
+                          .grain_mass = reduced_mass,
+                          .wall_grain_radius = radius,
+                          .wall_spacing = 0.0,
+                          .model = model,
+                          .collision_time = elastic_time};
+  try {
+    const ImpactResult result = follow(setup, {.x = (1.0 + gap) * setup.reach(),
+                                               .y = 0.0,
+                                               .v_x = speed,
+                                               .v_y = 0.0,
+                                               .time_step = elastic_time / steps_per_contact});
+    const double restitution = result.dv_x / speed - 1.0;
+    // What is overdamped creeps apart, or makes these steps overshoot.
+    const bool rebounds = result.end == ImpactEnd::away && restitution > least_restitution
+                          && result.energy_error < most_error;
+    return rebounds ? std::optional(restitution) : std::nullopt;
+  } catch (const RunFailure&) {
+    return {};  // likewise
+  }
 }
 
 std::uint64_t hash_of(const std::vector<ImpactResult>& results) {

@@ -5,6 +5,7 @@
 #include "engine/state.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace riesel {
@@ -52,6 +53,9 @@ struct ImpactResult {
   std::int64_t steps;
 };
 
+/// m, at which an impact may begin at most: the width of its box.
+double greatest_height(const ImpactSetup& setup);
+
 /// Follows one impact to its end. Throws std::invalid_argument for a grain at rest, and what
 /// Simulation throws.
 ImpactResult follow(const ImpactSetup& setup, const Impact& impact);
@@ -63,6 +67,10 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
 /// Where a grain that comes from upstream along y at height x stands just before it touches wall
 /// grain 0: m. Throws std::invalid_argument if it touches none.
 double just_upstream(const ImpactSetup& setup, double x);
+
+/// e_N of two bodies that meet head-on with `speed` (m/s), under any law, in steps so fine that
+/// they hardly count (measured: 5e-4). Nothing if they do not come apart.
+std::optional<double> restitution(const ContactModel& model, double reduced_mass, double speed);
 
 /// 64-bit hash of all results.
 std::uint64_t hash_of(const std::vector<ImpactResult>& results);

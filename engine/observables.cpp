@@ -148,8 +148,34 @@ FastestGrain fastest_grain(const State& state) {
   return fastest;
 }
 
+double largest_sum(const State& state) {
+  double mass = 0.0, kinetic = 0.0;  // plain sums, which cannot wrap
+  const GrainView grains(state);
+  for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
+    const Grain g = grains[slot];
+    const double at_surface = g.radius * g.spin;
+    mass += g.mass;
+    kinetic +=
+        0.5 * g.mass * (g.vx * g.vx + g.vy * g.vy + state.grains.inertia * at_surface * at_surface);
+  }
+  double largest = std::max(mass, kinetic);
+  const auto look_at = [&](const ExactSum& sum) {
+    largest = std::max(largest, std::abs(sum.value()));
+  };
+  const Tally& t = state.tally;
+  for (const ContactTally* kind : {&t.grains, &t.walls})
+    for (const auto member :
+         {&ContactTally::normal_loss, &ContactTally::friction_loss, &ContactTally::energy_won,
+          &ContactTally::impulse_y, &ContactTally::impulse_y_times_time})
+      look_at(kind->*member);
+  for (const ExactSum& of_wall : t.impulses.y) look_at(of_wall);
+  look_at(t.impulses.work);
+  look_at(t.brakes.braking);
+  return largest;
+}
+
 double largest_speed(const Box& box, double time_step, std::size_t grains) {
-  constexpr double range = 0x1p36;  // (m/s)^2, half of that of an exact sum
+  constexpr double range = ExactSum::largest_sum;  // (m/s)^2
   return std::min(0.125 * std::min(box.width, box.length) / time_step,
                   std::sqrt(range / static_cast<double>(grains)));
 }

@@ -53,6 +53,11 @@ struct FastestGrain {
 };
 FastestGrain fastest_grain(const State& state);
 
+/// The largest by size of the sums that grow with the mass: over the grains of mass (kg) and
+/// kinetic energy (J), and over the contacts so far of losses and of work (J) and of impulses
+/// (kg m/s). To be below ExactSum::largest_sum.
+double largest_sum(const State& state);
+
 /// m/s, up to which the state holds what so many grains do: faster ones come around the box within
 /// a few steps, or sums of their squares leave the range of ExactSum.
 double largest_speed(const Box& box, double time_step, std::size_t grains);

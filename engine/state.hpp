@@ -101,11 +101,12 @@ Fall fall_per_step(const State& state);
 
 /// One grain in SI units, to put grains in and to look at them.
 struct Grain {
-  double x, y;        ///< m
-  double vx, vy;      ///< m/s
-  double radius;      ///< m
-  double mass;        ///< kg
-  double spin = 0.0;  ///< rad/s, positive from x towards y; without meaning where grains do not rotate
+  double x, y;    ///< m
+  double vx, vy;  ///< m/s
+  double radius;  ///< m
+  double mass;    ///< kg
+  double spin =
+      0.0;  ///< rad/s, positive from x towards y; without meaning where grains do not rotate
 };
 
 /// Adds a grain that touches nothing; its id is the number of grains before it. At step 0 only.

@@ -29,7 +29,7 @@ using MotionSums = ExactSums<motion_sums>;
 
 RIESEL_VECTOR_KERNEL std::vector<MotionSums> sums_over_motion(const Strips& strips,
                                                               const State& state, double frame) {
-  std::vector<MotionSums> sums(strips.count);
+  std::vector<MotionSums> sums(strips.count + 1);
   const GrainView grains(state);
   std::array<std::array<double, motion_sums>, at_a_time> terms;
   std::array<std::size_t, at_a_time> strip;
@@ -133,7 +133,8 @@ Strips Strips::of(const State& state) {
   const double count = std::clamp(wanted, 1.0, 1e4);
   return {.width = state.box.width / count,
           .length = state.box.length,
-          .count = static_cast<std::size_t>(count)};
+          .count = static_cast<std::size_t>(count),
+          .open = state.walls.size() == 1};
 }
 
 std::vector<double> Strips::middles() const {
@@ -144,7 +145,7 @@ std::vector<double> Strips::middles() const {
 }
 
 std::size_t Strips::at(double x) const {
-  const double place = std::clamp(x / width, 0.0, static_cast<double>(count - 1));
+  const double place = std::clamp(x / width, 0.0, static_cast<double>(open ? count : count - 1));
   return static_cast<std::size_t>(place);
 }
 
@@ -152,14 +153,15 @@ double area_left_of(double line, double radius) { return segment(line, radius); 
 
 std::vector<double> sum_over_strips(const Strips& strips, const State& state,
                                     const ContactModel& model, double frame) {
-  std::vector<Sums> sums(strips.count);
+  std::vector<Sums> sums(strips.count + 1);  // the last one is of what is in no strip
   add_areas(sums, strips, state);
   const std::vector<MotionSums> motion = sums_over_motion(strips, state, frame);
-  for (std::size_t s = 0; s < strips.count; ++s)
+  for (std::size_t s = 0; s < sums.size(); ++s)
     for (std::size_t i = 0; i < motion_sums; ++i)
       sums[s][static_cast<std::size_t>(StripSum::grains) + i].add(motion[s].sum(i));
   for (const PresentForce& force : present_forces(state, model)) add_contact(sums, strips, force);
 
+  sums.pop_back();
   std::vector<double> values;
   values.reserve(strips.columns());
   for (const Sums& strip : sums)

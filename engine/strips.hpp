@@ -41,18 +41,19 @@ enum class StripSum {
 };
 inline constexpr std::size_t strip_sums = static_cast<std::size_t>(StripSum::contact_yy) + 1;
 
-/// Strips of equal width between the wall lines.
+/// Strips of equal width between the wall lines, or up to the height of a chute.
 struct Strips {
   double width;   ///< m, of one strip
   double length;  ///< m
   std::size_t count;
+  bool open = false;  ///< there is no wall at the end: what lies beyond the last is in none
 
   /// About a mean diameter wide.
   static Strips of(const State& state);
 
   double area() const { return width * length; }  ///< m^2
   std::vector<double> middles() const;            ///< m, x of the middle of each
-  /// What lies beyond the wall lines belongs to the first and the last strip.
+  /// What lies beyond a wall line belongs to the strip at that wall; `count`: in none.
   std::size_t at(double x) const;
 
   /// Where a sum stands in the result of sum_over_strips().

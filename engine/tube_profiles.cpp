@@ -189,8 +189,9 @@ std::vector<Zone> each_strip(const Strips& strips) {
 }
 
 Zone core_of(const Strips& strips) {
-  Zone zone(strips.count - 2 * (strips.count / 4));
-  std::iota(zone.begin(), zone.end(), strips.count / 4);
+  const std::size_t left_out = (strips.count + 1) / 4;  // on either side
+  Zone zone(strips.count - 2 * left_out);
+  std::iota(zone.begin(), zone.end(), left_out);
   return zone;
 }
 

@@ -26,7 +26,7 @@ namespace riesel {
 using Zone = std::vector<std::size_t>;
 
 std::vector<Zone> each_strip(const Strips& strips);
-/// The middle half of the width.
+/// The middle half of the width, as nearly as whole strips make it; all of one or two.
 Zone core_of(const Strips& strips);
 /// The strips at the walls, of which there is at least the left one.
 Zone wall_layers_of(const Strips& strips, std::size_t walls);

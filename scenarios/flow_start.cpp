@@ -1,5 +1,6 @@
 #include "scenarios/flow_start.hpp"
 
+#include "engine/exact_sum.hpp"
 #include "engine/observables.hpp"
 #include "engine/random.hpp"
 #include "scenarios/contact_settings.hpp"
@@ -95,12 +96,12 @@ void set_velocities(const io::Settings& settings, const State& empty, std::vecto
 }
 
 /// From the lightest pair. Damping counts most for the heaviest grain at the wall: rejects it if it
-/// does not rebound.
+/// does not rebound, before any other is asked.
 void set_time_step(const io::Settings& settings, const ContactModel& model,
                    std::span<const double> masses, State& state) {
   const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
-  const double shortest = collision_time(settings, model, 0.5 * *lightest);
   collision_time(settings, model, *heaviest);
+  const double shortest = collision_time(settings, model, 0.5 * *lightest);
   state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
   reject_too_many_steps(settings, run_length(settings), state.time_step);
 }
@@ -156,6 +157,25 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
   settings.reject(by_chance ? "start.random_velocity" : "start.axial_velocity", problem, remedy);
 }
 
+/// What they have together must be less than sums hold.
+void reject_heavy_grains(const io::Settings& settings, const std::vector<Grain>& grains) {
+  double mass = 0.0, kinetic = 0.0;
+  for (const Grain& g : grains) {
+    mass += g.mass;
+    kinetic += 0.5 * g.mass * (g.vx * g.vx + g.vy * g.vy);
+  }
+  const double largest = std::max(mass, kinetic);
+  if (largest < ExactSum::largest_sum) return;
+  settings.reject(settings.text("start.kind") == "fresh" ? "grains.mass" : "start.from",
+                  fmt::format("grains so heavy that their masses or energies, {:.3g} in SI units, "
+                              "are beyond what sums hold",
+                              largest),
+                  fmt::format("choose lighter ones, for less than {:.3g} in all (do masses and "
+                              "velocities have their units?); stiffness may be scaled with the "
+                              "mass, which changes no motion",
+                              ExactSum::largest_sum));
+}
+
 /// An eighth of a turn in a step; a few times more, and it would seem slow again.
 void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
                        const State& state) {
@@ -173,9 +193,11 @@ Flow start_with(const std::vector<Grain>& grains, const io::Settings& settings,
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
   reject_fast_walls(settings, state);
+  reject_rows_in_step(settings, state);
   reject_strong_gravity(settings, grains.size(), state);
   reject_rounded_gravity(settings, state);
   reject_fast_grains(settings, grains, state);
+  reject_heavy_grains(settings, grains);
   reject_fast_spins(settings, grains, state);
   for (const Grain& grain : grains) add_grain(state, grain);
   return {.state = std::move(state), .model = model};
@@ -194,10 +216,12 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   reject_other_swing_across(settings, earlier, room.empty);
   set_time_step(settings, model, earlier.grains.mass, room.empty);
   reject_fast_walls(settings, room.empty);
+  reject_rows_in_step(settings, room.empty);
   reject_strong_gravity(settings, earlier.grains.size(), room.empty);
   reject_rounded_gravity(settings, room.empty);
   const auto grains = half_a_step_before(earlier, room.empty.time_step);
   reject_fast_grains(settings, grains, room.empty);
+  reject_heavy_grains(settings, grains);
   reject_fast_spins(settings, grains, room.empty);
   take_over(earlier, model, room.empty);
   return {.state = std::move(room.empty), .model = model};

@@ -8,8 +8,7 @@ namespace riesel::scenarios {
 /// Rows for the grain and the wall grains.
 io::SettingsTable impact_settings();
 
-/// Setup without impacts; `wall_spacing` as in ImpactSetup. Rejects a start at which the grain
-/// would never touch the wall.
+/// Setup without impacts; `wall_spacing` as in ImpactSetup.
 ImpactCurve empty_curve(const io::Settings& settings, double wall_spacing);
 
 /// Adds the point (v_x, v_y) with one impact from each of the starting places y (m) at height x

@@ -38,8 +38,8 @@ io::SettingsTable run_length_settings() {
        .example = "1 %",
        .range = io::above_up_to(0.0, 1.0),
        .doc = "The run ends when the mean axial velocity (where gravity does not pull along the "
-              "walls but stirs grains otherwise, or walls do, the granular temperature) is steady "
-              "with an error bar of at most this part of it (docs/statistics.md)."},
+              "walls, the granular temperature) is steady with an error bar of at most this part "
+              "of it (docs/statistics.md)."},
       {.key = limit_key,
        .unit = "s",
        .example = "20 s",

@@ -45,20 +45,44 @@ io::SettingsTable own_settings() {
   return rows;
 }
 
-double start_height(const io::Settings& settings, double reach) {
+double start_height(const io::Settings& settings, const ImpactSetup& setup) {
+  const double reach = setup.reach();
   if (!settings.has("impact.height")) return reach;
   const double height = settings.number("impact.height");
   if (height < reach * (1.0 - 1e-12))
     settings.reject("impact.height", "the grain would overlap a wall grain at the start",
                     fmt::format("choose at least the sum of the two radii, {:.6g} m", reach));
+  if (height > greatest_height(setup))
+    settings.reject("impact.height", "too far from the wall",
+                    fmt::format("choose at most {:.3g} m; is a unit forgotten, as in '1 mm'?",
+                                greatest_height(setup)));
   return height;
+}
+
+void reject_too_many(const io::Settings& settings) {
+  constexpr std::size_t most_points = 50'000, most_impacts = 10'000'000;
+  const std::size_t points = settings.numbers("impact.normal_velocity").size()
+                             * settings.numbers("impact.axial_velocity").size();
+  const std::size_t impacts = points * static_cast<std::size_t>(settings.integer("impact.starts"));
+  const std::string remedy = "choose fewer, or several runs (riesel sweep)";
+  if (points > most_points)
+    settings.reject(
+        "impact.axial_velocity",
+        fmt::format("{} points, with all normal velocities, are more than {}", points, most_points),
+        remedy);
+  if (impacts > most_impacts)
+    settings.reject(
+        "impact.starts",
+        fmt::format("{} impacts in {} points are more than {}", impacts, points, most_impacts),
+        remedy);
 }
 
 Problem prepare(const io::Settings& settings) {
   const double spacing = settings.number("wall.spacing");
   ImpactCurve curve = empty_curve(settings, spacing);
   reject_crowded_wall(settings, curve.setup.reach(), spacing);
-  const double height = start_height(settings, curve.setup.reach());
+  const double height = start_height(settings, curve.setup);
+  reject_too_many(settings);
 
   std::vector<double> starts(static_cast<std::size_t>(settings.integer("impact.starts")));
   for (std::size_t i = 0; i < starts.size(); ++i)

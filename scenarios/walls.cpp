@@ -1,11 +1,13 @@
 #include "scenarios/walls.hpp"
 
 #include "engine/observables.hpp"
+#include "scenarios/run_length.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace riesel::scenarios {
@@ -181,6 +183,47 @@ void reject_fast_walls(const io::Settings& settings, const State& state) {
                       fmt::format("choose at most {:.3g} 1/s, or more run.steps_per_collision",
                                   0.99 / (fewest_steps * state.time_step)));
   }
+}
+
+namespace {
+
+/// In how many phases of an oscillation rows see it that are so many periods apart, if these are
+/// few and do not wander on in the whole run. Measured in a shaken bed: by one phase the
+/// temperature is off by a half, by two a seventh, by four a hundredth, by more nothing that could
+/// be told.
+std::optional<int> phases_seen(double periods_per_row, double rows) {
+  constexpr int most = 4;
+  constexpr double too_few_rows = 20.0;  // for a mean, whatever they see
+  constexpr double wandering = 2.0;      // periods, in all rows
+  if (rows < too_few_rows) return {};
+  for (int phases = 1; phases <= most; ++phases) {
+    const double periods = phases * periods_per_row, whole = std::nearbyint(periods);
+    if (whole >= 1.0 && std::abs(periods - whole) * rows < wandering) return phases;
+  }
+  return {};
+}
+
+}  // namespace
+
+void reject_rows_in_step(const io::Settings& settings, const State& state) {
+  const WallMotion& motion = state.walls.front().motion;
+  if (!motion.oscillates()) return;
+  constexpr auto key = "output.interval";
+  const double duration = run_length(settings).at_most, asked = settings.number(key);
+  const auto phases = [&](double interval) {
+    const double row =
+        static_cast<double>(steps_between(interval, state.time_step)) * state.time_step;
+    return phases_seen(motion.frequency * row, duration / row);
+  };
+  const auto seen = phases(asked);
+  if (!seen) return;
+  double other = asked;
+  while (phases(other)) other *= 0.93;
+  settings.reject(key,
+                  fmt::format("in step with the walls: rows {:.4g} s apart see {} of the phases of "
+                              "a shaking of {:.4g} 1/s, and means over rows would be those of {}",
+                              asked, *seen, motion.frequency, *seen == 1 ? "that one" : "these"),
+                  fmt::format("choose {:.3g} s, for one", other));
 }
 
 }  // namespace riesel::scenarios

@@ -39,4 +39,8 @@ void reject_crowded_wall(const io::Settings& settings, double reach, double spac
 /// resolve.
 void reject_fast_walls(const io::Settings& settings, const State& state);
 
+/// Rejects an interval of the output in step with walls that are shaken: its rows would see them in
+/// a few phases only, and means over rows be off by what grains do in the others.
+void reject_rows_in_step(const io::Settings& settings, const State& state);
+
 }  // namespace riesel::scenarios

@@ -50,6 +50,15 @@ class Check(CommandTest):
         self.assertGreater(plain_number(text, r"memory +about (\d+) MB"), 0)
         self.assertNotIn("warning", text)
 
+    def test_other_laws_have_their_restitution_told_by_an_impact(self):
+        hertz = MILD_TUBE.replace("restitution: 0.9", "law: hertz, damping: 3.3, impact_speed: 1 m/s")
+        text = self.check(hertz, "--set", "contact.stiffness=5e5")
+        fast, slow = (plain_number(text, rf"grain and wall +t_col = .* {words} (\S+)")
+                      for words in ("e_N =", "then and"))
+        self.assertTrue(0.5 < fast < slow < 1.0, text)
+        text = self.check(hertz, "--set", "contact.stiffness=5e5", "--set", "contact.damping=3000")
+        self.assertIn("warning: grain and wall: so much damping that they do not rebound at", text)
+
     def test_the_restitution_is_that_of_contacts_that_may_not_pull(self):
         text = self.check(MILD_TUBE, "--set", "contact.attraction=clip")
         self.assertEqual(plain_number(text, r"grain and wall +t_col = .* e_N = (\S+)"), 0.9)

@@ -71,6 +71,14 @@ class Flows(CommandTest):
                 length = file["particles/walls/box/edges"][1]
                 self.assertLess(abs(way - length * np.round(way / length)).max(), 1e-8)
 
+    def test_a_gas_that_only_cools_is_not_steady(self):
+        """Its mean velocity is conserved and tells nothing."""
+        out = self.run_of("cooling", SMOOTH, "--set", "gravity=0", "--set", "contact.friction=0", "--set",
+                          "start.axial_velocity=1 m/s", "--set", "run.duration=1 s")
+        summary = self.summary(out)
+        self.assertEqual(summary["judged_by"], "granular_temperature")
+        self.assertNotEqual(summary["state"], "steady")
+
     def test_a_shear_cell_that_only_gets_hotter_has_no_error_bars(self):
         """Nothing takes out what the walls put in."""
         out = self.run_of("cell", CELL, "--set", "contact.restitution=1", "--set", "contact.friction=0", "--set",

@@ -5,7 +5,7 @@ import shutil
 
 import h5py
 
-from riesel_command import DONE, FAILED, CommandTest
+from riesel_command import BAD_INPUT, DONE, FAILED, CommandTest
 
 TUBE = """\
 scenario: periodic_tube
@@ -50,6 +50,17 @@ class Limits(CommandTest):
         result = self.tube("fast", "gravity=1e5 m/s^2", "wall.surface=smooth", "start.random_velocity=0", "run.duration=0.1 s")
         self.assert_stopped("fast", result, "too fast for this tube and time step", "may help")
         self.assertRegex(result.stderr, r"grain \d+ moves with \S+ m/s at")
+
+    def test_grains_too_heavy_for_exact_sums_stop_it(self):
+        """Sums hold 7e10 J; beyond twice that they would wrap, and energies be negative."""
+        heavy = ("grains.mass=1e8 kg", "contact.stiffness=2e17", "wall.surface=smooth", "gravity=200 m/s^2")
+        self.assert_stopped("heavy", self.tube("heavy", *heavy), "energies or impulses add up to", "lighter grains help")
+
+    def test_grains_too_heavy_from_the_start_are_refused(self):
+        result = self.tube("heavier", "grains.mass=1e9 kg", "contact.stiffness=2e18")
+        self.assertEqual(result.returncode, BAD_INPUT, result)
+        self.assertIn("grains.mass: grains so heavy that their masses or energies", result.stderr)
+        self.assertFalse((self.home / "heavier").exists())
 
     def test_a_grain_that_goes_through_a_wall_stops_it(self):
         result = self.tube("through", "contact.stiffness=20", "start.random_velocity=3 m/s")

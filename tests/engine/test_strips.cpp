@@ -141,6 +141,25 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
   }
 }
 
+TEST_CASE("where there is no wall, what lies beyond the strips is in none") {
+  State state = empty_box(4e-3, 10e-3);
+  add_grain(state, grain(3.2e-3, 2e-3, 0.1, 1.0));
+  add_grain(state, grain(4.0e-3 + 0.2 * radius, 5e-3, 0.2, 2.0));  // reaches into the last strip
+  add_grain(state, grain(6e-3, 8e-3, 0.3, 3.0));
+  const auto sums_with_walls = [&](std::size_t walls) {
+    state.walls = std::vector(walls, WallLattice{.line = 0.0, .radius = 0.0, .count = 0});
+    return sum_over_strips(Strips::of(state), state, paper_model(), 0.0);
+  };
+  const auto closed = sums_with_walls(2), open = sums_with_walls(1);
+  REQUIRE(open.size() == closed.size());
+  CHECK(value(closed, 3, StripSum::grains) == 3.0);
+  CHECK(value(open, 3, StripSum::grains) == 1.0);
+  CHECK(value(open, 3, StripSum::vy) == Approx(1.0));
+  const double inside = area_left_of(-0.2 * radius, radius);
+  CHECK(value(open, 3, StripSum::area) + value(open, 2, StripSum::area)
+        == Approx(std::numbers::pi * radius * radius + inside));
+}
+
 TEST_CASE("all strips together hold all grains, all their area and the whole virial") {
   const State state = busy_tube(74, paper_model());
   const Strips strips = Strips::of(state);

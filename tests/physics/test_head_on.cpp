@@ -5,6 +5,7 @@
 // are therefore statements on the mean over these phases, and the worst phase is bounded
 // separately.
 #include "engine/closed_forms.hpp"
+#include "engine/impact.hpp"
 #include "tests/catch.hpp"
 #include "tests/physics/collisions.hpp"
 #include "tests/physics/reference_table.hpp"
@@ -136,5 +137,31 @@ TEST_CASE("head-on collisions of all laws are those of the reference") {
     CHECK(std::abs(r.restitution / row("restitution") - 1.0) < tolerance);
     CHECK(std::abs(r.contact_time / row("contact_time") - 1.0) < tolerance);
     CHECK(std::abs(r.max_overlap / row("max_overlap") - 1.0) < 2e-5);
+  }
+}
+
+TEST_CASE("the restitution of any law is told by an impact") {
+  ContactModel model = frictionless(0.0);
+  CHECK(restitution(model, mass, 0.3).value() == Approx(1.0).epsilon(1e-6));
+  model = frictionless(damping);
+  model.attraction = GENERATE(Attraction::keep, Attraction::clip);
+  const LinearContact linear{stiffness, damping, mass, model.attraction};
+  CHECK(restitution(model, mass, 2.0).value() == Approx(linear.restitution()).epsilon(1e-3));
+  // Antypov and Elliott, as in test_general_law.cpp: the same at all speeds
+  const double log_e = std::log(0.8), stiff = 5e5;
+  model.attraction = Attraction::keep;
+  model.normal = PowerLaw{stiff, -log_e / std::hypot(log_e, pi) * std::sqrt(5.0 * stiff * mass),
+                          1.5, 0.25, 1.0};
+  for (const double speed : {1e-3, 1.0, 30.0})
+    CHECK(restitution(model, mass, speed).value() == Approx(0.8).epsilon(1e-3));
+}
+
+TEST_CASE("bodies with too much damping have no restitution") {
+  // Twice the critical damping of 2000 N/m and 1 mg is 1.8e5 1/s; as eq. (3) has it, and far more.
+  ContactModel model = frictionless(0.0);
+  for (const double gamma : {1.8e5, 1e7, 1e12}) {
+    model.normal = PowerLaw{stiffness, gamma * mass, 1.0, 0.0, 1.0};
+    CAPTURE(gamma, restitution(model, mass, 1.0).value_or(-1.0));
+    CHECK_FALSE(restitution(model, mass, 1.0));
   }
 }

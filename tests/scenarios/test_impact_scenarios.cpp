@@ -100,3 +100,19 @@ TEST_CASE("a height at which the grain would overlap the array from the start is
   CHECK(complaint(array_yaml, {"impact.height=0.83 mm"}) == "accepted");
   CHECK(complaint(array_yaml, {"impact.height=1.5 mm"}) == "accepted");
 }
+
+TEST_CASE("a height of another unit is refused, before the box is left") {
+  CHECK(complaint(array_yaml, {"impact.height=53 mm"}) == "accepted");
+  check_mentions(complaint(array_yaml, {"impact.height=0.83"}),
+                 {"--set impact.height=0.83", "impact.height:", "too far from the wall", "0.0531 m",
+                  "unit forgotten"});
+}
+
+TEST_CASE("more impacts than a summary holds are refused") {
+  const std::string many = "{from: 0.1 m/s, to: 1 m/s, points: 300, spacing: linear}";
+  check_mentions(
+      complaint(array_yaml, {"impact.normal_velocity=" + many, "impact.axial_velocity=" + many}),
+      {"impact.axial_velocity:", "90000 points", "more than 50000"});
+  check_mentions(complaint(array_yaml, {"impact.normal_velocity=" + many, "impact.starts=10000"}),
+                 {"impact.starts:", "impacts in", "more than 10000000"});
+}

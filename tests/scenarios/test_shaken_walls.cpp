@@ -77,6 +77,19 @@ TEST_CASE("shaking that time steps do not resolve is refused") {
   check_mentions(steps_per_period(2.0), {"wall.shake_frequency", "2 time steps in a period"});
 }
 
+TEST_CASE("rows in step with the shaking, which see it in few phases, are refused") {
+  const auto every = [](const std::string& interval) {
+    return complaint(tube_yaml, {"wall.shake_amplitude=1 um", "wall.shake_frequency=100",
+                                 "run.duration=2 s", "output.interval=" + interval});
+  };
+  check_mentions(every("10 ms"), {"output.interval:", "1 of the phases", "choose 0.0093 s"});
+  check_mentions(every("30 ms"), {"output.interval:", "1 of the phases"});
+  check_mentions(every("5 ms"), {"2 of the phases"});
+  check_mentions(every("2.5 ms"), {"4 of the phases"});
+  for (const char* wandering : {"2 ms", "9.3 ms", "1 ms", "0.1 ms", "1.7 ms", "9.8 ms"})
+    CHECK(every(wandering) == "accepted");
+}
+
 TEST_CASE("a tube that lies has no gravity along it") {
   const State state = tube({"tube.tilt=90 degrees"}).state;
   CHECK(state.gravity.y == 0.0);
