@@ -28,11 +28,11 @@ Legend legend_of(std::span<const Curve> curves) {
   return legend;
 }
 
-void draw_line(const VelocityLine& line, const io::Look& look, io::Plot& plot) {
+void draw_line(const FlowLine& line, const io::Look& look, io::Plot& plot) {
   std::vector<double> x, y;
-  for (const VelocityPoint& point : line.points) {
+  for (const FlowPoint& point : line.points) {
     x.push_back(point.x);
-    y.push_back(point.velocity.value);
+    y.push_back(point.mean.value);
   }
   plot.curve(x, y,
              {.stroke = look.colour,
@@ -40,21 +40,21 @@ void draw_line(const VelocityLine& line, const io::Look& look, io::Plot& plot) {
               .dashes = line.leads_back ? std::string_view("5 4") : std::string_view()});
 }
 
-void draw_point(const VelocityPoint& point, const io::Look& look, const std::string& up,
+void draw_point(const FlowPoint& point, const io::Look& look, const std::string& up,
                 io::Plot& plot) {
   plot.svg().begin_link(up + point.directory, point.tip);
-  plot.measured(point.x, point.velocity.value, point.velocity.error, look, point.state == "steady");
-  if (point.state == "accelerating") plot.arrow_up(point.x, point.velocity.value, look);
+  plot.measured(point.x, point.mean.value, point.mean.error, look, point.state == "steady");
+  if (point.state == "accelerating") plot.arrow_up(point.x, point.mean.value, look);
   if (point.verdict == Validity::unphysical)
-    plot.cross(point.x, point.velocity.value, {.colour = ink::red});
+    plot.cross(point.x, point.mean.value, {.colour = ink::red});
   plot.svg().end_link();
 }
 
-/// What the axis of the velocities has to show, errors included as far as they leave it positive.
-std::vector<double> extent_of(std::span<const VelocityCurve> curves) {
+/// What the axis of the means has to show, errors included as far as they leave it positive.
+std::vector<double> extent_of(std::span<const FlowCurve> curves) {
   std::vector<double> values;
-  for (const VelocityCurve& curve : curves)
-    for (const VelocityLine& line : curve.lines)
+  for (const FlowCurve& curve : curves)
+    for (const FlowLine& line : curve.lines)
       for (const auto& [x, v, state, verdict, directory, tip] : line.points) {
         values.push_back(v.value);
         if (!std::isfinite(v.error)) continue;
@@ -64,11 +64,11 @@ std::vector<double> extent_of(std::span<const VelocityCurve> curves) {
   return values;
 }
 
-std::vector<double> settings_of(std::span<const VelocityCurve> curves) {
+std::vector<double> settings_of(std::span<const FlowCurve> curves) {
   std::vector<double> values;
-  for (const VelocityCurve& curve : curves)
-    for (const VelocityLine& line : curve.lines)
-      for (const VelocityPoint& point : line.points) values.push_back(point.x);
+  for (const FlowCurve& curve : curves)
+    for (const FlowLine& line : curve.lines)
+      for (const FlowPoint& point : line.points) values.push_back(point.x);
   return values;
 }
 
@@ -101,19 +101,30 @@ void draw_line(const ImpactLine& line, const ImpactQuantity& quantity, const io:
 
 }  // namespace
 
-io::Svg draw_velocities(const std::string& title, const std::string& x_label,
-                        std::span<const VelocityCurve> curves, const std::string& up) {
-  io::Plot plot(figure_width, tall_figure,
-                description_of("Mean axial velocity against " + x_label, title),
-                io::axis_for(x_label, settings_of(curves)),
-                io::with_room_above(io::axis_for("mean axial velocity (m/s)", extent_of(curves)),
-                                    room_for_arrows));
+const FlowQuantity& judged_quantity(bool by_temperature) {
+  using Flow = io::FlowSummary;
+  static const FlowQuantity velocity{
+      "mean_axial_velocity", "Mean axial velocity", "m/s",
+      [](const Flow& flow) -> const io::Measured& { return flow.mean_axial_velocity; }};
+  static const FlowQuantity temperature{
+      "granular_temperature", "Granular temperature", "m^2/s^2",
+      [](const Flow& f) -> const io::Measured& { return f.fluctuations.granular_temperature; }};
+  return by_temperature ? temperature : velocity;
+}
+
+io::Svg draw_flows(const std::string& title, const std::string& x_label,
+                   const FlowQuantity& quantity, std::span<const FlowCurve> curves,
+                   const std::string& up) {
+  io::Plot plot(
+      figure_width, tall_figure, description_of(quantity.heading + " against " + x_label, title),
+      io::axis_for(x_label, settings_of(curves)),
+      io::with_room_above(io::axis_for(quantity.label(), extent_of(curves)), room_for_arrows));
   for (std::size_t i = 0; i < curves.size(); ++i)
-    for (const VelocityLine& line : curves[i].lines) draw_line(line, io::look_of(i), plot);
+    for (const FlowLine& line : curves[i].lines) draw_line(line, io::look_of(i), plot);
   plot.svg().begin_group("points");
   for (std::size_t i = 0; i < curves.size(); ++i)
-    for (const VelocityLine& line : curves[i].lines)
-      for (const VelocityPoint& point : line.points) draw_point(point, io::look_of(i), up, plot);
+    for (const FlowLine& line : curves[i].lines)
+      for (const FlowPoint& point : line.points) draw_point(point, io::look_of(i), up, plot);
   plot.svg().end_group();
   plot.legend(title, legend_of(curves), true);
   return plot.svg();

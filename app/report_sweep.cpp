@@ -30,11 +30,13 @@ io::HtmlRows without_empty_columns(const io::HtmlRows& rows) {
 class SweepReport {
 public:
   explicit SweepReport(const SweepRecord& record)
-      : record_(&record), draft_("riesel: sweep of " + scenario()) {}
+      : record_(&record),
+        draft_("riesel: sweep of " + scenario()),
+        quantity_(&judged_quantity(all_by_temperature())) {}
 
   Report make() && {
     tell_result();
-    show_velocities();
+    show_flows();
     show_impacts();
     list_points();
     page().heading("The sweep");
@@ -103,9 +105,20 @@ private:
     return of == 1 ? name : fmt::format("{}_{}", name, i + 1);
   }
 
-  void show_velocities() {
+  /// Flows that gravity drives along the walls are told by their velocity, also beside others.
+  bool all_by_temperature() const {
+    bool any = false;
+    for (std::size_t i = 0; i < record_->results.size(); ++i) {
+      const auto* summary = flow(i);
+      if (summary != nullptr && summary->judged_by != "granular_temperature") return false;
+      any = any || summary != nullptr;
+    }
+    return any;
+  }
+
+  void show_flows() {
     if (scenario_has_curves()) return;
-    page().heading("Mean axial velocity");
+    page().heading(quantity_->heading);
     const auto axis = axis_of(manifest());
     if (!axis) {
       page().paragraph("There is no figure: no setting with numbers has several values.");
@@ -114,15 +127,15 @@ private:
     const io::VariedSetting& setting = manifest().varied[*axis];
     const std::string label = with_unit(setting.key, setting.unit);
     page().paragraph(what_symbols_mean());
-    const auto panels = velocity_panels(*record_, *axis);
+    const auto panels = flow_panels(*record_, *axis, *quantity_);
     for (std::size_t i = 0; i < panels.size(); ++i)
-      draft_.add_figure(numbered("mean_axial_velocity", i, panels.size()),
-                        draw_velocities(panels[i].title, label, panels[i].curves, ""),
-                        draw_velocities(panels[i].title, label, panels[i].curves, "../"),
-                        "Mean axial velocity against " + setting.key + ".");
+      draft_.add_figure(numbered(quantity_->name, i, panels.size()),
+                        draw_flows(panels[i].title, label, *quantity_, panels[i].curves, ""),
+                        draw_flows(panels[i].title, label, *quantity_, panels[i].curves, "../"),
+                        quantity_->heading + " against " + setting.key + ".");
   }
 
-  /// Of draw_velocities().
+  /// Of draw_flows().
   std::string what_symbols_mean() const {
     const bool has_legs = std::ranges::any_of(
         manifest().points, [](const io::ManifestPoint& point) { return !point.leg.empty(); });
@@ -159,11 +172,12 @@ private:
     for (const io::VariedSetting& setting : manifest().varied)
       head.emplace_back(with_unit(io::name_in_section(setting.key), setting.unit));
     for (const char* name : {"branch", "leg"}) head.emplace_back(name);
-    const std::vector<const char*> of_results =
-        scenario_has_curves()
-            ? std::vector{"points of the curve", "left out", "validity of these points"}
-            : std::vector{"mean v_y (m/s)", "state", "validity", "brake failure", "n_dot dv_y / g"};
-    for (const char* name : of_results) head.emplace_back(name);
+    const std::vector<std::string> of_results =
+        scenario_has_curves() ? std::vector<std::string>{"points of the curve", "left out",
+                                                         "validity of these points"}
+                              : std::vector<std::string>{quantity_->label(), "state", "validity",
+                                                         "brake failure", "n_dot dv_y / g"};
+    for (const std::string& name : of_results) head.emplace_back(name);
     for (const char* name : {"report", "status"}) head.emplace_back(name);
     io::HtmlRows rows = {head};
     for (std::size_t i = 0; i < record_->results.size(); ++i)
@@ -190,9 +204,9 @@ private:
     return row;
   }
 
-  static void add_flow(const io::FlowSummary& s, std::vector<io::HtmlCell>& row) {
+  void add_flow(const io::FlowSummary& s, std::vector<io::HtmlCell>& row) const {
     const io::Measured& carried = s.balance.n_dot_dv_y;
-    row.emplace_back(with_error(s.mean_axial_velocity, ""));
+    row.emplace_back(with_error(quantity_->of(s), ""));
     row.emplace_back(s.state);
     row.emplace_back(std::string(name(s.validity.verdict.verdict)));
     row.emplace_back(number(s.validity.verdict.value_of("brake_failure_fraction"), "{:.2g}"));
@@ -218,6 +232,7 @@ private:
 
   const SweepRecord* record_;
   ReportDraft draft_;
+  const FlowQuantity* quantity_;  // of flows
 };
 
 }  // namespace

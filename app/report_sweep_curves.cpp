@@ -89,19 +89,20 @@ Marks marks_of(const io::Manifest& manifest, const io::ManifestPoint& point,
   return marks;
 }
 
-VelocityPoint velocity_point(const SweepRecord& record, std::size_t index, std::size_t axis) {
+FlowPoint flow_point(const SweepRecord& record, std::size_t index, std::size_t axis,
+                     const FlowQuantity& quantity) {
   const io::ManifestPoint& point = record.manifest.points[index];
   const SweepResult& result = record.results[index];
   const auto& flow = std::get<io::FlowSummary>(*result.summary);
   const Validity verdict = flow.validity.verdict.verdict;
   return {.x = std::get<double>(point.values[axis]),
-          .velocity = flow.mean_axial_velocity,
+          .mean = quantity.of(flow),
           .state = flow.state,
           .verdict = verdict,
           .directory = result.directory + "/" + (result.has_report ? report_name : ""),
           .tip =
               fmt::format("{}: {}, {}, {}", description_of(record.manifest, point),
-                          with_error(flow.mean_axial_velocity, "m/s"), flow.state, name(verdict))};
+                          with_error(quantity.of(flow), quantity.unit), flow.state, name(verdict))};
 }
 
 /// What tells the lines of a curve apart.
@@ -112,18 +113,18 @@ std::string line_of(const io::Manifest& manifest, const io::ManifestPoint& point
   return line;
 }
 
-VelocityCurve curve_of(const SweepRecord& record, std::size_t axis,
-                       const std::vector<std::size_t>& indices) {
-  std::map<std::string, VelocityLine> lines;
+FlowCurve curve_of(const SweepRecord& record, std::size_t axis, const FlowQuantity& quantity,
+                   const std::vector<std::size_t>& indices) {
+  std::map<std::string, FlowLine> lines;
   for (const std::size_t i : indices) {
     const io::ManifestPoint& point = record.manifest.points[i];
-    VelocityLine& line = lines[line_of(record.manifest, point)];
+    FlowLine& line = lines[line_of(record.manifest, point)];
     line.leads_back = point.leg == "backward";
-    line.points.push_back(velocity_point(record, i, axis));
+    line.points.push_back(flow_point(record, i, axis, quantity));
   }
-  VelocityCurve curve;
+  FlowCurve curve;
   for (auto& [name, line] : lines) {
-    std::ranges::stable_sort(line.points, {}, &VelocityPoint::x);
+    std::ranges::stable_sort(line.points, {}, &FlowPoint::x);
     curve.lines.push_back(std::move(line));
   }
   return curve;
@@ -148,7 +149,8 @@ std::optional<std::size_t> axis_of(const io::Manifest& manifest) {
   return axis;
 }
 
-std::vector<VelocityPanel> velocity_panels(const SweepRecord& record, std::size_t axis) {
+std::vector<FlowPanel> flow_panels(const SweepRecord& record, std::size_t axis,
+                                   const FlowQuantity& quantity) {
   const std::vector<bool> told = told_beside(record.manifest, axis);
   std::vector<Marks> curves;
   std::vector<std::vector<std::size_t>> runs;
@@ -162,11 +164,11 @@ std::vector<VelocityPanel> velocity_panels(const SweepRecord& record, std::size_
     }
     runs[static_cast<std::size_t>(place)].push_back(i);
   }
-  std::vector<VelocityPanel> panels;
+  std::vector<FlowPanel> panels;
   for (const Panel& panel : panels_of(curves)) {
     panels.push_back({.title = panel.title, .curves = {}});
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-      panels.back().curves.push_back(curve_of(record, axis, runs[panel.curves[i]]));
+      panels.back().curves.push_back(curve_of(record, axis, quantity, runs[panel.curves[i]]));
       panels.back().curves.back().name = panel.names[i];
     }
   }

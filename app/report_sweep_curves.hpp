@@ -16,14 +16,15 @@ namespace riesel::app {
 /// none. Nothing if no such setting has two values.
 std::optional<std::size_t> axis_of(const io::Manifest& manifest);
 
-struct VelocityPanel {
+struct FlowPanel {
   std::string title;
-  std::vector<VelocityCurve> curves;
+  std::vector<FlowCurve> curves;
 };
 
 /// The flows of a sweep: a curve for each combination of all settings but the axis and the seed,
 /// with a line for each seed and leg. Settings that follow from the axis tell nothing apart.
-std::vector<VelocityPanel> velocity_panels(const SweepRecord& record, std::size_t axis);
+std::vector<FlowPanel> flow_panels(const SweepRecord& record, std::size_t axis,
+                                   const FlowQuantity& quantity);
 
 struct ImpactPanel {
   std::string title;

@@ -249,7 +249,7 @@ io::SettingsTable flow_table(std::initializer_list<io::SettingsTable> rows) {
   return table;
 }
 
-io::SettingsTable start_velocity_settings(const std::string& axial) {
+io::SettingsTable start_velocity_settings(const std::string& axial, const std::string& random) {
   return {
       {.key = "start.axial_velocity",
        .unit = "m/s",
@@ -259,7 +259,7 @@ io::SettingsTable start_velocity_settings(const std::string& axial) {
        .only_when = io::When{"start.kind", {"fresh"}}},
       {.key = "start.random_velocity",
        .unit = "m/s",
-       .fallback = "0.5 m/s",
+       .fallback = random,
        .range = io::non_negative(),
        .doc = "Root mean square of the random velocities at the start, per component; they are "
               "normally distributed and their momenta add up to zero.",

@@ -15,7 +15,8 @@ namespace riesel::scenarios {
 /// common ones.
 io::SettingsTable flow_table(std::initializer_list<io::SettingsTable> rows);
 /// `start.axial_velocity`, by default `axial`, and `start.random_velocity`, of a fresh start.
-io::SettingsTable start_velocity_settings(const std::string& axial);
+io::SettingsTable start_velocity_settings(const std::string& axial,
+                                          const std::string& random = "0.5 m/s");
 /// `grains.area_fraction` of what is between two walls.
 io::SettingsTable area_fraction_settings();
 /// Grains up to this fraction, packed.

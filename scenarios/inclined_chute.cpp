@@ -106,8 +106,10 @@ Scenario inclined_chute() {
   return {.name = "inclined_chute",
           .summary = "Grains flow down a chute with a rough bottom and a free surface: profiles of "
                      "velocity and area fraction (Silbert et al. 2001).",
-          .own_settings = flow_table(
-              {size_settings(), wall_settings(), chute_settings(), start_velocity_settings("0")}),
+          .own_settings =
+              flow_table({size_settings(), wall_settings(), chute_settings(),
+                          // Faster ones would fly out of the chute before they meet others.
+                          start_velocity_settings("0", "0.1 m/s")}),
           .prepare = prepare};
 }
 

@@ -168,6 +168,18 @@ class Check(CommandTest):
         text = self.check(MILD_TUBE, "--set", "start.random_velocity=0", "--set", "start.axial_velocity=20")
         self.assert_warned(text, "the same velocity", "start.random_velocity")
 
+    def test_what_moves_across_together_meets_a_wall(self):
+        self.write("grains.csv", "x (mm),y (mm),vx (m/s),vy (m/s),diameter (mm)\n3,3,4,5,1\n6,6,4,5,1\n")
+        text = self.check(MILD_TUBE, "--set", "start.kind=file", "--set", "start.from=grains.csv",
+                          "--set", "grains.area_fraction=", "--set", "grains.polydispersity=", "--set", "contact.stiffness=2000")
+        self.assert_warned(text, "overlaps over", "raise contact.stiffness")
+        self.assertNotIn("the same velocity", text)
+
+    def test_of_grains_that_fly_out_of_a_chute(self):
+        chute = "{scenario: inclined_chute, contact: {stiffness: 20 kN/m, restitution: 0.8}, run: {duration: 0.2 s}}\n"
+        self.assertNotIn("warning", self.check(chute))
+        self.assert_warned(self.check(chute, "--set", "start.random_velocity=2 m/s"), "may rise to", "chute.height")
+
     def test_of_limits_that_the_run_would_be_beyond_at_once(self):
         for limit, is_due in (("limits.speed=0.1 m/s", True), ("limits.speed=100 m/s", False),
                               ("limits.steps_per_contact=51", True), ("limits.steps_per_contact=49", False)):

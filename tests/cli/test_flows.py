@@ -12,6 +12,7 @@ CHUTE = f"""
 scenario: inclined_chute
 {CONTACT}
 chute: {{length: 10 mm, layers: 5, height: 20 mm, inclination: 25 degrees}}
+start: {{random_velocity: 0.5 m/s}}
 run: {{duration: 0.3 s}}
 """
 CELL = f"""

@@ -288,6 +288,17 @@ class OtherSweeps(SweepReport):
         self.assertRegex(page.text, "failed: .*grain")
         self.assertEqual(len(self.links(sweep)), 2)
 
+    def test_flows_without_gravity_are_told_by_what_is_judged(self):
+        sweep = self.sweep(SHEAR_CELL)
+        page = self.report_on(sweep)
+        self.assertEqual([path.name for path in (sweep / "figures").iterdir()], ["granular_temperature.svg"])
+        links = self.links(sweep, "granular_temperature")
+        for point in self.points(sweep):
+            summary = self.summary(sweep / "points" / point["name"])
+            temperature = with_error(summary["fluctuations"]["granular_temperature"])
+            self.assertIn(f"{temperature} m^2/s^2, {summary['state']}", links[point["name"]][1])
+            self.assertIn(temperature + summary["state"], page.text)
+
     def test_without_gravity_nothing_is_compared_with_it(self):
         sweep = self.sweep(SHEAR_CELL)
         page = self.report_on(sweep)
