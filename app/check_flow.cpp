@@ -26,7 +26,7 @@ namespace {
 void print_critical_velocity(double chord_length, double t_col, double fastest) {
   const double v_crit = chord_length / t_col;
   line("v_crit",
-       "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col) with the random velocity of the "
+       "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col) with the velocities across of the "
        "start; lower in a cooler flow",
        v_crit, chord_length);
   if (fastest > v_crit)
@@ -142,8 +142,7 @@ void warn_of_low_chute(const State& state) {
   const double lost = 2.0 * state.box.width;
   if (highest > lost)
     warn("grains start upwards so fast that they may rise to {:.2g} m; the run ends where one is "
-         "higher than {:.2g} m, twice chute.height: choose that larger, or start.random_velocity "
-         "smaller",
+         "higher than {:.2g} m, twice chute.height: choose that larger, or a slower start",
          highest, lost);
 }
 

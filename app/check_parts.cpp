@@ -26,7 +26,7 @@ void print_contact_at_speeds(const char* what, const ContactModel& model, double
     return;
   }
   line(what, "t_col = {:.4g} s at {:.3g} m/s without damping", t_col, speed);
-  warn("{}: so much damping that they do not rebound at {:.3g} m/s; lower contact.damping", what,
+  warn("{}: so much damping that they do not rebound at {:.3g} m/s; choose less", what,
        fast ? slower : speed);
 }
 

@@ -72,12 +72,12 @@ io::Measured scaled(const io::Measured& m, double factor) {
 /// Walls take what gravity gives, but for what the grains have more at the end than at the
 /// beginning. So the mean braking errs by the difference of two moments over the time between them:
 /// less than its increments tell by themselves, as much of what is taken in one is missing in the
-/// next. `mean_vy`: m/s, after the transient, `interval` (s) apart.
-io::Measured balanced(const io::Measured& braking, std::span<const double> mean_vy,
+/// next. `mean_vy`: m/s, after the transient, `interval` (s) apart; `error`: m/s, of its mean.
+io::Measured balanced(const io::Measured& braking, std::span<const double> mean_vy, double error,
                       double interval) {
   if (mean_vy.size() < 2) return braking;
   // About the true mean, from which that of a short series is off.
-  const double deviation = std::hypot(standard_deviation(mean_vy), estimate_mean(mean_vy).error);
+  const double deviation = std::hypot(standard_deviation(mean_vy), error);
   const double of_difference = std::numbers::sqrt2 * deviation;
   const double seconds = interval * static_cast<double>(mean_vy.size() - 1);
   return {.value = braking.value, .error = std::min(braking.error, of_difference / seconds)};
@@ -85,13 +85,13 @@ io::Measured balanced(const io::Measured& braking, std::span<const double> mean_
 
 /// Eq. (9)
 io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& state,
-                                 std::span<const double> mean_vy, double interval) {
+                                 std::span<const double> mean_vy, double error, double interval) {
   const auto n = static_cast<double>(state.grains.size());
   const double mass = total_mass(state.grains);
   return {.n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
           .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
-          .n_dot_dv_y =
-              balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), mean_vy, interval),
+          .n_dot_dv_y = balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), mean_vy, error,
+                                 interval),
           .gravity = state.gravity.y};
 }
 
@@ -178,6 +178,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
                     .sigma_vy = mean_of(file, "sigma_vy", steady.transient_end),
                     .granular_temperature =
                         mean_of(file, "granular_temperature", steady.transient_end)};
+  const double error_of_velocity = s.mean_axial_velocity.error;
   if (steady.verdict == SteadyVerdict::accelerating) take_error_bars_off(s);
   if (steady.transient_end < samples.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
@@ -190,9 +191,9 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(steady.transient_end));
   const std::vector<double> mean_vy = file.series("mean_vy");
-  s.balance =
-      balance(series, state,
-              std::span(mean_vy).subspan(std::min(steady.transient_end, mean_vy.size())), interval);
+  s.balance = balance(series, state,
+                      std::span(mean_vy).subspan(std::min(steady.transient_end, mean_vy.size())),
+                      error_of_velocity, interval);
   // Each contact is one of two grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));

@@ -129,25 +129,35 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
   return solve_all(impacts, threads, [&](const Impact& impact) { return follow(setup, impact); });
 }
 
-std::optional<double> restitution(const ContactModel& model, double reduced_mass, double speed) {
-  constexpr double steps_per_contact = 400.0, radius_in_overlaps = 20.0, gap = 1e-3;
-  constexpr double least_restitution = 1e-3, most_error = 0.01;
+namespace {
+
+/// Of a body of the reduced mass, on another so large that overlaps do not matter.
+ImpactSetup head_on(const ContactModel& model, double reduced_mass, double speed) {
+  constexpr double radius_in_overlaps = 20.0;
   const ElasticLine line =
       std::visit([](const auto& law) { return law.elastic_line(); }, model.normal);
-  const double elastic_time = elastic_collision_time(line, reduced_mass, speed);
   const double radius = radius_in_overlaps * elastic_max_overlap(line, reduced_mass, speed);
-  const ImpactSetup setup{.grain_radius = radius,
-                          .grain_mass = reduced_mass,
-                          .wall_grain_radius = radius,
-                          .wall_spacing = 0.0,
-                          .model = model,
-                          .collision_time = elastic_time};
+  return {.grain_radius = radius,
+          .grain_mass = reduced_mass,
+          .wall_grain_radius = radius,
+          .wall_spacing = 0.0,
+          .model = model,
+          .collision_time = elastic_collision_time(line, reduced_mass, speed)};
+}
+
+}  // namespace
+
+std::optional<double> restitution(const ContactModel& model, double reduced_mass, double speed) {
+  constexpr double steps_per_contact = 400.0, gap = 1e-3;
+  constexpr double least_restitution = 1e-3, most_error = 0.01;
+  const ImpactSetup setup = head_on(model, reduced_mass, speed);
+  const Impact impact{.x = (1.0 + gap) * setup.reach(),
+                      .y = 0.0,
+                      .v_x = speed,
+                      .v_y = 0.0,
+                      .time_step = setup.collision_time / steps_per_contact};
   try {
-    const ImpactResult result = follow(setup, {.x = (1.0 + gap) * setup.reach(),
-                                               .y = 0.0,
-                                               .v_x = speed,
-                                               .v_y = 0.0,
-                                               .time_step = elastic_time / steps_per_contact});
+    const ImpactResult result = follow(setup, impact);
     const double restitution = result.dv_x / speed - 1.0;
     // What is overdamped creeps apart, or makes these steps overshoot.
     const bool rebounds = result.end == ImpactEnd::away && restitution > least_restitution

@@ -148,17 +148,40 @@ FastestGrain fastest_grain(const State& state) {
   return fastest;
 }
 
-double largest_sum(const State& state) {
-  double mass = 0.0, kinetic = 0.0;  // plain sums, which cannot wrap
+namespace {
+
+/// As largest_sum(): of the grains as they are, by plain sums, which cannot wrap.
+double largest_sum_over_grains(const State& state) {
+  double mass = 0.0, moment = 0.0, kinetic = 0.0;
   const GrainView grains(state);
   for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
     const Grain g = grains[slot];
     const double at_surface = g.radius * g.spin;
     mass += g.mass;
+    moment += g.mass * std::abs(g.x);
     kinetic +=
         0.5 * g.mass * (g.vx * g.vx + g.vy * g.vy + state.grains.inertia * at_surface * at_surface);
   }
-  double largest = std::max(mass, kinetic);
+  return std::max({mass, moment, kinetic});
+}
+
+/// Likewise of the contacts that last. The elastic force times the distance is about twice the
+/// energy, times the distance over the overlap.
+double largest_sum_over_contacts(const State& state) {
+  const auto& radii = state.grains.radius;
+  const double distance = radii.empty() ? 0.0 : 2.0 * *std::ranges::max_element(radii);
+  double energy = 0.0, virial = 0.0;
+  for (const Contact& contact : state.contacts) {
+    energy += contact.elastic_energy;
+    if (contact.overlap > 0.0) virial += 2.0 * contact.elastic_energy * distance / contact.overlap;
+  }
+  return std::max(energy, virial);
+}
+
+}  // namespace
+
+double largest_sum(const State& state) {
+  double largest = std::max(largest_sum_over_grains(state), largest_sum_over_contacts(state));
   const auto look_at = [&](const ExactSum& sum) {
     largest = std::max(largest, std::abs(sum.value()));
   };

@@ -53,9 +53,9 @@ struct FastestGrain {
 };
 FastestGrain fastest_grain(const State& state);
 
-/// The largest by size of the sums that grow with the mass: over the grains of mass (kg) and
-/// kinetic energy (J), and over the contacts so far of losses and of work (J) and of impulses
-/// (kg m/s). To be below ExactSum::largest_sum.
+/// The largest by size of the sums that grow with the mass, in SI units: over the grains of mass,
+/// moment and kinetic energy, over the present contacts of their energy and of force times distance
+/// (about), and over all so far of losses, work and impulses. To be below ExactSum::largest_sum.
 double largest_sum(const State& state);
 
 /// m/s, up to which the state holds what so many grains do: faster ones come around the box within

@@ -10,11 +10,9 @@ namespace {
 
 bool is_runaway(const TrendEstimate& trend, double mean, double trend_duration,
                 std::optional<double> free_fall_gain) {
-  // Without gravity no direction is downstream, and to gain speed is to gain it in its own.
-  const double growth = free_fall_gain || mean >= 0.0 ? trend.slope : -trend.slope;
-  const bool gains = growth * trend_duration >= runaway_fraction * std::abs(mean);
-  const bool falls = free_fall_gain && growth >= runaway_fraction * *free_fall_gain;
-  return growth > 0.0 && (gains || falls);
+  const bool gains = trend.slope * trend_duration >= runaway_fraction * std::abs(mean);
+  const bool falls = free_fall_gain && trend.slope >= runaway_fraction * *free_fall_gain;
+  return trend.slope > 0.0 && (gains || falls);
 }
 
 /// Whether the flow falls at the end, after it had been held for most of the run: the trend of the

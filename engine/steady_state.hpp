@@ -40,7 +40,8 @@ inline constexpr double runaway_fraction = 0.1;
 /// whatever there was before.
 inline constexpr double breakaway_fraction = 0.5;
 
-/// Judges a series of velocities (positive downstream), sampled at even intervals. `free_fall_gain`
+/// Judges a series of velocities (positive downstream), or of what else may be steady, sampled at
+/// even intervals. `free_fall_gain`
 /// is what a grain in free fall gains per sample interval, g times the interval, in the unit of the
 /// samples; nothing where gravity does not pull along the flow, or for what is no velocity. The
 /// transient is twice what MSER-5 cuts; a run of which MSER-5 cuts more than two fifths has not

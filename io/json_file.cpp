@@ -8,8 +8,8 @@
 namespace riesel::io {
 namespace {
 
-// A manifest of the most points that a sweep may have is the largest: 5 MB. What is read takes up
-// to 16 times as much memory.
+// A manifest of the most points that a sweep may have takes 5 MB, a summary of the most points that
+// a curve may have 22 MB. What is read takes up to 16 times as much memory.
 constexpr std::uint64_t most_bytes = 32'000'000;
 constexpr int deepest_nesting = 16;
 

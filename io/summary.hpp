@@ -68,7 +68,7 @@ struct FlowSummary {
   /// Eq. (9): in a steady state n_dot dv_y = gravity.
   struct Balance {
     Measured n_dot;        ///< 1/s, wall contacts per grain
-    Measured dv_y;         ///< m/s, mean axial velocity lost per wall contact
+    Measured dv_y;         ///< m/s, momentum lost per wall contact over the mean mass
     Measured n_dot_dv_y;   ///< m/s^2
     double gravity = 0.0;  ///< m/s^2
   } balance;

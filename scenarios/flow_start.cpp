@@ -157,14 +157,9 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
   settings.reject(by_chance ? "start.random_velocity" : "start.axial_velocity", problem, remedy);
 }
 
-/// What they have together must be less than sums hold.
-void reject_heavy_grains(const io::Settings& settings, const std::vector<Grain>& grains) {
-  double mass = 0.0, kinetic = 0.0;
-  for (const Grain& g : grains) {
-    mass += g.mass;
-    kinetic += 0.5 * g.mass * (g.vx * g.vx + g.vy * g.vy);
-  }
-  const double largest = std::max(mass, kinetic);
+/// What the grains have together must be less than sums hold.
+void reject_heavy_grains(const io::Settings& settings, const State& state) {
+  const double largest = largest_sum(state);
   if (largest < ExactSum::largest_sum) return;
   settings.reject(settings.text("start.kind") == "fresh" ? "grains.mass" : "start.from",
                   fmt::format("grains so heavy that their masses or energies, {:.3g} in SI units, "
@@ -197,9 +192,9 @@ Flow start_with(const std::vector<Grain>& grains, const io::Settings& settings,
   reject_strong_gravity(settings, grains.size(), state);
   reject_rounded_gravity(settings, state);
   reject_fast_grains(settings, grains, state);
-  reject_heavy_grains(settings, grains);
   reject_fast_spins(settings, grains, state);
   for (const Grain& grain : grains) add_grain(state, grain);
+  reject_heavy_grains(settings, state);
   return {.state = std::move(state), .model = model};
 }
 
@@ -221,9 +216,9 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   reject_rounded_gravity(settings, room.empty);
   const auto grains = half_a_step_before(earlier, room.empty.time_step);
   reject_fast_grains(settings, grains, room.empty);
-  reject_heavy_grains(settings, grains);
   reject_fast_spins(settings, grains, room.empty);
   take_over(earlier, model, room.empty);
+  reject_heavy_grains(settings, room.empty);
   return {.state = std::move(room.empty), .model = model};
 }
 

@@ -16,7 +16,7 @@ inline constexpr std::int64_t steps_per_look = 10'000;
 
 struct RunLength {
   double at_most;                        ///< s, simulated
-  std::optional<double> relative_error;  ///< of the mean axial velocity, to stop at; or none
+  std::optional<double> relative_error;  ///< of the mean that is judged, to stop at; or none
   std::string key;                       ///< the setting that `at_most` comes from
 };
 

@@ -59,17 +59,20 @@ double start_height(const io::Settings& settings, const ImpactSetup& setup) {
   return height;
 }
 
+/// Points are as many as a summary can have that is to be read again; an impact takes 50 bytes.
 void reject_too_many(const io::Settings& settings) {
   constexpr std::size_t most_points = 50'000, most_impacts = 10'000'000;
-  const std::size_t points = settings.numbers("impact.normal_velocity").size()
-                             * settings.numbers("impact.axial_velocity").size();
+  constexpr auto normal = "impact.normal_velocity", axial = "impact.axial_velocity";
+  const std::size_t lines = settings.numbers(normal).size();
+  const std::size_t points = lines * settings.numbers(axial).size();
   const std::size_t impacts = points * static_cast<std::size_t>(settings.integer("impact.starts"));
   const std::string remedy = "choose fewer, or several runs (riesel sweep)";
   if (points > most_points)
-    settings.reject(
-        "impact.axial_velocity",
-        fmt::format("{} points, with all normal velocities, are more than {}", points, most_points),
-        remedy);
+    settings.reject(lines * lines > points ? normal : axial,
+                    fmt::format("{} points, of all velocities towards and along the wall, are more "
+                                "than {}",
+                                points, most_points),
+                    remedy);
   if (impacts > most_impacts)
     settings.reject(
         "impact.starts",

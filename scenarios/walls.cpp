@@ -194,7 +194,7 @@ namespace {
 std::optional<int> phases_seen(double periods_per_row, double rows) {
   constexpr int most = 4;
   constexpr double too_few_rows = 20.0;  // for a mean, whatever they see
-  constexpr double wandering = 2.0;      // periods, in all rows
+  constexpr double wandering = 2.0;      // ways from phase to phase, in all rows
   if (rows < too_few_rows) return {};
   for (int phases = 1; phases <= most; ++phases) {
     const double periods = phases * periods_per_row, whole = std::nearbyint(periods);
@@ -217,13 +217,14 @@ void reject_rows_in_step(const io::Settings& settings, const State& state) {
   };
   const auto seen = phases(asked);
   if (!seen) return;
-  double other = asked;
-  while (phases(other)) other *= 0.93;
+  std::string other;  // as it is told
+  for (double interval = 0.93 * asked; other.empty() || phases(std::stod(other)); interval *= 0.93)
+    other = fmt::format("{:.3g}", interval);
   settings.reject(key,
                   fmt::format("in step with the walls: rows {:.4g} s apart see {} of the phases of "
                               "a shaking of {:.4g} 1/s, and means over rows would be those of {}",
                               asked, *seen, motion.frequency, *seen == 1 ? "that one" : "these"),
-                  fmt::format("choose {:.3g} s, for one", other));
+                  fmt::format("choose {} s, for one", other));
 }
 
 }  // namespace riesel::scenarios

@@ -55,7 +55,8 @@ class Core(NamedTuple):
 def core_of(run):
     p, settings = run.profiles, run.settings
     strips = len(p["x"])
-    core = slice(strips // 4, strips - strips // 4)
+    left_out = (strips + 1) // 4  # on either side, as in summary.json
+    core = slice(left_out, strips - left_out)
 
     def mean(name):
         return p[name][core].mean(), p[f"{name}_error"][core].mean()

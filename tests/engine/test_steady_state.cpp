@@ -103,17 +103,15 @@ TEST_CASE("free fall accelerates", "[steady_state]") {
   CHECK(verdicts(free_fall)[SteadyVerdict::accelerating] >= 97);
 }
 
-TEST_CASE("without gravity a flow accelerates in its own direction", "[steady_state]") {
-  for (const double direction : {1.0, -1.0}) {
-    const auto judge = [&](double gain) {
-      return riesel::assess_steady_state(
-                 noisy(1000, 0.01, 0.5, 3, [=](double s) { return direction * (12.0 + gain * s); }))
-          .verdict;
-    };
-    CHECK(judge(4.0) == SteadyVerdict::accelerating);
-    CHECK(judge(0.4) == SteadyVerdict::drifting);
-    CHECK(judge(-4.0) == SteadyVerdict::drifting);
-  }
+TEST_CASE("without gravity it is by its mean that a growth is large", "[steady_state]") {
+  const auto judge = [](double gain) {
+    return riesel::assess_steady_state(
+               noisy(1000, 0.01, 0.5, 3, [=](double s) { return 12.0 + gain * s; }))
+        .verdict;
+  };
+  CHECK(judge(4.0) == SteadyVerdict::accelerating);
+  CHECK(judge(0.4) == SteadyVerdict::drifting);
+  CHECK(judge(-4.0) == SteadyVerdict::drifting);
 }
 
 TEST_CASE("at high speed a runaway is told by gravity", "[steady_state]") {

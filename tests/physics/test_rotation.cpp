@@ -71,7 +71,7 @@ TEST_CASE("where friction slides, the spin takes up the torque of its impulse") 
   const double impulse = mass * (8.0 - out.velocity.y());
   // A stiff spring is stretched before it slides.
   CHECK(impulse / (2.0 * mu * mass) == Approx(1.0).epsilon(1e-3));
-  // The wall is at smaller x: friction against +y turns the grain counter-clockwise.
+  // The wall is at smaller x: friction against +y turns the grain from x towards y.
   CHECK(out.spin * inertia * mass * radius * radius
         == Approx(impulse * radius).epsilon(1e-3));  // the normal turns
 }

@@ -86,6 +86,12 @@ TEST_CASE("rows in step with the shaking, which see it in few phases, are refuse
   check_mentions(every("30 ms"), {"output.interval:", "1 of the phases"});
   check_mentions(every("5 ms"), {"2 of the phases"});
   check_mentions(every("2.5 ms"), {"4 of the phases"});
+  for (const char* interval : {"10 ms", "15 ms", "20 ms", "30 ms", "70 ms", "90 ms"}) {
+    const std::string refusal = every(interval), choose = "choose ";
+    const auto begin = refusal.find(choose) + choose.size();
+    CAPTURE(refusal);
+    CHECK(every(refusal.substr(begin, refusal.find(", for one") - begin)) == "accepted");
+  }
   for (const char* wandering : {"2 ms", "9.3 ms", "1 ms", "0.1 ms", "1.7 ms", "9.8 ms"})
     CHECK(every(wandering) == "accepted");
 }

@@ -28,7 +28,7 @@ COLUMNS = ["k", "gamma", "k_t", "gamma_t", "mu", "inertia", "radius_1", "radius_
            "sticks", "begins"]
 ABOUT = """\
 # Body 2 meets body 1 (which stands still, at the origin) from (x, y) with the velocity (vx, vy); both are discs or
-# spheres of the moment of inertia `inertia` m r^2 (0: they do not turn) with spins w_1, w_2, counter-clockwise.
+# spheres of the moment of inertia `inertia` m r^2 (0: they do not turn) with spins w_1, w_2, positive from x towards y.
 # mass_1 = inf: body 1 is a wall grain, which stays as it is. Linear law, attraction keep; k, k_t in N/m, gamma and
 # gamma_t in 1/s per reduced mass. After: velocity of 2 relative to 1, spins. slides, sticks: changes of the regime;
 # begins: the first of them."""
