@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <initializer_list>
 #include <string_view>
 #include <unistd.h>
@@ -12,7 +14,16 @@ namespace {
 
 /// The handler runs on any thread of the program.
 std::atomic<int> received = 0;
+std::atomic<std::int64_t> received_at = 0;  // s
 static_assert(std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+/// s, of a clock that only goes on; may be asked for in a signal handler.
+std::int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec;
+}
 
 /// Only calls that a signal handler may make.
 void end(int signal) {
@@ -23,12 +34,18 @@ void end(int signal) {
   _exit(128 + signal);
 }
 
-/// A terminal that goes may say so twice, through its shell and by itself.
+/// One wish may come several times: of a terminal that goes, through its shell and by itself
+/// (SIGHUP); of a batch system or a shutdown, to all processes, from the sweep that has started
+/// this one, and as that ends (SIGTERM). There is no such thing of whoever presses keys (SIGINT).
 void remember(int signal) {
-  if (received == 0)
+  constexpr std::int64_t same_wish = 5;  // s
+  if (received == 0) {
+    received_at = now();
     received = signal;
-  else if (signal != SIGHUP)
-    _exit(128 + signal);
+    return;
+  }
+  const bool again = signal == SIGHUP || (signal == SIGTERM && now() - received_at < same_wish);
+  if (!again) _exit(128 + signal);
 }
 
 void on(int signal, void (*act)(int)) {

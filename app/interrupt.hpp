@@ -1,6 +1,7 @@
 // SIGINT, SIGTERM and SIGHUP as a polite request: what has something to save stops at the next
-// occasion, after a checkpoint, and a second signal (but SIGHUP, which may come twice) ends it at
-// once. What has nothing to save ends at once.
+// occasion, after a checkpoint, and a second signal ends it at once: but not SIGHUP, nor SIGTERM
+// within some seconds, which may come several times of one wish. What has nothing to save ends at
+// once.
 #pragma once
 
 namespace riesel::app {

@@ -128,7 +128,9 @@ void Prolongation::look_ahead(io::Manifest& manifest, const fs::path& sweep) con
 
 std::vector<std::string> Prolongation::overrides_for(const fs::path& point) const {
   const Goal* goal = goal_of(point);
-  const bool goes_on = goal != nullptr && goal->wanted.at_most >= goal->planned;
+  // What has not come to its plan is not cut short.
+  const bool goes_on =
+      goal != nullptr && (goal->wanted.at_most >= goal->planned || result_of(point));
   return goes_on ? overrides_ : std::vector<std::string>();
 }
 

@@ -50,18 +50,27 @@ void draw_point(const FlowPoint& point, const io::Look& look, const std::string&
   plot.svg().end_link();
 }
 
-/// What the axis of the means has to show, errors included as far as they leave it positive.
-std::vector<double> extent_of(std::span<const FlowCurve> curves) {
+/// The means and the ends of their error bars: of lower ends below zero, which no logarithmic axis
+/// has, only where that is asked for.
+std::vector<double> extent_of(std::span<const FlowCurve> curves, bool with_ends_below_zero) {
   std::vector<double> values;
   for (const FlowCurve& curve : curves)
     for (const FlowLine& line : curve.lines)
-      for (const auto& [x, v, state, verdict, directory, tip] : line.points) {
-        values.push_back(v.value);
-        if (!std::isfinite(v.error)) continue;
-        values.push_back(v.value + v.error);
-        if (v.value - v.error > 0.0 || v.value <= 0.0) values.push_back(v.value - v.error);
+      for (const auto& [x, mean, state, verdict, directory, tip] : line.points) {
+        values.push_back(mean.value);
+        if (!std::isfinite(mean.error)) continue;
+        values.push_back(mean.value + mean.error);
+        const double low = mean.value - mean.error;
+        if (low > 0.0 || mean.value <= 0.0 || with_ends_below_zero) values.push_back(low);
       }
   return values;
+}
+
+/// Logarithmic if the means are so far apart, whatever their error bars.
+io::Axis axis_of_means(const std::string& label, std::span<const FlowCurve> curves) {
+  const io::Axis axis = io::axis_for(label, extent_of(curves, false));
+  if (axis.scale == io::Scale::logarithmic) return axis;
+  return io::axis_for(label, extent_of(curves, true));
 }
 
 std::vector<double> settings_of(std::span<const FlowCurve> curves) {
@@ -115,10 +124,10 @@ const FlowQuantity& judged_quantity(bool by_temperature) {
 io::Svg draw_flows(const std::string& title, const std::string& x_label,
                    const FlowQuantity& quantity, std::span<const FlowCurve> curves,
                    const std::string& up) {
-  io::Plot plot(
-      figure_width, tall_figure, description_of(quantity.heading + " against " + x_label, title),
-      io::axis_for(x_label, settings_of(curves)),
-      io::with_room_above(io::axis_for(quantity.label(), extent_of(curves)), room_for_arrows));
+  io::Plot plot(figure_width, tall_figure,
+                description_of(quantity.heading + " against " + x_label, title),
+                io::axis_for(x_label, settings_of(curves)),
+                io::with_room_above(axis_of_means(quantity.label(), curves), room_for_arrows));
   for (std::size_t i = 0; i < curves.size(); ++i)
     for (const FlowLine& line : curves[i].lines) draw_line(line, io::look_of(i), plot);
   plot.svg().begin_group("points");

@@ -49,11 +49,10 @@ void reject_directory_in_use(const fs::path& path) {
                         + ": holds a run that was stopped before its first checkpoint; "
                           "remove it, or choose another directory with --out");
   if (holds_run)
-    throw UnusableInput(
-        path.string()
-        + ": holds a run already; choose another directory with --out, or go on with that "
-          "run by '"
-        + call_of("resume", path) + "'");
+    throw UnusableInput(path.string() + ": holds a run already; choose another directory with --out"
+                        + (has_checkpoint(path)
+                               ? ", or go on with that run by '" + call_of("resume", path) + "'"
+                               : ""));
 }
 
 }  // namespace

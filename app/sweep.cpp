@@ -52,7 +52,9 @@ void write_plan(const SweepPlan& plan, const fs::path& sweep) {
 /// Of the sweep that was here before; none if its manifest cannot be read: it is made anew.
 std::vector<io::ManifestPoint> points_before(const fs::path& sweep) {
   try {
-    return io::read_manifest(sweep).points;
+    io::Manifest earlier = io::read_manifest(sweep);
+    refresh(earlier, sweep);  // tasks do not write what they have done into it
+    return earlier.points;
   } catch (const io::FileError&) {
     return {};
   }

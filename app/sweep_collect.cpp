@@ -61,8 +61,9 @@ void write_table(const io::Manifest& manifest, const fs::path& sweep) {
   const std::size_t columns_of_plan = table.columns().size();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const io::ManifestPoint& point = manifest.points[row];
-    if (point.status != to_string(RunStatus::done)) continue;
+    // Also what is done and could not be gone on with.
     const fs::path summary = point_directory(sweep, point.name) / io::summary_name;
+    if (!fs::exists(summary)) continue;
     try {
       add_results(summary, row, columns_of_plan, table);
     } catch (const io::FileError& error) {  // the others have results

@@ -180,6 +180,12 @@ private:
     if (job.status == RunStatus::running || job.status == RunStatus::done) return;
     ++job.starts;
     const bool goes_on = can_resume(job.directory);
+    if (!goes_on && has_checkpoint(job.directory) && !options_.retry_failed) {
+      fail(job, fmt::format("{} is missing beside its checkpoint; restore it, or begin anew with "
+                            "--retry-failed",
+                            io::run_file_name));
+      return;
+    }
     if (!goes_on && !cleared(job)) return;
     io::RunRecord record = io::read_run_record(job.directory);
     io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});
@@ -227,13 +233,16 @@ private:
         tell_of("point {} was stopped {} times; 'riesel sweep' goes on with it", job, most_starts);
       return;
     }
-    fail(job, *end);
+    fail(job, reason_of(job, *end));
   }
 
-  void fail(Job& job, const ProcessEnd& end) {
-    std::string reason = complaint_in(job.directory / log_name, job.log_begin);
-    if (end.signal != 0) reason = fmt::format("crashed ({})", strsignal(end.signal));
-    if (reason.empty()) reason = fmt::format("ended with status {}", end.status);
+  static std::string reason_of(const Job& job, const ProcessEnd& end) {
+    if (end.signal != 0) return fmt::format("crashed ({})", strsignal(end.signal));
+    const std::string complaint = complaint_in(job.directory / log_name, job.log_begin);
+    return complaint.empty() ? fmt::format("ended with status {}", end.status) : complaint;
+  }
+
+  void fail(Job& job, const std::string& reason) {
     io::RunRecord record = io::read_run_record(job.directory);
     record.failure = reason;
     io::write_run_record(job.directory, record);

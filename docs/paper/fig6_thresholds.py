@@ -30,6 +30,8 @@ class Threshold:
     def text(self):
         if self.value is not None:
             return plus_minus(self.value, self.error)
+        if self.all_lost is None and self.none_lost is None:
+            return "somewhere"  # some starts are lost everywhere, and some stay
         return f"below {self.none_lost:g}" if self.all_lost is None else f"above {self.all_lost:g}"
 
 

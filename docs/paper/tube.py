@@ -88,8 +88,8 @@ def steady_of(runs):
 
 
 def plus_minus(value, error):
-    """1.234 ± 0.056: two digits of the error; the value alone if they agree in all digits that are kept."""
-    if error == 0:
+    """1.234 ± 0.056: two digits of the error; the value alone if it has none that is known."""
+    if not error > 0:
         return f"{value:.5g}"
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     return f"{value:.{digits}f} ± {error:.{digits}f}"

@@ -108,14 +108,18 @@ class Interruption(CommandTest):
         self.assertTrue(catches(process.pid, signal.SIGTERM))
         self.assertFalse(catches(process.pid, signal.SIGHUP))
 
-    def test_a_terminal_that_goes_may_say_so_twice(self):
-        process = self.start_and_get_on(["run", "long.yaml", "--out", "out"], self.last_frame)
-        for _ in range(2):
-            process.send_signal(signal.SIGHUP)
-            time.sleep(0.001)
-        _, stderr = process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, 128 + signal.SIGHUP, stderr)
-        self.assert_saved_where_it_stopped(stderr, 0)
+    def test_one_wish_may_come_several_times(self):
+        """Of a terminal that goes, or of whoever ends all processes."""
+        for number, arguments in ((signal.SIGHUP, ["run", "long.yaml", "--out", "out"]),
+                                  (signal.SIGTERM, ["resume", "out"])):
+            process = self.start_and_get_on(arguments, self.last_frame)
+            before = saved_step(self.out)
+            for _ in range(3):
+                process.send_signal(number)
+                time.sleep(0.001)
+            _, stderr = process.communicate(timeout=PATIENCE)
+            self.assertEqual(process.returncode, 128 + number, stderr)
+            self.assert_saved_where_it_stopped(stderr, before)
 
     def test_whoever_reads_the_messages_may_go(self):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1, "--verbose", *SAVE_OFTEN)

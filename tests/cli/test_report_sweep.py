@@ -197,6 +197,17 @@ class Marks(SweepReport):
     def copy(self):
         return shutil.copytree(self.made, self.home / "out")
 
+    def test_error_bars_larger_than_what_they_belong_to_are_whole(self):
+        sweep = self.copy()
+        point, *others = self.point_directories(sweep)
+        for other in others:
+            self.change(other, mean_axial_velocity={"value": 1.0, "error": 0.5})
+        self.change(point, mean_axial_velocity={"value": 1.0, "error": 2.0})
+        self.report_on(sweep)
+        lengths = {name: abs(float(bar.get("y2")) - float(bar.get("y1")))
+                   for name, (link, _) in self.links(sweep).items() if (bar := link.find(f"{SVG}line")) is not None}
+        self.assertAlmostEqual(lengths.pop(point.name) / max(lengths.values()), 4.0, delta=0.05)
+
     def test_full_open_arrow_and_cross(self):
         sweep = self.copy()
         directories = self.point_directories(sweep)

@@ -137,6 +137,16 @@ class Interruption(SweepTest):
                 self.assertGreater(saved_step(run), steps.get(run, 0))
             steps = {run: saved_step(run) for run in running}
 
+    def test_a_signal_to_all_processes_lets_each_run_save_too(self):
+        """As batch systems and shutdowns send it: a run gets it from them and from its sweep."""
+        process = self.start_sweep(saved_by_its_end(ENDLESS))
+        running = self.wait_until_two_get_on()
+        for child in children_of(process.pid):
+            os.kill(child, signal.SIGTERM)
+        self.assertEqual(self.stop(process, signal.SIGTERM), 128 + signal.SIGTERM)
+        for run in running:
+            self.assertGreater(saved_step(run), 0)
+
     def test_runs_do_not_outlive_a_killed_sweep(self):
         process = self.start_sweep(ENDLESS)
         children = children_of(process.pid)

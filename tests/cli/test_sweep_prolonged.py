@@ -22,6 +22,11 @@ axes:
   - contact.restitution: [0.7, 0.8, 0.9]
     run.duration: [6 ms, 3 ms, 2 ms]
 """
+# Soft contacts take long steps; at 20 % it ends after 1.4 s.
+TUBE_TO_A_PRECISION = """\
+base: tube.yaml
+set: {seed: 2, contact.stiffness: 200 N/m, run.duration: , run.until.relative_error: 20 %, run.until.at_most: 3 s}
+"""
 LONG_ENOUGH_TO_INTERRUPT = "4 s"
 
 
@@ -164,7 +169,34 @@ class Prolonged(SweepTest):
         self.assertEqual(result.returncode, FAILED)
         self.assertIn("has no checkpoint to go on from; remove its directory", result.stdout)
         self.assertEqual(bytes_of_files(self.directory_of("0.7")), before)
+        kept = next(row for row in self.rows() if row["contact.restitution"] == "0.7")
+        self.assertEqual((kept["status"], float(kept["time"])), ("failed", self.summary(self.directory_of("0.7"))["time"]))
         self.assert_is_whole("0.9", "5 ms")
+
+    def test_what_knew_its_mean_goes_on_to_less_than_it_might_have_taken(self):
+        precise = TUBE_TO_A_PRECISION + "axes: {start.random_velocity: [2 m/s]}\n"
+        self.assert_done(self.sweep(precise, "out"))
+        (row,) = self.rows()
+        run = self.home / "out/points" / row["point"]
+        self.assertEqual(self.summary(run)["ended_by"], "precision")
+        longer = 1.2 * float(row["time"])
+        self.assert_done(self.go_on("run.until=", f"run.duration={longer}"))
+        self.assertAlmostEqual(self.summary(run)["time"], longer, delta=1e-4 * longer)
+
+    def test_a_checkpoint_without_a_series_is_not_thrown_away(self):
+        self.sweep_to_end(TWO)
+        run = self.directory_of("0.7")
+        for name in ("run.h5", "summary.json"):
+            (run / name).unlink()
+        before = bytes_of_files(run)
+        result = self.riesel("sweep", "out")
+        self.assertEqual(result.returncode, FAILED)
+        self.assertIn("run.h5 is missing beside its checkpoint; restore it", result.stdout)
+        after = bytes_of_files(run)
+        self.assertEqual({name: after[name] for name in after if "checkpoint" in name},
+                         {name: before[name] for name in before if "checkpoint" in name})
+        self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
+        self.assert_is_whole("0.7", "2 ms")
 
     def test_results_of_other_versions_stay_as_they_are(self):
         self.sweep_to_end(TWO)

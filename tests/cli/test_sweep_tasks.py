@@ -59,6 +59,12 @@ class Tasks(SweepTest):
         self.assert_done(self.task(0, "--of", 4))
         self.assertEqual({path: path.stat().st_mtime_ns for path in before}, before)
 
+    def test_what_tasks_have_done_is_not_put_aside_by_another_sweep(self):
+        self.prepare(GRID)
+        self.assert_done(self.task(0))
+        self.write("sweep.yaml", ENDLESS)
+        self.assert_refused(self.riesel("sweep", "sweep.yaml", "--out", "out", "--prepare"), "holds another sweep", "--out")
+
     def test_a_failure_is_told_and_does_not_stop_the_part(self):
         self.prepare(ONE_FAILS)
         result = self.task(0, "--of", 1)
