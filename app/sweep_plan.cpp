@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <tuple>
@@ -57,12 +58,21 @@ int most_threads_of(const io::Settings& settings, const Problem& problem) {
   return threads_for_curve(settings);
 }
 
+/// Whether random numbers are drawn: where grains are given, and in impacts, none are.
+bool draws_numbers(const io::Settings& settings, const Problem& problem) {
+  constexpr auto kind = "start.kind";
+  if (!std::holds_alternative<Flow>(problem)) return false;
+  const io::SettingsTable& table = scenarios::settings_tables().at(settings.scenario());
+  return !io::has_key(table, kind) || settings.text(kind) == "fresh";
+}
+
 /// What a run costs.
 struct Cost {
   const io::SweepPoint* point = nullptr;
   double work = 0.0;     // see work_of
   double seconds = 0.0;  // on one thread
   int most_threads = 1;
+  bool has_seed = false;  // that its result depends on
 };
 
 /// Measures a few runs from the cheapest to the dearest, and takes each other one to be as fast as
@@ -95,7 +105,8 @@ std::map<std::string, Cost> costs_of(const std::vector<io::SweepPoint>& points) 
     const Problem problem = problem_of(point.settings);
     entry->second = {.point = &point,
                      .work = work_of(point.settings, problem),
-                     .most_threads = most_threads_of(point.settings, problem)};
+                     .most_threads = most_threads_of(point.settings, problem),
+                     .has_seed = draws_numbers(point.settings, problem)};
     in_order.push_back(&entry->second);
   }
   estimate_seconds(in_order);
@@ -145,6 +156,25 @@ void reject_axes_in_vain(const io::SweepFile& sweep) {
                               "leave it out, or write one value below 'set:'");
 }
 
+/// The place of several seeds by themselves, if there are any.
+std::optional<io::Place> place_of_seeds(const io::SweepFile& sweep) {
+  if (sweep.seeds.size() > 1) return sweep.seeds.front().key_place;
+  for (const io::SweepAxis& axis : sweep.axes)
+    if (axis.keys == std::vector<std::string>{"seed"} && axis.values.size() > 1)
+      return axis.values.front().front().key_place;
+  return {};
+}
+
+void reject_seeds_in_vain(const io::SweepFile& sweep, const std::map<std::string, Cost>& costs) {
+  const auto place = place_of_seeds(sweep);
+  const bool any = std::ranges::any_of(costs, [](const auto& c) { return c.second.has_seed; });
+  if (place && !any)
+    throw io::SettingsError(*place, "seed",
+                            "changes no result: no run draws random numbers, so that several seeds "
+                            "would give the same several times",
+                            "leave it out");
+}
+
 std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep) {
   const io::SettingsTable& table = scenarios::settings_tables().at(sweep.scenario);
   std::vector<io::VariedSetting> varied;
@@ -168,6 +198,7 @@ SweepPlan plan_sweep(const std::filesystem::path& file) {
   plan.sweep_file = sweep.text;
   plan.manifest.varied = varied_settings(sweep);
   const std::map<std::string, Cost> costs = costs_of(points);
+  reject_seeds_in_vain(sweep, costs);
   std::set<std::tuple<std::string, std::string, std::string>> seen;
   for (const io::SweepPoint& point : points) {
     // The same value twice on an axis is one point; the same run in two branches is two.

@@ -104,10 +104,11 @@ State earlier_state(const io::Settings& settings, const State& empty) {
 
 void reject_other_swing_across(const io::Settings& settings, const State& earlier,
                                const State& state) {
+  constexpr double rounded = 1e-12;  // the sine of an angle
   for (std::size_t wall = 0; wall < state.walls.size(); ++wall)
     if (const double before = earlier.walls[wall].motion.amplitude_x,
         now = state.walls[wall].motion.amplitude_x;
-        before != now)
+        std::abs(now - before) > rounded * std::abs(before))
       settings.reject("wall.shake_amplitude",
                       fmt::format("swings the walls across by {:.6g} m, and the run to be "
                                   "continued by {:.6g} m",

@@ -61,6 +61,7 @@ scenarios::Problem cooling(const io::Settings& settings) {
   const ContactModel model = scenarios::contact_model(settings);
   const double t_col = scenarios::collision_time(settings, model, 0.5 * mass);
   state.time_step = scenarios::time_step(settings, model, t_col, 0.5 * mass);
+  state.grains.inertia = scenarios::inertia(settings);  // grains.rotation
 
   const auto seed = static_cast<std::uint64_t>(settings.integer("seed"));
   const double area = settings.number("grains.area_fraction") * size * size;

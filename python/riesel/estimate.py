@@ -17,9 +17,12 @@ class Estimate(NamedTuple):
 
     def __str__(self) -> str:
         """Two digits of the error, and the value as far: "1.534 +- 0.050"."""
-        if 1e-5 < self.error < math.inf:
-            decimals = max(0, 1 - math.floor(math.log10(self.error)))
-            return f"{self.value:.{decimals}f} +- {self.error:.{decimals}f}"
+        if 0.0 < self.error < math.inf:
+            decimals = 1 - math.floor(math.log10(self.error))
+            if decimals <= 6:
+                return f"{self.value:.{max(0, decimals)}f} +- {self.error:.{max(0, decimals)}f}"
+            order = math.floor(math.log10(abs(self.value))) if self.value else -decimals
+            return f"{self.value:.{max(1, order + decimals)}e} +- {self.error:.1e}"
         return f"{self.value:.4g} +- {self.error:.2g}"
 
     def __sub__(self, other: "Estimate") -> "Estimate":

@@ -200,6 +200,16 @@ class Grid(SweepTest):
         self.assertIn("1 of 2 points that were here are not in this sweep", self.sweep(other).stderr)
         self.assertEqual(len(self.rows()), 1)
 
+    def test_seeds_of_runs_that_draw_no_numbers_are_refused(self):
+        """Else means over seeds would be known exactly."""
+        self.run_small_tube("earlier", "--set", "run.duration=1 ms")
+        self.write("tube.yaml", SMALL_TUBE.replace("start: {random_velocity: 2 m/s}\n", ""))
+        self.write("wall.yaml", "scenario: single_wall_grain\ncontact: {stiffness: 2000 N/m, restitution: 0.9}\n")
+        for text in ("base: tube.yaml\nset: {start.kind: continued, start.from: earlier}\nseeds: 3\n",
+                     "base: wall.yaml\nseeds: [4, 5]\n", "base: wall.yaml\naxes: {seed: [4, 5]}\n"):
+            self.assert_refused(self.sweep(text), "seed: changes no result", "several times")
+        self.assert_done(self.sweep("base: wall.yaml\nseeds: 1\n", "out", "--prepare"))
+
     def test_a_start_counts_by_what_stands_in_it(self):
         earlier = self.run_small_tube("earlier", "--set", "run.duration=1 ms")
         text = ("base: tube.yaml\nset: {run.duration: 1 ms, start.kind: continued, start.from: earlier}\n"

@@ -74,6 +74,12 @@ class Flow(CommandTest):
         self.assertEqual(unknown.estimate("x").value, 2.0)
         self.assertTrue(math.isnan(unknown.estimate("x").error))
 
+    def test_an_estimate_is_told_as_far_as_its_error_lets(self):
+        for value, error, text in ((1.534, 0.05, "1.534 +- 0.050"), (1234.0, 12.0, "1234 +- 12"),
+                                   (1.2345678, 5e-6, "1.2345678e+00 +- 5.0e-06"), (1.2e-7, 3.4e-9, "1.200e-07 +- 3.4e-09"),
+                                   (0.0, 1e-9, "0.0e+00 +- 1.0e-09"), (2.0, math.nan, "2 +- nan")):
+            self.assertEqual(str(riesel.Estimate(value, error)), text)
+
     def test_estimates_of_the_balance_have_the_errors_that_stand_beside_it(self):
         balance = json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))["balance"]
         for name in ("n_dot", "dv_y", "n_dot_dv_y"):
