@@ -68,9 +68,9 @@ std::vector<double> extent_of(std::span<const FlowCurve> curves, bool with_ends_
 
 /// Logarithmic if the means are so far apart, whatever their error bars.
 io::Axis axis_of_means(const std::string& label, std::span<const FlowCurve> curves) {
-  const io::Axis axis = io::axis_for(label, extent_of(curves, false));
-  if (axis.scale == io::Scale::logarithmic) return axis;
-  return io::axis_for(label, extent_of(curves, true));
+  io::Axis axis = io::axis_for(label, extent_of(curves, false));
+  if (axis.scale == io::Scale::linear) axis = io::axis_for(label, extent_of(curves, true));
+  return axis;
 }
 
 std::vector<double> settings_of(std::span<const FlowCurve> curves) {
