@@ -181,8 +181,8 @@ private:
     ++job.starts;
     const bool goes_on = can_resume(job.directory);
     if (!goes_on && has_checkpoint(job.directory) && !options_.retry_failed) {
-      fail(job, fmt::format("{} is missing beside its checkpoint; restore it, or begin anew with "
-                            "--retry-failed",
+      fail(job, fmt::format("{} is missing beside its checkpoint; restore it and go on with "
+                            "--retry-failed, which begins anew without it",
                             io::run_file_name));
       return;
     }

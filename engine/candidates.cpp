@@ -80,11 +80,15 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Pur
   one_size_ = *least == *most;
   const double reach = largest_reach(state);
   const double diameter = mean_diameter(grains);
-  if (state.box.length <= 2.0 * (reach + least_skin * diameter))
+  // A pair is listed at a distance of reach and skin at most, and until it is listed again each of
+  // the two may go half a skin farther away: the image that is listed has to stay the nearest one,
+  // or a new course would be foreseen of the other.
+  const double half_period = 0.499 * state.box.length;
+  const double longest_skin =
+      std::min(half_period - reach, 0.5 * (half_period - 2.0 * max_radius_));
+  if (longest_skin < least_skin * diameter)
     throw std::invalid_argument("the period is too short for the nearest image to be unique");
-  const double longest_skin = 0.499 * state.box.length - reach;
-  skin_ =
-      std::max(least_skin * diameter, std::min(purpose.skin_per_diameter * diameter, longest_skin));
+  skin_ = std::min(purpose.skin_per_diameter * diameter, longest_skin);
   steps_to_walls_ = steps_of_fall(std::abs(state.box.metres_x(fall_.x)), 0.5 * skin_);
   for (const WallLattice& wall : state.walls)
     if (!wall.smooth()
@@ -248,7 +252,7 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   sorted_at_ = step;
   hold_until_ = step + steps_to_walls_;
   drift_.x = wrapped_difference(0, fall_.times(step).x);
-  drift_.y = given_drift_.value_or(middle_velocity(grains));
+  drift_.y = given_drift_ ? *given_drift_ : middle_velocity(grains);  // a part may have no grains
 }
 
 /// First the pairs within the longest reach, a few at a time, then of them those within their own;

@@ -13,6 +13,7 @@ inline double steps_to_go(double gap, double u, double a) {
   constexpr double forever = std::numeric_limits<double>::infinity();
   const double root2 = u * u + 2.0 * a * gap;
   if (root2 < 0.0) return forever;
+  if (u < 0.0 && a > 0.0) return (std::sqrt(root2) - u) / a;  // below, nearly nothing would be left
   const double closing = u + std::sqrt(root2);
   return closing > 0.0 ? 2.0 * gap / closing : forever;
 }

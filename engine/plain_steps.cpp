@@ -82,6 +82,7 @@ void PlainSteps::advance(std::size_t number, std::int64_t now, std::int64_t last
 void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
   const std::size_t count = mine.end - mine.begin;
+  if (count == 0) return member.profile.done(Profile::Phase::fly);  // there is no first grain
   const Fall fallen = member.units.fall.times(step);
   // Processors fetch up to some thousand bytes of what comes next in the direction of a loop:
   // beyond the end of a share these are lines to which another thread is writing. So it goes

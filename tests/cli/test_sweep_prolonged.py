@@ -191,7 +191,7 @@ class Prolonged(SweepTest):
         before = bytes_of_files(run)
         result = self.riesel("sweep", "out")
         self.assertEqual(result.returncode, FAILED)
-        self.assertIn("run.h5 is missing beside its checkpoint; restore it", result.stdout)
+        self.assertIn("run.h5 is missing beside its checkpoint; restore it and go on with --retry-failed", result.stdout)
         after = bytes_of_files(run)
         self.assertEqual({name: after[name] for name in after if "checkpoint" in name},
                          {name: before[name] for name in before if "checkpoint" in name})

@@ -238,9 +238,10 @@ TEST_CASE("flights go askew while they have contacts enough") {
 TEST_CASE("flights stop, at a whole step, where their contacts become many or few") {
   constexpr std::int64_t steps = 20'000;
   const int threads = GENERATE(1, 2);
+  const ContactModel model = paper_model();
   const auto stopped_at = [&](State& state, double contacts, std::size_t slices) {
     const Askew how{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = contacts};
-    Stepper stepper(state, paper_model(),
+    Stepper stepper(state, model,
                     {.by_flights = true, .threads = threads, .slices_per_thread = slices}, how);
     stepper.advance(steps);
     Profile profile;

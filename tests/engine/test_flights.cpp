@@ -1,6 +1,7 @@
 // Crossing many steps at once: the states that would catch an appointment made too late, against
 // stepping all grains in each step. The results must be equal in every bit.
 #include "engine/calendar.hpp"
+#include "engine/flights.hpp"
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"
@@ -239,4 +240,22 @@ TEST_CASE("random systems of all kinds go both ways alike") {
     // Teams take time on a busy machine: only some.
     same_both_ways(state, 1000, seed % 5 == 0 ? 2 + static_cast<int>(seed / 5 % 3) : 1);
   }
+}
+
+TEST_CASE("in a short period the listed image of a pair stays the nearest until the next listing") {
+  // Each of the two may go half a skin, away from the other.
+  for (const double diameters : {3.1, 4.0, 4.5, 6.0, 20.0}) {
+    State state = empty_box(10e-3, diameters * 2.0 * radius);
+    add_grain(state, grain(3e-3, 1e-3, 0.0, 0.0));
+    add_grain(state, grain(6e-3, 2e-3, 0.0, 0.0));
+    for (const Candidates::Purpose& purpose : {Flights::purpose, Candidates::plain_stepping}) {
+      const Candidates candidates(state, CappedSlip{}, 1, purpose, 1);
+      CAPTURE(diameters, candidates.skin());
+      CHECK(candidates.skin() > 0.0);
+      CHECK(2.0 * radius + 2.0 * candidates.skin() < 0.5 * state.box.length);
+    }
+  }
+  State shorter = empty_box(10e-3, 2.9 * 2.0 * radius);
+  add_grain(shorter, grain(3e-3, 1e-3, 0.0, 0.0));
+  CHECK_THROWS_AS(Candidates(shorter, CappedSlip{}, 1, Flights::purpose, 1), std::invalid_argument);
 }

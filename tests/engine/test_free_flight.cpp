@@ -1,4 +1,5 @@
 // Free flight without rounding: what physics says of a falling grain, quantum for quantum.
+#include "engine/parabola.hpp"
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/systems.hpp"
@@ -120,4 +121,15 @@ TEST_CASE("y is the same place in every period") {
   CHECK(box.place_y(box.fixed_y(-0.1)) == Approx(0.6));
   CHECK(box.metres_y(box.fixed_y(0.6)) == Approx(-0.1));
   CHECK(box.fixed_y(0.5 * box.length) == INT64_MIN);
+}
+
+TEST_CASE("the time until a body comes back is exact, however close by it turns") {
+  const double u = -4e-9, a = 9.8e-12;  // m per step: a grain that leaves a floor
+  for (const double gap : {1e-9, 1e-13, 1e-17, 1e-20}) {
+    const long double exact = (std::sqrt(static_cast<long double>(u) * u + 2.0L * a * gap) - u)
+                              / static_cast<long double>(a);
+    CHECK(std::abs(static_cast<double>(steps_to_go(gap, u, a) / exact - 1.0L)) < 1e-14);
+  }
+  CHECK(std::isinf(steps_to_go(1e-3, -1.0, 0.0)));
+  CHECK(steps_to_go(1e-3, 1e-6, 0.0) == Approx(1000.0));
 }
