@@ -5,10 +5,12 @@
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/run_directory.hpp"
 #include "app/terminal.hpp"
 #include "app/walltime.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
+#include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/summary.hpp"
 
