@@ -10,6 +10,8 @@
 #include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
 
+#include <fmt/core.h>
+
 #include <map>
 
 namespace riesel::app {
@@ -18,11 +20,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-RunStatus status_of(const fs::path& point, const io::RunRecord& record) {
-  if (io::DirectoryLock::is_held(point)) return RunStatus::running;
-  if (fs::exists(point / io::summary_name)) return RunStatus::done;
-  if (!record.failure.empty()) return RunStatus::failed;
-  return record.attempts > 0 ? RunStatus::interrupted : RunStatus::waiting;
+/// Why a run that nobody works on, and that has not come to its end, would not get there; "" if it
+/// would.
+std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
+  if (!record.failure.empty()) return record.failure;
+  if (has_checkpoint(point) && !can_resume(point))
+    return fmt::format("{} is missing beside its checkpoint; restore it and go on with "
+                       "--retry-failed, which begins anew without it",
+                       io::run_file_name);
+  return "";
 }
 
 /// A run whose neighbour failed waits in vain.
@@ -62,10 +68,14 @@ io::Manifest manifest_in(const fs::path& sweep) {
 
 RunStanding standing_of(const fs::path& point) {
   const io::RunRecord record = io::read_run_record(point);
-  const RunStatus status = status_of(point, record);
-  return {.status = status,
-          .attempts = record.attempts,
-          .reason = status == RunStatus::failed ? record.failure : ""};
+  const auto with = [&](RunStatus status, const std::string& reason = "") {
+    return RunStanding{.status = status, .attempts = record.attempts, .reason = reason};
+  };
+  if (io::DirectoryLock::is_held(point)) return with(RunStatus::running);
+  if (fs::exists(point / io::summary_name)) return with(RunStatus::done);
+  const std::string reason = reason_to_fail(point, record);
+  if (!reason.empty()) return with(RunStatus::failed, reason);
+  return with(record.attempts > 0 ? RunStatus::interrupted : RunStatus::waiting);
 }
 
 void refresh(io::Manifest& manifest, const fs::path& sweep) {

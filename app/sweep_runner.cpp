@@ -10,7 +10,6 @@
 #include "app/walltime.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
-#include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/summary.hpp"
 
@@ -179,15 +178,10 @@ private:
   void start(Job& job) {
     const int threads = threads_for(job);
     look_at(job);
-    if (job.status == RunStatus::running || job.status == RunStatus::done) return;
+    const bool in_vain = job.status == RunStatus::failed && !options_.retry_failed;
+    if (job.status == RunStatus::running || job.status == RunStatus::done || in_vain) return;
     ++job.starts;
     const bool goes_on = can_resume(job.directory);
-    if (!goes_on && has_checkpoint(job.directory) && !options_.retry_failed) {
-      fail(job, fmt::format("{} is missing beside its checkpoint; restore it and go on with "
-                            "--retry-failed, which begins anew without it",
-                            io::run_file_name));
-      return;
-    }
     if (!goes_on && !cleared(job)) return;
     io::RunRecord record = io::read_run_record(job.directory);
     io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});

@@ -6,7 +6,6 @@
 #include "engine/observables.hpp"
 #include "engine/team_barrier.hpp"
 #include "io/checkpoint.hpp"
-#include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -97,9 +96,7 @@ void start_up(const std::string& case_name, const std::string& size, int threads
   std::size_t grains = 0;
   Json memory;
   const double seconds = seconds_of([&] {
-    const auto length = fmt::format("tube.length={:.17g}", 0.1 * size_named(size).copies);
-    const auto settings = io::Settings::from_text(flow_case(case_name).settings, case_name,
-                                                  scenarios::settings_tables(), {length});
+    const io::Settings settings = settings_of(flow_case(case_name), size_named(size));
     auto flow = std::get<scenarios::Flow>(scenarios::named(settings.scenario()).prepare(settings));
     grains = flow.state.grains.size();
     Simulation simulation(std::move(flow.state), flow.model,

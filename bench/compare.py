@@ -71,11 +71,14 @@ def load(path, formats=(SUITE,)):
         raise BadInput(f"{path}: cannot be read ({error})") from error
     if not isinstance(results, dict) or results.get("format") not in formats:
         raise BadInput(f"{path}: is no result of the benchmark suite{' nor beside other codes' if PEERS in formats else ''}")
-    if results["format_version"] != FORMAT_VERSION:
-        raise BadInput(f"{path}: has version {results['format_version']} of the format, "
+    if results.get("format_version") != FORMAT_VERSION:
+        raise BadInput(f"{path}: has version {results.get('format_version')} of the format, "
                        f"known is {FORMAT_VERSION}")
-    rows = results["rows"] if "rows" in results else [row for case in results["cases"] for row in case["rows"]]
-    results["rows"] = {(r["case"], r["size"], r["variant"]): r for r in rows}
+    try:
+        rows = results["rows"] if "rows" in results else [row for case in results["cases"] for row in case["rows"]]
+        results["rows"] = {(r["case"], r["size"], r["variant"]): r for r in rows}
+    except (KeyError, TypeError) as missing:
+        raise BadInput(f"{path}: is no whole result: {missing}") from missing
     return results
 
 
@@ -83,7 +86,8 @@ def title(results):
     """One line about where a result comes from."""
     build, machine = results["build"], results["machine"]
     changed = " (changed)" if build["changed"] else ""
-    return (f"{build['commit'][:7]}{changed}, {results['date']}, {machine['cpu']}, {machine['cores']} cores, "
+    quick = " (quick)" if results["quick"] else ""
+    return (f"{build['commit'][:7]}{changed}{quick}, {results['date']}, {machine['cpu']}, {machine['cores']} cores, "
             f"{build['compiler']} {build['flags']}, load {machine['load_average'][0]:.2f}")
 
 
@@ -134,7 +138,8 @@ def print_between(a, b):
             print(f"{key[0]:18} {key[1]:>5}  {key[2]:22} only in B")
             continue
         base = a["rows"][key]
-        same_steps = row["steps_before"] == base["steps_before"]
+        # What has no state that it starts from hashes what it comes to: of as much work.
+        same_steps = row["steps_before"] == base["steps_before"] and (row["steps_before"] or row["work"] == base["work"])
         note = "" if row["state_hash"] == base["state_hash"] or not same_steps else "  other bits"
         print(f"{key[0]:18} {key[1]:>5}  {key[2]:22} {unpaired_ratio(row, base)}{note}")
     for key in a["rows"].keys() - b["rows"].keys():
@@ -173,7 +178,8 @@ def draw_speeds(plt, files, path):
 
 def draw_ratios(plt, files, path):
     """The ratios within each result as bars."""
-    labels = [f"{case} {size}: {name}" for case, size, name, _ in inner_ratios(files[0][1])]
+    labels = list(dict.fromkeys(f"{case} {size}: {name}" for _, results in files
+                                for case, size, name, _ in inner_ratios(results)))
     figure, axes = plt.subplots(figsize=(7, 0.8 + 0.18 * len(labels)))
     for shift, (name, results) in enumerate(files):
         ratios = {f"{case} {size}: {label}": ratio for case, size, label, ratio in inner_ratios(results)}
@@ -201,7 +207,7 @@ def draw(files, folder, ending):
     folder.mkdir(parents=True, exist_ok=True)
     if any(flow_rows(results) for _, results in files):
         draw_speeds(plt, files, folder / f"speed.{ending}")
-    if inner_ratios(files[0][1]):
+    if any(inner_ratios(results) for _, results in files):
         draw_ratios(plt, files, folder / f"ratios.{ending}")
 
 

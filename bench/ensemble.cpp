@@ -1,7 +1,9 @@
 #include "bench/ensemble.hpp"
 
 #include "bench/child.hpp"
+#include "bench/scratch_folder.hpp"
 #include "engine/hash.hpp"
+#include "io/durable_file.hpp"
 #include "io/summary.hpp"
 
 #include <fmt/core.h>
@@ -48,11 +50,12 @@ Outcome outcome_of(const fs::path& sweep) {
 
 void measure_ensemble(const fs::path& riesel, const fs::path& folder, const Effort& effort,
                       Results& results) {
-  fs::create_directories(folder);
-  const fs::path plan = folder / "ensemble.yaml", sweep = folder / "ensemble";
-  std::ofstream(plan) << fmt::format(
-      "{{base: {}, set: {{run.duration: {:.3g} s, run.threads: 1}}, seeds: {}}}\n",
-      flow_case(member).settings, duration * effort.work, seeds);
+  const ScratchFolder scratch(folder);
+  const fs::path plan = scratch.path() / "ensemble.yaml", sweep = scratch.path() / "ensemble";
+  io::write_durably(
+      plan,
+      fmt::format("{{base: {}, set: {{run.duration: {:.3g} s, run.threads: 1}}, seeds: {}}}\n",
+                  flow_case(member).settings, duration * effort.work, seeds));
 
   const std::array jobs = {1, 2};
   std::array<Outcome, 2> outcomes{};
@@ -68,19 +71,17 @@ void measure_ensemble(const fs::path& riesel, const fs::path& folder, const Effo
       return seconds;
     });
   const std::vector<Timing> timings = in_turns(measurements, effort.repetitions);
-  fs::remove_all(folder);
 
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    results.rows.push_back({.case_name = "ensemble",
-                            .size = "1.4k",
-                            .variant = fmt::format("jobs {}", jobs[i]),
-                            .grains = outcomes[i].grains,
-                            .threads = jobs[i],
-                            .unit = "particle-steps",
-                            .work = outcomes[i].particle_steps,
-                            .timing = timings[i],
-                            .state_hash = outcomes[i].hash});
-    print(results.rows.back());
+    add(results, {.case_name = "ensemble",
+                  .size = "1.4k",
+                  .variant = fmt::format("jobs {}", jobs[i]),
+                  .grains = outcomes[i].grains,
+                  .threads = jobs[i],  // one of each job
+                  .unit = "particle-steps",
+                  .work = outcomes[i].particle_steps,
+                  .timing = timings[i],
+                  .state_hash = outcomes[i].hash});
   }
   if (outcomes[0].hash != outcomes[1].hash)
     results.disagreements.emplace_back("ensemble: the results depend on what runs beside them");

@@ -9,7 +9,7 @@
 namespace riesel::bench {
 
 /// The same seeds of a fresh tube with `--jobs 1` and `--jobs 2`, start-up, estimates and output
-/// included. Makes `folder` and removes it. `riesel` is the command.
+/// included, in a folder of their own below `folder`. `riesel` is the command.
 void measure_ensemble(const std::filesystem::path& riesel, const std::filesystem::path& folder,
                       const Effort& effort, Results& results);
 

@@ -85,12 +85,9 @@ public:
       measurements.emplace_back([this, &contender] { return timed(contender); });
     const std::vector<Timing> timings = in_turns(measurements, plan_.repetitions);
 
-    results.rows.push_back(row("scalar", 1, plan_.scalar_steps, timings[0]));
-    print(results.rows.back());
-    for (std::size_t i = 0; i < contenders_.size(); ++i) {
-      results.rows.push_back(row(contenders_[i], timings[i + 1], results.bandwidth));
-      print(results.rows.back());
-    }
+    add(results, row("scalar", 1, plan_.scalar_steps, timings[0]));
+    for (std::size_t i = 0; i < contenders_.size(); ++i)
+      add(results, row(contenders_[i], timings[i + 1], results.bandwidth));
     compare_hashes(results.disagreements);
   }
 

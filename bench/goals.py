@@ -4,9 +4,10 @@
     bench/goals.py                                          all of bench/results
     bench/goals.py --since 2026-11-26 bench/results/*amd*   of these files those of that date, or younger
 
-Files are results of the suite and of bench/peers/run.py, in any order. Of each counts the median over its repetitions. A
-cell has the median over all files and their range: hours of one machine differ. Bold: each reaches the goal; if only some
-do, it says how many of how many.
+Files are results of the suite and of bench/peers/run.py, in any order; each machine has a table of its own. What was measured
+in short, with sources that were changed, or with bits that do not agree is left out. Of each result counts the median over
+its repetitions. A cell has the median over all files and their range: hours of one machine differ. Bold: each reaches the
+goal; if only some do, it says how many of how many.
 """
 
 import argparse
@@ -180,11 +181,24 @@ def parse():
     return parser.parse_args()
 
 
+def counts(results):
+    return not (results.get("quick") or results["build"]["changed"] or results.get("disagreements"))
+
+
 def main():
     options = parse()
-    files = [results for path in options.files if (results := load(path, (SUITE, PEERS)))["date"] >= options.since]
-    suites, peers = [sum(results["format"] == source for results in files) for source in (SUITE, PEERS)]
-    print(f"{suites} results of the suite, {peers} beside LAMMPS\n\n{table(files)}")
+    machines = {}
+    for path in options.files:
+        results = load(path, (SUITE, PEERS))
+        if not counts(results):
+            print(f"{path}: left out", file=sys.stderr)
+        elif results["date"] >= options.since:
+            machines.setdefault(results["machine"]["name"], []).append(results)
+    tables = []
+    for machine, files in machines.items():
+        suites, peers = [sum(results["format"] == source for results in files) for source in (SUITE, PEERS)]
+        tables.append(f"{machine}: {suites} results of the suite, {peers} beside LAMMPS\n\n{table(files)}")
+    print("\n\n".join(tables))
 
 
 if __name__ == "__main__":

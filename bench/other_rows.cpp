@@ -1,25 +1,23 @@
 #include "bench/other_rows.hpp"
 
 #include "bench/child.hpp"
+#include "bench/scratch_folder.hpp"
 #include "io/checkpoint.hpp"
-#include "io/durable_file.hpp"
 #include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
+#include <variant>
 
 namespace riesel::bench {
 
 namespace {
 
 constexpr auto fresh_tube = "tube_start";
-
-void add(Results& results, Row row) {
-  print(row);
-  results.rows.push_back(std::move(row));
-}
 
 }  // namespace
 
@@ -58,7 +56,8 @@ void measure_impacts(const ImpactCase& one, const Effort& effort, Results& resul
 void measure_checkpoint(const Size& size, const StartStates& states, const Effort& effort,
                         Results& results) {
   const auto original = io::read_checkpoint(states.checkpoint(flow_case(fresh_tube), size));
-  const auto path = states.folder() / "written.h5";
+  const ScratchFolder scratch(states.folder());
+  const auto path = scratch.path() / "written.h5";
   io::Checkpoint read;
   const std::vector<Timing> timings =
       in_turns({[&] { return seconds_of([&] { io::write_checkpoint(path, original); }); },
@@ -76,7 +75,6 @@ void measure_checkpoint(const Size& size, const StartStates& states, const Effor
                   .state_hash = state_hash(i == 0 ? original.state : read.state)});
   if (state_hash(original.state) != state_hash(read.state))
     results.disagreements.emplace_back("checkpoint: what is read is not what was written");
-  for (const auto& file : {path, io::previous_generation(path)}) std::filesystem::remove(file);
 }
 
 void measure_start_up(const Size& size, const Effort& effort, Results& results) {

@@ -21,11 +21,11 @@ VISITED = r"std::__detail::__variant::.*riesel::\(anonymous namespace\)::(\w+)<"
 PHASES = [
     ("forces of contacts, and their book-keeping",
      r"StepLoop|LiveContacts::\w+|step_tiles|follow_bodies|FlightRegion::(step_contacts|take_up|change_contacts|let_go|take_up_contacts)|"
-     r"meeting_\w+|begin_contact|note_(over|lasting)|add_last_loss|\w*Tally::\w+|WallVisits::\w+|ExactSum\w*::\w+|"
+     r"meeting_\w+|begin_contact|note_(over|lasting)|add_last_loss|\w*Tally::\w+|ExactSum\w*::\w+|"
      r"count_work_of_walls|see_from_the_other"),
     ("sorting, listing, sifting, linking",
      r"Candidates::\w+|Cells::\w+|sift\w*|find_close\w*|pair_in|earlier|SieveLoop|Appointments::(link|start_over|make_all)|"
-     r"Border::list_\w+|Courses::start_over|FlightRegion::(land|start_over|set_out|make_all_appointments)|Flights::(land|renew|begin)|candidate_in|for_each_contact_of"),
+     r"Border::list_\w+|Courses::start_over|FlightRegion::(land|start_over|set_out|make_all_appointments)|Flights::(land|renew|begin)|candidate_in"),
     ("foresight and entering of appointments", r"foresee|gather|FlightRegion::(foresee|fetch)|fetch|ForesightLoop|Appointments::\w+|Calendar::\w+|flight_of|steps_\w+"),
     ("looking at what is due",
      r"FlightRegion::(look_\w+|keep_appointments|collide|position|foreign_position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
@@ -69,9 +69,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("data", help="what perf recorded, or - for its report on the standard input")
     data = parser.parse_args().data
-    report = sys.stdin.read() if data == "-" else subprocess.run(
-        ["perf", "report", "--stdio", "--no-children", "-F", "overhead,sym", "-i", data], check=True, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
+    try:
+        report = sys.stdin.read() if data == "-" else subprocess.run(
+            ["perf", "report", "--stdio", "--no-children", "-F", "overhead,sym", "-i", data], check=True, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE).stdout
+    except FileNotFoundError:
+        sys.exit("phases.py: perf is not installed")
+    except subprocess.CalledProcessError as failed:
+        sys.exit(f"phases.py: perf cannot read {data}: {failed.stderr.strip()}")
 
     shares = dict.fromkeys([phase for phase, _ in PHASES], 0.0)
     elsewhere, unknown = 0.0, {}

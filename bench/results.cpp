@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <ctime>
+#include <utility>
 
 namespace riesel::bench {
 
@@ -104,7 +105,7 @@ void print_heading() {
   std::fflush(stdout);
 }
 
-void print(const Row& row) {
+void add(Results& results, Row row) {
   fmt::print("{:18} {:>5} {:>9} {:10} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6}  {}\n", row.case_name,
              row.size, row.grains, row.variant, speed_of(row, row.timing.median()),
              speed_of(row, row.timing.least()), cell(row.contacts_per_grain, "{:.4f}"),
@@ -112,6 +113,7 @@ void print(const Row& row) {
              cell(row.bandwidth_share, "{:.2f}"),
              row.state_hash ? fmt::format("{:016x}", *row.state_hash) : "-");
   std::fflush(stdout);
+  results.rows.push_back(std::move(row));
 }
 
 nlohmann::ordered_json origin(const Machine& machine) {
@@ -125,7 +127,8 @@ nlohmann::ordered_json to_json(const Results& results) {
   Json all = {{"format", "riesel benchmark"},
               {"format_version", 1},
               {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
-              {"quick", results.quick}};
+              {"quick", results.quick},
+              {"part", results.part}};
   all.update(origin(results.machine));
   all.update({{"bandwidth", bandwidth},
               {"hashes_agree", results.disagreements.empty()},
@@ -135,10 +138,14 @@ nlohmann::ordered_json to_json(const Results& results) {
 }
 
 std::filesystem::path usual_place(const Results& results, const std::filesystem::path& folder) {
-  return folder
-         / fmt::format("{}-{}{}{}.json", results.machine.name(),
-                       build_info().git_commit.substr(0, 7),
-                       build_info().git_dirty ? "-changed" : "", results.quick ? "-quick" : "");
+  const std::string name =
+      fmt::format("{}-{}{}{}{}", results.machine.name(), build_info().git_commit.substr(0, 7),
+                  build_info().git_dirty ? "-changed" : "", results.quick ? "-quick" : "",
+                  results.part ? "-part" : "");
+  auto path = folder / (name + ".json");
+  for (int number = 2; std::filesystem::exists(path); ++number)
+    path = folder / fmt::format("{}-{}.json", name, number);
+  return path;
 }
 
 std::optional<double> bandwidth_for(const std::vector<Bandwidth>& measured, int threads,

@@ -39,6 +39,7 @@ struct Row {
 struct Results {
   Machine machine;
   bool quick = false;
+  bool part = false;  ///< of the cases or sizes
   std::vector<Bandwidth> bandwidth{};
   std::vector<Row> rows{};
   std::vector<std::string> disagreements{};  ///< of hashes that must be equal, in words
@@ -46,14 +47,16 @@ struct Results {
 
 void print_machine(const Results& results);
 void print_heading();
-void print(const Row& row);
+/// Prints it, and keeps it.
+void add(Results& results, Row row);
 
 /// Where results come from: {"machine": ..., "build": ...}.
 nlohmann::ordered_json origin(const Machine& machine);
 
 nlohmann::ordered_json to_json(const Results& results);
 
-/// bench/results/<machine>-<commit>.json, with "-changed" where the sources were.
+/// bench/results/<machine>-<commit>.json, with "-changed" where the sources were, "-quick",
+/// "-part", and a number if that is there already.
 std::filesystem::path usual_place(const Results& results, const std::filesystem::path& folder);
 
 /// B/s by `threads` threads over the smallest measured working set that holds `bytes`, or the

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <stdexcept>
 
 namespace {
 
@@ -33,6 +34,7 @@ struct Options {
   Effort effort() const {
     return quick ? Effort{.repetitions = 3, .work = 0.1} : Effort{.repetitions = 5, .work = 1.0};
   }
+  bool part() const { return !cases.empty() || !sizes.empty(); }
   bool wants_case(const std::string& name) const { return wants(cases, name); }
   /// The largest only if asked for by name.
   bool wants_size(const Size& size) const {
@@ -48,11 +50,43 @@ private:
   }
 };
 
-/// Before anything is timed.
-void make_all_states(const Options& options, const StartStates& states) {
+/// A case of many grains in one of its sizes.
+struct Flow {
+  const FlowCase& one;
+  Size size;
+};
+
+/// All variants of a case are alive at the same time.
+bool fits(const Flow& flow, const Machine& machine) {
+  constexpr double grains_per_copy = 1400.0, bytes_per_grain = 2500.0;  // of all variants together
+  const double needed = flow.size.copies * grains_per_copy * bytes_per_grain;
+  const bool enough = needed < static_cast<double>(machine.memory);
+  if (!enough)
+    fmt::print(stderr, "{} {}: left out, as it takes some {:.0f} GiB of memory\n", flow.one.name,
+               flow.size.name, needed / 0x1p30);
+  return enough;
+}
+
+/// What is to be measured. Throws std::invalid_argument if that is nothing.
+std::vector<Flow> chosen_flows(const Options& options, const Machine& machine) {
+  std::vector<Flow> chosen;
   for (const FlowCase& one : flow_cases())
     for (const Size& size : one.sizes)
-      if (options.wants_case(one.name) && options.wants_size(size)) states.checkpoint(one, size);
+      if (const Flow flow{one, size};
+          options.wants_case(one.name) && options.wants_size(size) && fits(flow, machine))
+        chosen.push_back(flow);
+  const auto is_flow = [](const std::string& name) {
+    return std::ranges::any_of(flow_cases(), [&](const FlowCase& one) { return one.name == name; });
+  };
+  if (chosen.empty() && !options.cases.empty() && std::ranges::all_of(options.cases, is_flow))
+    throw std::invalid_argument("nothing to measure: 'speed list' tells which sizes a case has");
+  return chosen;
+}
+
+/// Before anything is timed.
+void make_all_states(const Options& options, const std::vector<Flow>& flows,
+                     const StartStates& states) {
+  for (const Flow& flow : flows) states.checkpoint(flow.one, flow.size);
   if (options.wants_case("checkpoint")) states.checkpoint(flow_case("tube_start"), options.bulk());
 }
 
@@ -65,40 +99,27 @@ void measure_bandwidths(const Options& options, Results& results) {
   }
 }
 
-/// All variants of a case are alive at the same time.
-bool fits(const FlowCase& one, const Size& size, const Machine& machine) {
-  constexpr double grains_per_copy = 1400.0, bytes_per_grain = 2500.0;  // of all variants together
-  const double needed = size.copies * grains_per_copy * bytes_per_grain;
-  const bool enough = needed < static_cast<double>(machine.memory);
-  if (!enough)
-    fmt::print(stderr, "{} {}: left out, as it takes some {:.0f} GiB of memory\n", one.name,
-               size.name, needed / 0x1p30);
-  return enough;
-}
-
-void measure_all(const Options& options, const StartStates& states, Results& results) {
+void measure_all(const Options& options, const std::vector<Flow>& flows, const StartStates& states,
+                 Results& results) {
   const Effort effort = options.effort();
   print_heading();
   for (const ImpactCase& one : impact_cases())
     if (options.wants_case(one.name)) measure_impacts(one, effort, results);
-  for (const FlowCase& one : flow_cases())
-    for (const Size& size : one.sizes)
-      if (options.wants_case(one.name) && options.wants_size(size)
-          && fits(one, size, results.machine))
-        measure_flow(one, size, states, effort, results);
+  for (const Flow& flow : flows) measure_flow(flow.one, flow.size, states, effort, results);
   if (options.wants_case("checkpoint")) measure_checkpoint(options.bulk(), states, effort, results);
   if (options.wants_case("start_up")) measure_start_up(options.bulk(), effort, results);
   if (options.wants_case("ensemble"))
-    measure_ensemble(RIESEL_COMMAND, states.folder() / "sweep", effort, results);
+    measure_ensemble(RIESEL_COMMAND, states.folder(), effort, results);
 }
 
 int run_suite(const Options& options) {
   const StartStates states(options.cache);
-  make_all_states(options, states);
-  Results results{.machine = this_machine(), .quick = options.quick};
+  const std::vector<Flow> flows = chosen_flows(options, this_machine());
+  make_all_states(options, flows, states);
+  Results results{.machine = this_machine(), .quick = options.quick, .part = options.part()};
   measure_bandwidths(options, results);
   print_machine(results);
-  measure_all(options, states, results);
+  measure_all(options, flows, states, results);
 
   const std::filesystem::path out = options.out.empty() ? usual_place(results, RIESEL_BENCH_RESULTS)
                                                         : std::filesystem::path(options.out);
@@ -248,6 +269,9 @@ int main(int argc, char** argv) {
       return command_line.program().exit(error) == 0 ? 0 : 2;
     }
     return command_line.command()();
+  } catch (const std::invalid_argument& mistake) {
+    fmt::print(stderr, "speed: {}\n", mistake.what());
+    return 2;
   } catch (const std::exception& error) {
     fmt::print(stderr, "speed: {}\n", error.what());
     return 1;

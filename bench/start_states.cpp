@@ -6,7 +6,6 @@
 #include "engine/random.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
-#include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -21,7 +20,7 @@ namespace {
 /// To be raised when states are made differently: it goes into their names.
 constexpr int recipe = 1;
 
-io::Settings settings_of(const FlowCase& one, const std::vector<std::string>& overrides) {
+io::Settings tile_of(const FlowCase& one, const std::vector<std::string>& overrides) {
   return io::Settings::from_text(one.settings, one.name, scenarios::settings_tables(), overrides);
 }
 
@@ -35,17 +34,6 @@ std::uint64_t fingerprint(const FlowCase& one, const io::Settings& settings) {
   hash.add(one.relaxation);
   hash.add_text(settings.effective_yaml());
   return hash.value();
-}
-
-/// The settings of the same tube, `copies` times as long, the wall grains where they were.
-io::Settings longer(const FlowCase& one, const std::vector<std::string>& overrides, int copies) {
-  const io::Settings tile = settings_of(one, overrides);
-  const double length = tile.number("tube.length");
-  const double spacing = length / std::round(length / tile.number("wall.spacing"));
-  std::vector<std::string> all = overrides;
-  all.push_back(fmt::format("tube.length={:.17g}", length * copies));
-  all.push_back(fmt::format("wall.spacing={:.17g}", spacing));
-  return settings_of(one, all);
 }
 
 void tell(const std::string& name, const State& state, double seconds) {
@@ -102,6 +90,18 @@ State forgotten(const std::string& name, State state, const ContactModel& model)
 
 }  // namespace
 
+io::Settings settings_of(const FlowCase& one, const Size& size,
+                         const std::vector<std::string>& overrides) {
+  const io::Settings tile = tile_of(one, overrides);
+  if (size.copies == 1) return tile;
+  const double length = tile.number("tube.length");
+  const double spacing = length / std::round(length / tile.number("wall.spacing"));
+  std::vector<std::string> all = overrides;
+  all.push_back(fmt::format("tube.length={:.17g}", length * size.copies));
+  all.push_back(fmt::format("wall.spacing={:.17g}", spacing));
+  return tile_of(one, all);
+}
+
 State repeated(const State& tile, int copies) {
   State result;
   result.box = {.width = tile.box.width, .length = tile.box.length * copies};
@@ -126,8 +126,7 @@ State repeated(const State& tile, int copies) {
 
 std::filesystem::path StartStates::checkpoint(const FlowCase& one, const Size& size,
                                               const std::vector<std::string>& overrides) const {
-  const io::Settings settings =
-      size.copies == 1 ? settings_of(one, overrides) : longer(one, overrides, size.copies);
+  const io::Settings settings = settings_of(one, size, overrides);
   const std::string name = fmt::format("{}-{}", one.name, size.name);
   auto path = folder_ / fmt::format("{}-{:016x}.h5", name, fingerprint(one, settings));
   if (std::filesystem::exists(path) && is_usable(path)) return path;

@@ -9,6 +9,7 @@
 
 #include "bench/cases.hpp"
 #include "engine/state.hpp"
+#include "io/settings.hpp"
 
 #include <filesystem>
 #include <string>
@@ -16,13 +17,17 @@
 
 namespace riesel::bench {
 
+/// The settings of a case in a size: of a tube that is so many times as long, with the wall grains
+/// where they were. `overrides` change settings of the case, "key=value". Throws SettingsError.
+io::Settings settings_of(const FlowCase& one, const Size& size,
+                         const std::vector<std::string>& overrides = {});
+
 class StartStates {
 public:
   explicit StartStates(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The checkpoint of a case in a size; its name tells from what it was made. `overrides` change
-  /// settings of the case, "key=value". A kept one that cannot be read is made anew. Throws
-  /// SettingsError, FileError.
+  /// The checkpoint of a case in a size; its name tells from what it was made. A kept one that
+  /// cannot be read is made anew. Throws SettingsError, FileError.
   std::filesystem::path checkpoint(const FlowCase& one, const Size& size,
                                    const std::vector<std::string>& overrides = {}) const;
 

@@ -119,10 +119,24 @@ double standard_deviation(double sum, double sum_of_squares, double n) {
 
 }  // namespace
 
+namespace {
+
+/// kg m/s along y. Velocities have half of the kicks that act now, and grains set out with all of
+/// them: what lacks is half of what the walls give, as those of grains on each other cancel out.
+double half_of_kicks(const State& state) {
+  ExactSum sum;
+  for (std::size_t i = 0; i < state.grains.size(); ++i)
+    sum.add(0.5 * state.grains.mass[i] * state.box.metres_y(state.grains.kick_y[i])
+            / state.time_step);
+  return sum.value();
+}
+
+}  // namespace
+
 Origin origin_of(const State& state) {
   const GrainSums sums = sum_over_grains(state);
   return {.energy = sums.kinetic + sum_over_spins(state).energy + stored_energy(state),
-          .momentum_y = sums.momentum_y,
+          .momentum_y = sums.momentum_y + half_of_kicks(state),
           .moment_x = sums.moment_x};
 }
 

@@ -65,7 +65,7 @@ void for_each_array_of(AnyGrains& g, Visit visit) {
 /// The system at step 0, for the balances of energy and momentum.
 struct Origin {
   double energy = 0.0;  ///< J, kinetic, of rotation, and elastic where contacts last from before
-  double momentum_y = 0.0;  ///< kg m/s
+  double momentum_y = 0.0;  ///< kg m/s, with which the grains set out: that of the kicks included
   double moment_x = 0.0;    ///< kg m, sum of mass times x
 };
 

@@ -95,17 +95,6 @@ void set_velocities(const io::Settings& settings, const State& empty, std::vecto
   }
 }
 
-/// From the lightest pair. Damping counts most for the heaviest grain at the wall: rejects it if it
-/// does not rebound, before any other is asked.
-void set_time_step(const io::Settings& settings, const ContactModel& model,
-                   std::span<const double> masses, State& state) {
-  const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
-  collision_time(settings, model, *heaviest);
-  const double shortest = collision_time(settings, model, 0.5 * *lightest);
-  state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
-  reject_too_many_steps(settings, run_length(settings), state.time_step);
-}
-
 /// What falls freely from one look to the next must not get so fast that it seems slow again.
 void reject_strong_gravity(const io::Settings& settings, std::size_t grains, const State& state) {
   const double largest = largest_speed(state.box, state.time_step, grains)
@@ -137,6 +126,22 @@ void reject_rounded_gravity(const io::Settings& settings, const State& state) {
                               state.time_step, 100.0 * error / gravity),
                   "choose gravity 0 or a stronger one, fewer run.steps_per_collision, softer or "
                   "heavier grains, or a smaller system");
+}
+
+/// From the lightest pair. Damping counts most for the heaviest grain at the wall: rejects it if it
+/// does not rebound, before any other is asked. Rejects walls and gravity that steps as long do not
+/// follow.
+void set_time_step(const io::Settings& settings, const ContactModel& model,
+                   std::span<const double> masses, State& state) {
+  const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
+  collision_time(settings, model, *heaviest);
+  const double shortest = collision_time(settings, model, 0.5 * *lightest);
+  state.time_step = time_step(settings, model, shortest, 0.5 * *lightest);
+  reject_too_many_steps(settings, run_length(settings), state.time_step);
+  reject_fast_walls(settings, state);
+  reject_rows_in_step(settings, state);
+  reject_strong_gravity(settings, masses.size(), state);
+  reject_rounded_gravity(settings, state);
 }
 
 void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
@@ -182,17 +187,19 @@ void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& g
                     fmt::format("choose spins below {:.3g} 1/s", largest));
 }
 
+/// Of grains that are not in the state yet, as it may not hold them.
+void reject_fast_motion(const io::Settings& settings, const std::vector<Grain>& grains,
+                        const State& state) {
+  reject_fast_grains(settings, grains, state);
+  reject_fast_spins(settings, grains, state);
+}
+
 Flow start_with(const std::vector<Grain>& grains, const io::Settings& settings,
                 const ContactModel& model, State state) {
   std::vector<double> masses;
   for (const Grain& grain : grains) masses.push_back(grain.mass);
   set_time_step(settings, model, masses, state);
-  reject_fast_walls(settings, state);
-  reject_rows_in_step(settings, state);
-  reject_strong_gravity(settings, grains.size(), state);
-  reject_rounded_gravity(settings, state);
-  reject_fast_grains(settings, grains, state);
-  reject_fast_spins(settings, grains, state);
+  reject_fast_motion(settings, grains, state);
   for (const Grain& grain : grains) add_grain(state, grain);
   reject_heavy_grains(settings, state);
   return {.state = std::move(state), .model = model};
@@ -210,13 +217,7 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   room.reject_too_small(settings, 2.0 * std::ranges::max(earlier.grains.radius), room.empty);
   reject_other_swing_across(settings, earlier, room.empty);
   set_time_step(settings, model, earlier.grains.mass, room.empty);
-  reject_fast_walls(settings, room.empty);
-  reject_rows_in_step(settings, room.empty);
-  reject_strong_gravity(settings, earlier.grains.size(), room.empty);
-  reject_rounded_gravity(settings, room.empty);
-  const auto grains = half_a_step_before(earlier, room.empty.time_step);
-  reject_fast_grains(settings, grains, room.empty);
-  reject_fast_spins(settings, grains, room.empty);
+  reject_fast_motion(settings, half_a_step_before(earlier, room.empty.time_step), room.empty);
   take_over(earlier, model, room.empty);
   reject_heavy_grains(settings, room.empty);
   return {.state = std::move(room.empty), .model = model};

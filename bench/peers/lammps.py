@@ -4,9 +4,23 @@ import re
 from pathlib import Path
 
 import numpy as np
-from peer import find_program, pinned, run, version_of
+from peer import NotInstalled, find_program, pinned, run, version_of
 
 HERE = Path(__file__).resolve().parent
+
+
+def with_ranks(count, command):
+    """What `count` MPI ranks print, each on a core of its own."""
+    return run(["mpirun", "-np", str(count), "--bind-to", "core", *command], OMP_NUM_THREADS="1",
+               OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+
+def require_two_cores():
+    """Before anything is measured: Open MPI counts cores, of which one may look like two."""
+    try:
+        with_ranks(2, ["true"])
+    except RuntimeError as problem:
+        raise NotInstalled(f"two ranks do not start here: {problem}") from problem
 
 
 class Lammps:
@@ -14,10 +28,11 @@ class Lammps:
     name, law, about = "lammps", "viscous", 4e7
     least_steps = 200
     usual = {"skin": 0.2e-3, "every": 5}
-    choices = {"skin": (0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3), "every": (1, 5, 10, 20)}
+    choices = {"skin": (0.0125e-3, 0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3), "every": (1, 5, 10, 20, 40)}
 
     def __init__(self):
         self.program = find_program("lmp", "LMP", "mpirun", "taskset")
+        require_two_cores()
         self.version = version_of([self.program, "-h"], r"Simulator - (.*)", "lammps")
 
     @staticmethod
@@ -34,9 +49,7 @@ class Lammps:
         command = [self.program, "-in", str(HERE / f"tube.{self.name}"), "-log", "none"]
         for name, value in variables.items():
             command += ["-var", name, value if isinstance(value, str) else repr(value)]
-        command = pinned(command) if cores == 1 else ["mpirun", "-np", str(cores), "--bind-to", "core", *command]
-        return read_answer(run(command, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                               OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1"))
+        return read_answer(run(pinned(command), OMP_NUM_THREADS="1") if cores == 1 else with_ranks(cores, command))
 
 
 class Liggghts(Lammps):
@@ -45,6 +58,7 @@ class Liggghts(Lammps):
 
     def __init__(self):
         self.program = find_program("liggghts", "LIGGGHTS", "mpirun", "taskset")
+        require_two_cores()
         self.version = version_of([self.program, "-h"], r"Version LIGGGHTS-PUBLIC ([0-9.]+)", "liggghts")
 
     @staticmethod

@@ -50,8 +50,8 @@ def version_of(command, pattern, package):
 
 
 def pinned(command):
-    """On one core, so that nothing moves it about."""
-    return ["taskset", "-c", "0", *command]
+    """On one core, so that nothing moves it about: the first that this process may use."""
+    return ["taskset", "-c", str(min(os.sched_getaffinity(0))), *command]
 
 
 def run(command, **environment):

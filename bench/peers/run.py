@@ -10,6 +10,7 @@ Exit status: 1 if the physics does not agree or a program fails.
 import argparse
 import datetime
 import json
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -67,14 +68,14 @@ class Riesel:
                         "--warm-up", warm_up, "--steps", steps, pin=threads == 1)
 
 
-def agreement(riesel, peer, start, steps):
-    """What both codes make of a state, and whether that is the same. Over this short time the grains keep to their courses,
+def agreement(riesel, peer, start, settings, cores, steps):
+    """What both codes make of a state, and whether that is the same, the peer with these settings on so many cores. Over this short time the grains keep to their courses,
     so that the numbers agree to the errors of the time step; later only statistics would. The others' errors are of first
     order: they do ten times as many steps of a tenth. Energy tells of forces between grains, momentum of those of walls."""
     finer = start | {"time_step": start["time_step"] / 10, "files": {peer.name: start["files"][peer.name] + "-finer"}}
     peer.write(finer)
     ours = riesel.advance(start, "plain 1", 0, steps)["state"]
-    theirs = peer.advance(finer, peer.usual, cores=1, warm_up=0, steps=10 * steps)["state"]
+    theirs = peer.advance(finer, settings, cores=cores, warm_up=0, steps=10 * steps)["state"]
 
     def change(state, quantity):
         return state[quantity] - start["state"][quantity]
@@ -86,7 +87,7 @@ def agreement(riesel, peer, start, steps):
     agree = (abs(difference("mean_vy")) < 0.01 * fallen
              and abs(difference("kinetic_energy")) < 0.01 * max(abs(change(ours, "kinetic_energy")), 1e-3 * energy)
              and abs(difference("contacts_of_grains")) <= max(4, 0.03 * ours["contacts_of_grains"]))
-    print(f"  {peer.name} after {steps} steps, beside riesel: mean v_y {change(theirs, 'mean_vy'):.3g} and "
+    print(f"  {peer.name} {cores} after {steps} steps, beside riesel: mean v_y {change(theirs, 'mean_vy'):.3g} and "
           f"{change(ours, 'mean_vy'):.3g} m/s more (difference {difference('mean_vy'):.1g}), kinetic energy "
           f"{change(theirs, 'kinetic_energy'):.4g} and {change(ours, 'kinetic_energy'):.4g} J, contacts of grains "
           f"{theirs['contacts_of_grains']:.0f} and {ours['contacts_of_grains']:.0f}{'' if agree else '  DO NOT AGREE'}",
@@ -95,19 +96,28 @@ def agreement(riesel, peer, start, steps):
 
 
 def tuned(peer, start, steps):
-    """The settings with which a peer is fastest without ever looking too late, and its speed then (particle-steps/s)."""
-    best, speed = peer.usual, 0.0
-    for name, values in peer.choices.items():
-        for settings in [best | {name: value} for value in values]:
-            answer = peer.advance(start, settings, cores=1, warm_up=steps // 4, steps=steps)
-            this_speed = start["grains"] * steps / answer["seconds"]
-            if answer["too_late"] == 0 and this_speed > speed:
-                best, speed = settings, this_speed
-    if speed == 0.0:
+    """The settings with which a peer is fastest without ever looking too late, and its speed then (particle-steps/s): one
+    setting after the other, until no other value of any of them is better. The better of two tries counts."""
+    speeds = {}
+
+    def speed_of(settings):
+        key = tuple(settings.items())
+        if key not in speeds:
+            answers = [peer.advance(start, settings, cores=1, warm_up=steps // 4, steps=steps) for _ in range(2)]
+            safe = all(answer["too_late"] == 0 for answer in answers)
+            speeds[key] = start["grains"] * steps / min(answer["seconds"] for answer in answers) if safe else 0.0
+        return speeds[key]
+
+    best, before = peer.usual, None
+    while best != before:
+        before = best
+        for name, values in peer.choices.items():
+            best = max([best, *(best | {name: value} for value in values)], key=speed_of)
+    if speed_of(best) == 0.0:
         raise RuntimeError(f"no settings are safe for {peer.name}")
     print(f"  {peer.name} at its best: {', '.join(f'{name} {value:g}' for name, value in best.items())} "
-          f"({speed * 1e-6:.1f} M/s while tuning)", flush=True)
-    return best, speed
+          f"({speed_of(best) * 1e-6:.1f} M/s while tuning)", flush=True)
+    return best, speed_of(best)
 
 
 class Contender(NamedTuple):
@@ -121,23 +131,24 @@ def warm_up_of(steps):
 
 
 def timed(contenders, starts):
-    """{name: seconds of each repetition, for as many grains as the first start has}, in turns. Each repetition has a start of
-    its own: a state of few grains has by chance half or twice as many contacts as the mean."""
-    seconds = {name: [] for name in contenders}
+    """{name: answers of all repetitions}, in turns, their seconds for as many grains as the first start has. Each repetition
+    has a start of its own: a state of few grains has by chance half or twice as many contacts as the mean."""
+    answers = {name: [] for name in contenders}
     for start in starts:
         for name, (advance, steps) in contenders.items():
             answer = advance(start, warm_up=warm_up_of(steps), steps=steps)
             if answer.get("too_late", 0) > 0:
                 print(f"  {name} looked for neighbours too late", flush=True)
-            seconds[name].append(answer["seconds"] * starts[0]["grains"] / start["grains"])
-    return seconds
+            answers[name].append(answer | {"seconds": answer["seconds"] * starts[0]["grains"] / start["grains"]})
+    return answers
 
 
-def row_of(case, size, variant, grains, steps, seconds):
+def row_of(case, size, variant, grains, steps, answers):
     """As a row of the suite's results."""
-    median = sorted(seconds)[len(seconds) // 2]
+    seconds = [answer["seconds"] for answer in answers]
+    median = statistics.median(seconds)
     return {"case": case, "size": size, "variant": variant, "grains": grains, "unit": "particle-steps",
-            "work": grains * steps, "steps": steps,
+            "work": grains * steps, "steps": steps, "too_late": [answer.get("too_late", 0) for answer in answers],
             "seconds": {"min": min(seconds), "median": median, "all": seconds},
             "per_second": {"median": grains * steps / median, "max": grains * steps / min(seconds)}}
 
@@ -160,14 +171,18 @@ def ways_of_riesel(riesel, law, start, steps):
 
 
 def race(riesel, peers, law, starts, seconds):
-    """The agreements of all peers, their best settings, and contenders and times of a repetition of so many seconds."""
+    """The agreements of all peers, their best settings, and contenders and answers of a repetition of so many seconds."""
     start = starts[0]
 
     def steps_at(speed, least=1):
         return max(least, int(seconds * speed / start["grains"]))
 
-    agreements = {peer.name: agreement(riesel, peer, start, steps=100) for peer in peers}
+    def agreements_with(settings, cores):
+        return {f"{peer.name} {cores}": agreement(riesel, peer, start, settings(peer), cores, steps=100) for peer in peers}
+
+    agreements = agreements_with(lambda peer: peer.usual, 1)
     best = {peer.name: tuned(peer, start, steps_at(0.5 * peer.about, peer.least_steps)) for peer in peers}
+    agreements |= agreements_with(lambda peer: best[peer.name][0], 2)
     fastest = max(LEAST_SPEED, *(speed for _, speed in best.values()))
     contenders = ways_of_riesel(riesel, law, start, steps_at(fastest))
     for peer in peers:
@@ -197,8 +212,8 @@ def compare_case(riesel, peers, law, case, size, options):
             one["files"] = {peer.name: str(Path(folder) / f"{peer.name}-{seed}") for peer in peers}
             for peer in peers:
                 peer.write(one)
-        agreements, settings, contenders, seconds = race(riesel, peers, law, starts, options.seconds)
-    rows = {name: row_of(case, size, name, grains, contender.steps, seconds[name]) for name, contender in contenders.items()}
+        agreements, settings, contenders, answers = race(riesel, peers, law, starts, options.seconds)
+    rows = {name: row_of(case, size, name, grains, contender.steps, answers[name]) for name, contender in contenders.items()}
     ratios = ratios_of(rows, peers, law)
     tell(rows, ratios)
     return {"case": case, "size": size, "law": law, "grains": grains, "agreements": agreements, "settings": settings,
@@ -220,6 +235,13 @@ def installed(names):
     return found
 
 
+def at_least_one(text):
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError("has to be 1 at least")
+    return number
+
+
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--speed", type=Path, default=HERE.parents[1] / "build/bench/bench/speed",
@@ -227,22 +249,30 @@ def parse():
     parser.add_argument("--peer", action="append", choices=list(CODES), help="default: all that are installed")
     parser.add_argument("--case", action="append", choices=list(CASES))
     parser.add_argument("--size", action="append", choices=SIZES, help="default: 1.4k and 10k")
-    parser.add_argument("--repetitions", type=int, default=7, help="each from the state of another seed")
+    parser.add_argument("--repetitions", type=at_least_one, default=7, help="each from the state of another seed")
     parser.add_argument("--seconds", type=float, default=2.0, help="that a repetition takes the others on one core")
-    parser.add_argument("--out", type=Path, help="default: bench/results/peers-<machine>-<commit>.json")
+    parser.add_argument("--out", type=Path, help="default: bench/results/peers-<machine>-<commit>.json, or with a number "
+                        "if that is there; written after each case")
     return parser.parse_args()
 
 
-def usual_place(origin):
+def usual_place(origin, part):
+    """Of a file that is not there yet."""
     build = origin["build"]
-    name = f"peers-{origin['machine']['name']}-{build['commit'][:7]}{'-changed' if build['changed'] else ''}.json"
-    return HERE.parent / "results" / name
+    name = (f"peers-{origin['machine']['name']}-{build['commit'][:7]}{'-changed' if build['changed'] else ''}"
+            f"{'-part' if part else ''}")
+    folder, number = HERE.parent / "results", 1
+    while (path := folder / f"{name}{f'-{number}' if number > 1 else ''}.json").exists():
+        number += 1
+    return path
 
 
 def main():
     options = parse()
     riesel, peers = Riesel(options.speed), installed(options.peer)
     origin = riesel.ask("origin")
+    out = options.out or usual_place(origin, part=bool(options.peer or options.case or options.size))
+    out.parent.mkdir(parents=True, exist_ok=True)
     results = {"format": PEERS, "format_version": FORMAT_VERSION,
                "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
                **origin, "peers": {peer.name: peer.version for peer in peers}, "cases": []}
@@ -253,9 +283,7 @@ def main():
             for law in LAWS:
                 if sharing := [peer for peer in peers if peer.law == law]:
                     results["cases"].append(compare_case(riesel, sharing, law, case, size, options))
-    out = options.out or usual_place(origin)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+                    out.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
     print(f"\nkept in {out}")
     return 0 if all(one["agree"] for case in results["cases"] for one in case["agreements"].values()) else 1
 

@@ -16,7 +16,7 @@ class Yade:
     name, law, about = "yade", "spring", 4e6
     least_steps = 500
     usual = {"skin": 0.2e-3}
-    choices = {"skin": (0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.4e-3)}
+    choices = {"skin": (0.0125e-3, 0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.4e-3)}
 
     def __init__(self):
         self.program = find_program("yade", "YADE", "taskset")

@@ -80,13 +80,12 @@ void run_flows(const FlowsOptions& options) {
       failures[i] = error.what();
     }
   }
-  for (const std::string& failure : failures)
-    if (!failure.empty()) throw std::runtime_error(failure);
-
   std::string table =
       fmt::format("e_n,start,shortest_interval,seed,grains,time,{},commit\n", RigidRecord::names);
   for (const std::string& row : rows) table += row;
   io::write_durably(options.out, table);
+  for (const std::string& failure : failures)  // beside the rows of all others
+    if (!failure.empty()) throw std::runtime_error(failure);
 }
 
 }  // namespace riesel::bench

@@ -1,7 +1,7 @@
 // Would a library of vector types make the two hottest loops of plain stepping faster?
 //
 //   build/bench/bench/speed state tube_slow 10k      makes a state and says where it is
-//   build/bench/bench/simd STATE.h5                  a table; docs/performance-log.md keeps one
+//   build/bench/bench/simd/simd STATE.h5             a table; docs/performance-log.md keeps one
 //
 // The engine's own loops (`omp simd`, cloned for each instruction set) and those of kernels.hpp do
 // the same work on the pairs and contacts of that state, in turns. Exit status: 1 if a way comes to

@@ -55,7 +55,9 @@ class Compare(unittest.TestCase):
     def test_files_that_are_no_results(self):
         with tempfile.TemporaryDirectory() as folder:
             other = pathlib.Path(folder) / "other.json"
-            for content in ("", "[]", "{}", '{"format": "riesel benchmark", "format_version": 99}'):
+            for content in ("", "[]", "{}", '{"format": "riesel benchmark", "format_version": 99}',
+                            '{"format": "riesel benchmark"}', '{"format": "riesel benchmark", "format_version": 1}',
+                            '{"format": "riesel benchmark", "format_version": 1, "rows": [{"case": "tube"}]}'):
                 other.write_text(content, encoding="utf-8")
                 done = compare(other)
                 self.assertEqual(done.returncode, 2)

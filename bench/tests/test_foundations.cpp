@@ -111,6 +111,29 @@ TEST_CASE("the traffic of grains that are far from each other is that of flying 
   CHECK(plain_traffic(state) == 2 * 32 + 8);
 }
 
+TEST_CASE("the traffic of a contact is that of the rows that change in a step") {
+  State state;
+  state.box = {.width = 10e-3, .length = 8e-3};
+  state.time_step = 1e-6;
+  for (const double side : {-1.0, 1.0})
+    add_grain(state, {.x = 5e-3 + side * 0.5001e-3,
+                      .y = 4e-3,
+                      .vx = -side,
+                      .vy = 0.0,
+                      .radius = 0.5e-3,
+                      .mass = 1e-6});
+  Simulation simulation(state, elastic(), 1);
+  simulation.advance(4);
+  State touching = simulation.state();
+  REQUIRE(touching.contacts.size() == 1);
+  const double with = plain_traffic(touching);
+  touching.contacts.clear();
+  // Nine rows of its life and six of its motion twice, six constants, four kicks and a flag; for
+  // each grain twelve words and two entries of a list. It is not searched for; two grains share it.
+  const double contact = 2 * (9 + 6) * 8 + 6 * 8 + 4 * 8 + 4 + 2 * (12 * 8 + 2 * 4), pair = 12;
+  CHECK(with - plain_traffic(touching) == Approx((contact - pair) / 2));
+}
+
 TEST_CASE("the scalar reference brakes at the walls as the engine does") {
   const ContactModel model{
       .normal = LinearLaw{2000.0, 3000.0}, .slip = CappedSlip{}, .friction = 0.5};

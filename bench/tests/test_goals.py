@@ -23,12 +23,15 @@ def row(case, size, variant, seconds, **more):
             "per_second": {"median": 100.0 / sorted(seconds)[len(seconds) // 2]}} | more
 
 
-def suite(*rows, date="2026-01-02T00:00:00Z"):
-    return {"format": "riesel benchmark", "format_version": 1, "date": date, "rows": rows}
+ORIGIN = {"machine": {"name": "this"}, "build": {"changed": False}}
+
+
+def suite(*rows, date="2026-01-02T00:00:00Z", **more):
+    return {"format": "riesel benchmark", "format_version": 1, "date": date, "rows": rows} | ORIGIN | more
 
 
 def beside_lammps(*rows):
-    return {"format": "riesel peers", "format_version": 1, "date": "2026-01-02T00:00:00Z", "cases": [{"rows": rows}]}
+    return {"format": "riesel peers", "format_version": 1, "date": "2026-01-02T00:00:00Z", "cases": [{"rows": rows}]} | ORIGIN
 
 
 class Goals(unittest.TestCase):
@@ -90,6 +93,22 @@ class Goals(unittest.TestCase):
         young = suite(row("start_up", "1M", "threads 1", [2.0]))
         found = self.table(old, young, arguments=["--since", "2026-01"])
         self.assertEqual(found["start-up in 3 s at most", "start-up"], ["", "", "", "**2.0**"])
+
+    def test_what_does_not_count(self):
+        good, bad = row("start_up", "1M", "threads 1", [2.0]), row("start_up", "1M", "threads 1", [9.0])
+        found = self.table(suite(good), suite(bad, quick=True), suite(bad, build={"changed": True}),
+                           suite(bad, disagreements=["plain 1 and windows 1 differ"]))
+        self.assertEqual(found["start-up in 3 s at most", "start-up"], ["", "", "", "**2.0**"])
+
+    def test_each_machine_has_a_table(self):
+        files = []
+        for name, seconds in (("here", 2.0), ("there", 9.0)):
+            files.append(self.folder / f"{name}.json")
+            one = suite(row("start_up", "1M", "threads 1", [seconds]), machine={"name": name})
+            files[-1].write_text(json.dumps(one), encoding="utf-8")
+        blocks = goals(*files).stdout.split("\n\n")
+        self.assertEqual([block.split(":")[0] for block in blocks[::2]], ["here", "there"])
+        self.assertEqual(["**2.0**" in block for block in blocks[1::2]], [True, False])
 
     def test_files_that_are_no_results(self):
         other = self.folder / "other.json"

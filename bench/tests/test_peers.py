@@ -202,9 +202,26 @@ class Tuning(unittest.TestCase):
         self.assertEqual(speed, 10 * 100 / 2.0)
         self.assertEqual(Steady.usual, {"skin": 2.0, "every": 5})
 
+    def test_what_is_best_with_other_settings_is_found_in_the_second_round(self):
+        class Frequent(Steady):
+            usual, choices = {"skin": 3.0, "every": 5}, {"skin": (1.0, 3.0), "every": (1, 5)}
+            took = {(3.0, 5): 2.0, (1.0, 5): 5.0, (3.0, 1): 1.5, (1.0, 1): 1.0}  # s
+
+            @classmethod
+            def advance(cls, start, settings, cores, warm_up, steps):
+                return {"seconds": cls.took[settings["skin"], settings["every"]], "too_late": 0}
+
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(run.tuned(Frequent, {"grains": 10}, steps=100), ({"skin": 1.0, "every": 1}, 1000.0))
+
+    def test_looks_that_come_too_late_are_kept(self):
+        row = run.row_of("tube", "1.4k", "lammps 1", 10, 100, [{"seconds": 1.0, "too_late": 2}, {"seconds": 3.0}])
+        self.assertEqual(row["too_late"], [2, 0])
+        self.assertEqual(row["seconds"]["median"], 2.0)
+
     def test_none_is_safe(self):
         class Hasty(Steady):
-            choices = {"skin": (0.5, 1.0)}
+            usual, choices = {"skin": 1.0, "every": 5}, {"skin": (0.5, 1.0)}
 
         with self.assertRaisesRegex(RuntimeError, "no settings are safe for steady"):
             run.tuned(Hasty, {"grains": 10}, steps=100)
@@ -223,15 +240,16 @@ class Timing(unittest.TestCase):
 
         contenders = {"fast": contender("fast", 1e-3), "slow": contender("slow", 1e-2)}
         starts = [{"grains": 10, "seed": 1}, {"grains": 20, "seed": 2}]
-        seconds = run.timed(contenders, starts)
+        answers = run.timed(contenders, starts)
         self.assertEqual(calls, [("fast", 1, 100, 1000), ("slow", 1, 20, 100), ("fast", 2, 100, 1000), ("slow", 2, 20, 100)])
-        np.testing.assert_allclose(seconds["fast"], [10.0, 10.0])
-        rows = {name: run.row_of("tube", "1.4k", name, 10, contenders[name].steps, seconds[name]) for name in contenders}
+        np.testing.assert_allclose([answer["seconds"] for answer in answers["fast"]], [10.0, 10.0])
+        rows = {name: run.row_of("tube", "1.4k", name, 10, contenders[name].steps, answers[name]) for name in contenders}
         self.assertAlmostEqual(run.paired_ratio(rows["fast"], rows["slow"]).value, 10.0)
 
     def test_each_peer_is_compared_on_as_many_cores(self):
-        rows = {riesel_name(variant, "spring"): run.row_of("tube", "1.4k", "", 10, 1, [1.0]) for variant in run.RIESEL}
-        rows |= {f"steady {cores}": run.row_of("tube", "1.4k", "", 10, 1, [2.0 * cores]) for cores in run.CORES}
+        rows = {riesel_name(variant, "spring"): run.row_of("tube", "1.4k", "", 10, 1, [{"seconds": 1.0}])
+                for variant in run.RIESEL}
+        rows |= {f"steady {cores}": run.row_of("tube", "1.4k", "", 10, 1, [{"seconds": 2.0 * cores}]) for cores in run.CORES}
         ratios = {(ratio["over"], ratio["under"]): ratio["value"] for ratio in run.ratios_of(rows, [Steady], "spring")}
         self.assertEqual(ratios["riesel windows 1, spring", "steady 1"], 2.0)
         self.assertEqual(ratios["riesel plain 2 apart, spring", "steady 2"], 4.0)
@@ -244,7 +262,8 @@ class Table(unittest.TestCase):
         viscous = {"lammps 1": 50e6, "riesel plain 1": 400e6, "riesel windows 1": 600e6}  # particle-steps/s
         spring = {"yade 1": 4e6, "riesel plain 1, spring": 300e6, "riesel windows 1, spring": 360e6, "yade 2": 1.0}
         def rows(speeds):
-            return [run.row_of("tube_slow", "10k", name, 10_000, 100, [1e6 / speed]) for name, speed in speeds.items()]
+            return [run.row_of("tube_slow", "10k", name, 10_000, 100, [{"seconds": 1e6 / speed}])
+                    for name, speed in speeds.items()]
 
         cases = [{"case": "tube_slow", "size": "10k", "law": law, "grains": 10_000, "rows": rows(speeds)}
                  for law, speeds in (("viscous", viscous), ("spring", spring))]

@@ -10,7 +10,7 @@ import unittest
 
 SPEED = os.path.abspath(os.environ["SPEED"])
 
-TOP = {"format", "format_version", "date", "quick", "machine", "build", "bandwidth", "hashes_agree", "disagreements", "rows"}
+TOP = {"format", "format_version", "date", "quick", "part", "machine", "build", "bandwidth", "hashes_agree", "disagreements", "rows"}
 MACHINE = {"name", "cpu", "cores", "caches", "memory", "load_average"}
 BUILD = {"version", "commit", "changed", "compiler", "flags", "build_type"}
 ROW = {"case", "size", "variant", "grains", "threads", "unit", "work", "seconds", "per_second", "contacts_per_grain",
@@ -30,6 +30,8 @@ class Suite(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         folder = pathlib.Path(cls.folder.name)
+        (folder / "states/sweep").mkdir(parents=True)  # as somebody may have one
+        (folder / "states/sweep/notes").touch()
         cls.done = speed("--quick", "--case", "single_wall_grain", "--case", "tube_start", "--case", "checkpoint",
                          "--case", "start_up", "--case", "ensemble", "--size", "1.4k", "--states", folder / "states", "--out",
                          folder / "results.json")
@@ -91,8 +93,26 @@ class Suite(unittest.TestCase):
             self.assertAlmostEqual(b["bytes_per_second"] * b["seconds"]["min"], b["working_set"] * 4 / 3, delta=64)
 
     def test_states_are_kept_and_nothing_else(self):
-        self.assertEqual(len(self.states), 1)
-        self.assertRegex(self.states[0], r"^tube_start-1\.4k-[0-9a-f]{16}\.h5$")
+        self.assertEqual(len(self.states), 2)
+        self.assertEqual(self.states[0], "sweep")  # that was there before
+        self.assertTrue((pathlib.Path(self.folder.name) / "states/sweep/notes").exists())
+        self.assertRegex(self.states[1], r"^tube_start-1\.4k-[0-9a-f]{16}\.h5$")
+
+    def test_results_of_some_cases_say_so(self):
+        self.assertTrue(self.results["part"])
+
+
+@unittest.skipUnless("SIMD" in os.environ, "not built here")
+class LibrariesOfVectorTypes(unittest.TestCase):
+
+    def test_all_come_to_the_bits_of_the_engine(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "tube.yaml").write_text("{scenario: periodic_tube, run: {duration: 20 ms}}", encoding="utf-8")
+            subprocess.run([os.environ["RIESEL"], "run", "tube.yaml", "--out", "tube"], check=True, cwd=folder,
+                           capture_output=True)
+            done = subprocess.run([os.environ["SIMD"], f"{folder}/tube/checkpoint.h5"], check=False, text=True, capture_output=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("std::experimental::simd", done.stdout)
 
 
 class Subcommands(unittest.TestCase):
@@ -158,6 +178,9 @@ class Mistakes(unittest.TestCase):
         self.check(2, "--size", "2k")
         self.check(2, "state", "tube_start", "2k")
         self.check(2, "advance", "nothing.h5", "--stepping", "backwards")
+
+    def test_a_size_that_the_case_does_not_have(self):
+        self.check(2, "--case", "tube_stiff", "--size", "1M")
 
     def test_a_checkpoint_that_is_not_there(self):
         self.check(1, "advance", "nothing.h5")

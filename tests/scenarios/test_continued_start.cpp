@@ -225,3 +225,23 @@ TEST_CASE("Runs can follow each other along what the earlier run does not give")
                           "start.axial_velocity", "output.interval"})
     CHECK_FALSE(scenarios::can_continue_along(key));
 }
+
+TEST_CASE(
+    "The work of gravity after a continued start is that of the way, also of grains at walls") {
+  const EarlierRun earlier;
+  const State start = earlier.continued();
+  const auto at_wall = [](const Contact& contact) { return contact.name.wall != no_wall; };
+  REQUIRE(std::ranges::any_of(start.contacts, at_wall));
+  Simulation simulation(start, earlier.model(), 1);
+  double mass_times_way = 0.0;
+  for (int step = 0; step < 300; ++step) {
+    const Grains before = ordered_by_id(simulation.state().grains);
+    simulation.advance(1);
+    const Grains after = ordered_by_id(simulation.state().grains);
+    for (std::size_t i = 0; i < after.size(); ++i)
+      mass_times_way +=
+          after.mass[i] * start.box.metres_y(wrapped_difference(after.y[i], before.y[i]));
+  }
+  const double work = observe(simulation.state()).energies.gravity_work;
+  CHECK(work == Approx(start.gravity.y * mass_times_way).epsilon(1e-9));
+}
