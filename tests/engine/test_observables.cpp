@@ -4,6 +4,7 @@
 #include "tests/engine/systems.hpp"
 
 #include <cmath>
+#include <numbers>
 
 using namespace systems;
 
@@ -27,6 +28,24 @@ TEST_CASE("means and spreads are over grains, not over mass") {
   CHECK(o.sigma_vx == Approx(2.0));
   CHECK(o.sigma_vy == Approx(2.0));
   CHECK(o.granular_temperature == Approx(4.0));
+}
+
+TEST_CASE("spins are in a mean over grains, and in a temperature with their radius and inertia") {
+  State state = empty_box(10e-3, 20e-3);
+  state.grains.inertia = sphere;
+  add_grain(state, {2e-3, 3e-3, 0.0, 0.0, 0.5e-3, 1e-6, 300.0});
+  add_grain(state, {8e-3, 9e-3, 0.0, 0.0, 1e-3, 2e-6, -100.0});
+  const Observables o = observe(state);
+  CHECK(o.mean_spin == Approx(100.0).epsilon(1e-9));
+  // Surfaces at 0.15 m/s and 0.1 m/s
+  CHECK(o.rotational_temperature == Approx(0.5 * sphere * (0.0225 + 0.01)).epsilon(1e-9));
+  CHECK(o.energies.rotational
+        == Approx(0.5 * sphere * (1e-6 * 0.0225 + 2e-6 * 0.01)).epsilon(1e-9));
+  // Of the kick that the next step adds to a spin, half is there at the full step.
+  state.grains.spin_kick[0] = nearest_fixed(40.0 * state.time_step / quantum_of_angle);
+  CHECK(observe(state).mean_spin == Approx(110.0).epsilon(1e-9));
+  CHECK(observe(state).rotational_temperature
+        == Approx(0.5 * sphere * (0.0256 + 0.01)).epsilon(1e-9));
 }
 
 TEST_CASE("a start has its kinetic energy and nothing else") {
@@ -92,6 +111,21 @@ TEST_CASE("grains beyond a wall line are counted as outside") {
   CHECK(observe(state).outside == 2.0);
 }
 
+TEST_CASE("grains are outside by where the walls are now") {
+  // Both walls sway together by 2 mm, from their utmost left on.
+  State state = empty_box(10e-3, 20e-3);
+  add_walls(state, 10);
+  const double frequency = 50.0;  // Hz
+  for (WallLattice& wall : state.walls)
+    wall.motion = {.amplitude_x = 2e-3, .frequency = frequency, .phase = -0.5 * std::numbers::pi};
+  for (const double x : {5e-3, -1e-3, 11e-3}) add_grain(state, grain(x, 1e-3, 0.0, 0.0));
+  CHECK(observe(state).outside == 1.0);
+  CHECK(grain_outside(state) == 2);
+  state.step = std::llround(0.5 / frequency / state.time_step);  // all have stood still
+  CHECK(observe(state).outside == 1.0);
+  CHECK(grain_outside(state) == 1);
+}
+
 TEST_CASE("where there is no wall no grain is outside") {
   State state = pair_of_grains();
   add_walls(state, 10);
@@ -100,6 +134,30 @@ TEST_CASE("where there is no wall no grain is outside") {
   CHECK(observe(state).outside == 0.0);
   add_grain(state, grain(-0.1e-3, 1e-3, 0.0, 0.0));
   CHECK(observe(state).outside == 1.0);
+}
+
+TEST_CASE("what contacts win is told, and is an error on top of what is missing") {
+  State state = pair_of_grains();
+  add_walls(state, 10);
+  state.origin = origin_of(state);
+  const auto contact = [](const ContactName& name, double normal_loss, double friction_loss) {
+    Contact with_losses{.name = name};
+    with_losses.normal_loss = normal_loss;
+    with_losses.friction_loss = friction_loss;
+    return with_losses;
+  };
+  state.tally.end(contact({no_wall, 0, 1}, -3e-9, 1e-9), 2.0 * radius);
+  CHECK(state.tally.grains.energy_won.value() == Approx(2e-9));
+  // What others lose does not make up for it.
+  state.tally.end(contact({no_wall, 0, 1}, 11e-9, -1e-9), 2.0 * radius);
+  CHECK(state.tally.grains.energy_won.value() == Approx(2e-9));
+  state.tally.end(contact({0, 0, 0}, 1e-9, -2e-9), radius + wall_radius);
+  CHECK(state.tally.walls.energy_won.value() == Approx(1e-9));
+  state.contacts = {contact({no_wall, 0, 1}, -4e-9, 0.0)};
+  const Energies e = observe(state).energies;
+  CHECK(e.won == Approx(7e-9));
+  CHECK(e.residual == Approx(-3e-9));  // losses of 3e-9 J, and all the energy still there
+  CHECK(energy_error_ratio(state, e) == Approx(10e-9 / state.origin.energy));
 }
 
 TEST_CASE("lasting contacts count before they end") {
