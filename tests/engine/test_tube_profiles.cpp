@@ -4,9 +4,12 @@
 #include "tests/engine/systems.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
+#include <vector>
 
 using namespace systems;
 
@@ -44,6 +47,40 @@ std::vector<double> one_strip(double grains, double vy, double w) {
   sample[Strips::column(0, StripSum::w)] = grains * w;
   sample[Strips::column(0, StripSum::w2)] = grains * w * w;
   return sample;
+}
+
+/// A strip of 10 m^2 in which no two sums are alike, in the order of StripSum.
+constexpr Strips odd_strip{.width = 2.0, .length = 5.0, .count = 1};
+constexpr std::array<double, strip_sums> odd_sums = {
+    3.0,  4.0,  20.0, 1.6,  2.0,  5.0,  // area, grains, v_y, v_x^2, w, w^2
+    7.0,  11.0, 13.0, 14.0, 45.0,       // mass and with v_x^2, v_x w, w, w^2
+    19.0, 23.0, 29.0, 31.0};            // of contacts: xx, xy, yx, yy
+
+struct OddProfile {
+  std::string_view name;
+  double value;
+  std::vector<StripSum> sums;  ///< that it depends on
+};
+
+std::vector<OddProfile> odd_profiles() {
+  using S = StripSum;
+  // w is 0.5 m/s in the mean over grains, 2 m/s in that over mass.
+  return {{"area_fraction", 0.3, {S::area}},
+          {"density", 0.7, {S::mass}},
+          {"mean_axial_velocity", 5.0, {S::vy, S::grains}},
+          {"temperature_x", 0.4, {S::vx2, S::grains}},
+          {"temperature_y", 1.25 - 0.25, {S::w2, S::w, S::grains}},
+          {"stress_xx", 3.0, {S::mass_vx2, S::contact_xx}},
+          {"stress_xy", 3.6, {S::mass_vx_w, S::contact_xy}},
+          {"stress_yx", 4.2, {S::mass_vx_w, S::contact_yx}},
+          {"stress_yy", 4.5 - 2.8 + 3.1, {S::mass_w2, S::mass_w, S::mass, S::contact_yy}},
+          {"kinetic_stress_xx", 1.1, {S::mass_vx2}},
+          {"kinetic_stress_xy", 1.3, {S::mass_vx_w}},
+          {"kinetic_stress_yy", 4.5 - 2.8, {S::mass_w2, S::mass_w, S::mass}},
+          {"contact_stress_xx", 1.9, {S::contact_xx}},
+          {"contact_stress_xy", 2.3, {S::contact_xy}},
+          {"contact_stress_yx", 2.9, {S::contact_yx}},
+          {"contact_stress_yy", 3.1, {S::contact_yy}}};
 }
 
 }  // namespace
@@ -100,6 +137,40 @@ TEST_CASE("an ideal gas has the stress of density times temperature, and no more
   for (std::size_t s = 0; s < strips.count; ++s) covered += at("area_fraction", s).value;
   CHECK(covered * strips.area()
         == Approx(100.0 * std::numbers::pi * radius * radius).epsilon(1e-9));
+}
+
+TEST_CASE("each profile is made of the sums that its name says") {
+  TimeBlocks blocks(strip_sums);
+  for (int i = 0; i < 30; ++i) blocks.add(odd_sums);
+  const auto profiles = tube_profiles(blocks, odd_strip, each_strip(odd_strip), 0);
+  CHECK(profiles.size() == odd_profiles().size());
+  for (const OddProfile& expected : odd_profiles()) {
+    CAPTURE(std::string(expected.name));
+    CHECK(find(profiles, expected.name).zones[0].value == Approx(expected.value));
+  }
+}
+
+TEST_CASE("the error bar of a profile is that of the sums it is made of, and of no others") {
+  Dice dice(94);
+  for (std::size_t scattering = 0; scattering < strip_sums; ++scattering) {
+    TimeBlocks blocks(strip_sums);
+    for (int i = 0; i < 100; ++i) {
+      auto sample = odd_sums;
+      sample[scattering] *= dice.between(0.9, 1.1);
+      blocks.add(sample);
+    }
+    const auto profiles = tube_profiles(blocks, odd_strip, each_strip(odd_strip), 0);
+    for (const OddProfile& expected : odd_profiles()) {
+      const bool scatters = std::ranges::find(expected.sums, static_cast<StripSum>(scattering))
+                            != expected.sums.end();
+      const double error = find(profiles, expected.name).zones[0].error;
+      CAPTURE(std::string(expected.name), scattering, error);
+      if (scatters)
+        CHECK(error > 1e-4);
+      else
+        CHECK(error < 1e-9);
+    }
+  }
 }
 
 TEST_CASE("the core is the middle half, without the strips at the walls") {
