@@ -241,6 +241,23 @@ TEST_CASE("damping and friction are in the forces") {
   CHECK(forces[0].fy == Approx(-friction * normal).epsilon(1e-6));
 }
 
+TEST_CASE("the friction of grains that turn is against the slip of their surfaces") {
+  // Both turn from x towards y, and neither moves: where they touch, the surface of the first goes
+  // up and that of the second down.
+  const double sense = GENERATE(1.0, -1.0);
+  State state = touching(5e-3, 10e-3, 2.0 * radius - overlap, 0.0);
+  const auto along = [&] { return present_forces(state, paper_model()).at(0).fy; };
+  CHECK(along() == 0.0);
+  state.grains.inertia = disc;
+  state.grains.resize(2);
+  const Fixed spin = nearest_fixed(sense * 1000.0 * state.time_step / quantum_of_angle);
+  state.grains.spin = {spin, spin};
+  CHECK(along() == Approx(-sense * friction * stiffness * overlap));
+  CHECK(present_forces(state, paper_model()).at(0).fx == Approx(-stiffness * overlap));
+  state.grains.spin = {spin, -spin};  // they roll on each other
+  CHECK(along() == Approx(0.0).margin(1e-12));
+}
+
 TEST_CASE("the forces of a moment are those that the step has given") {
   // Elastic forces depend on the places alone, which are those of the last step: K = F dt^2 / m.
   const State state = busy_tube(76, frictionless(0.0));
