@@ -83,6 +83,25 @@ TEST_CASE("a mean that is no steady one is never precise", "[stopping_rule]") {
   CHECK_FALSE(is_precise(falling, 1.0, 1.0));
 }
 
+TEST_CASE("a flow that falls in the end is never precise, however well its mean is known",
+          "[stopping_rule]") {
+  // Too short a fall for a trend of the whole.
+  const double gain = 0.01;
+  const std::size_t held = 505;
+  int precise = 0, of_falls = 0, of_steady = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Series series = steady(590, 0.3, seed);
+    of_steady += is_precise(series, 1.0, gain);
+    for (std::size_t i = held; i < series.size(); ++i)
+      series[i] += gain * static_cast<double>(i - held);
+    precise += is_precise(series, 1.0);
+    of_falls += is_precise(series, 1.0, gain);
+  }
+  CHECK(of_steady >= 18);
+  CHECK(precise >= 18);
+  CHECK(of_falls == 0);
+}
+
 TEST_CASE("the precision is relative to the mean, of either sign", "[stopping_rule]") {
   Series series = steady(590, 0.3, 2);
   const double error =
