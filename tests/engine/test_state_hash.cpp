@@ -23,11 +23,13 @@ const State& state() {
   return some;
 }
 
-bool noticed(const std::function<void(State&)>& change) {
-  State changed = state();
+bool noticed(const std::function<void(State&)>& change, const State& from) {
+  State changed = from;
   change(changed);
-  return state_hash(changed) != state_hash(state());
+  return state_hash(changed) != state_hash(from);
 }
+
+bool noticed(const std::function<void(State&)>& change) { return noticed(change, state()); }
 
 }  // namespace
 
@@ -55,21 +57,25 @@ TEST_CASE("the hash notices every part of the motion") {
 
 TEST_CASE("the hash notices the life of a contact") {
   CHECK(noticed([](State& s) { s.contacts.pop_back(); }));
-  CHECK(noticed([](State& s) { ++s.contacts[0].name.partner; }));
+  for (std::int32_t ContactName::*part :
+       {&ContactName::wall, &ContactName::grain, &ContactName::partner})
+    CHECK(noticed([&](State& s) { ++(s.contacts[0].name.*part); }));
   CHECK(noticed([](State& s) { s.contacts[0].begin -= 1e-9; }));
+  CHECK(noticed([](State& s) { s.contacts[0].entry_rate += 1e-9; }));
+  CHECK(noticed([](State& s) { s.contacts[0].entry_slip += 1e-9; }));
   CHECK(noticed([](State& s) { s.contacts[0].max_overlap *= 2.0; }));
   CHECK(noticed([](State& s) { s.contacts[0].slip_path *= 2.0; }));
   CHECK(noticed([](State& s) { s.contacts[0].normal_loss += 1e-20; }));
   CHECK(noticed([](State& s) { s.contacts[0].friction_loss += 1e-20; }));
+  CHECK(noticed([](State& s) { s.contacts[0].friction_x += 1e-12; }));
+  CHECK(noticed([](State& s) { s.contacts[0].friction_y += 1e-12; }));
 }
 
 TEST_CASE("the hash notices spins, and springs where there are any") {
   const State rotating = advanced(small_tube(41, 40, disc), rolling_model(), 300);
   REQUIRE_FALSE(rotating.contacts.empty());
   const auto noticed_of_rotating = [&](const std::function<void(State&)>& change) {
-    State changed = rotating;
-    change(changed);
-    return state_hash(changed) != state_hash(rotating);
+    return noticed(change, rotating);
   };
   CHECK(state_hash(shuffled(rotating, 1)) == state_hash(rotating));
   CHECK(noticed_of_rotating([](State& s) { ++s.grains.spin[3]; }));
@@ -123,11 +129,43 @@ TEST_CASE("the hash notices walls that move, and their work") {
   CHECK(noticed([](State& s) { s.tally.impulses.work.add(1e-20); }));
 }
 
+TEST_CASE("the hash notices each part of the motion of a wall that has all of them") {
+  State moving = state();
+  moving.walls[1].motion = {.velocity = 0.1,
+                            .amplitude_x = 1e-3,
+                            .amplitude_y = 2e-3,
+                            .frequency = 50.0,
+                            .phase = 0.5,
+                            .start = 1000};
+  for (double WallMotion::*part :
+       {&WallMotion::velocity, &WallMotion::amplitude_x, &WallMotion::amplitude_y,
+        &WallMotion::frequency, &WallMotion::phase})
+    CHECK(noticed([&](State& s) { s.walls[1].motion.*part *= 1.0 + 1e-12; }, moving));
+  CHECK(noticed([](State& s) { ++s.walls[1].motion.start; }, moving));
+}
+
+TEST_CASE("the hash notices every histogram") {
+  CHECK(noticed([](State& s) { s.tally.grains.durations.add(1e-5); }));
+  CHECK(noticed([](State& s) { s.tally.grains.overlaps.add(1e-3); }));
+  CHECK(noticed([](State& s) { s.tally.walls.durations.add(1e-5); }));
+  CHECK(noticed([](State& s) { s.tally.walls.overlaps.add(1e-3); }));
+  CHECK(noticed([](State& s) { s.tally.visits.entry_rates.add(1.0); }));
+  CHECK(noticed([](State& s) { s.tally.visits.entry_slips.add(1.0); }));
+}
+
 TEST_CASE("the hash notices contacts as brakes, and visits") {
   CHECK(noticed([](State& s) { s.open_visits.pop_back(); }));
+  CHECK(noticed([](State& s) { ++s.open_visits[0].wall; }));
+  CHECK(noticed([](State& s) { ++s.open_visits[0].grain; }));
+  CHECK(noticed([](State& s) { s.open_visits[0].span.begin -= 1e-9; }));
+  CHECK(noticed([](State& s) { s.open_visits[0].span.end += 1e-9; }));
+  CHECK(noticed([](State& s) { ++s.open_visits[0].contacts; }));
+  CHECK(noticed([](State& s) { s.open_visits[0].entry_rate += 1e-9; }));
+  CHECK(noticed([](State& s) { s.open_visits[0].entry_slip += 1e-9; }));
   CHECK(noticed([](State& s) { s.open_visits[0].impulse_x.add(1e-20); }));
+  CHECK(noticed([](State& s) { s.open_visits[0].impulse_y.add(1e-20); }));
   CHECK(noticed([](State& s) { s.contacts[0].impulse_x += 1e-12; }));
-  CHECK(noticed([](State& s) { s.tally.grains.durations.add(1e-5); }));
+  CHECK(noticed([](State& s) { ++s.tally.brakes.contacts; }));
   CHECK(noticed([](State& s) { ++s.tally.brakes.cut_short; }));
   CHECK(noticed([](State& s) { ++s.tally.visits.of_contacts[7]; }));
   CHECK(noticed([](State& s) { ++s.tally.visits.contacts; }));
