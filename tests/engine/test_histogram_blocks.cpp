@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 using namespace systems;
@@ -76,6 +77,65 @@ TEST_CASE("what ended after the transient is counted, and nothing else") {
       find(histogram_tables(tally, blocks.blocks(), 1000, interval), "wall_contact_duration")
           .rates[bin]
           .value));
+}
+
+TEST_CASE("each histogram is the one that its name says") {
+  // Of the first one value comes in each sample, of the second two, ...
+  constexpr int samples = 30;
+  constexpr double value = 1e-3;
+  HistogramBlocks blocks;
+  Tally tally;
+  blocks.add(tally);
+  for (int sample = 0; sample < samples; ++sample) {
+    int times = 0;
+    const auto add = [&](auto& histogram) {
+      ++times;
+      for (int i = 0; i < times; ++i) histogram.add(value);
+    };
+    add(tally.grains.durations);
+    add(tally.grains.overlaps);
+    add(tally.walls.durations);
+    add(tally.walls.overlaps);
+    add(tally.visits.entry_rates);
+    add(tally.visits.entry_slips);
+    blocks.add(tally);
+  }
+  const auto all = histogram_tables(tally, blocks.blocks(), 0, 1.0);
+  REQUIRE(all.size() == 6);
+  int times = 0;
+  const auto check = [&](std::string_view name, std::string_view unit, double lowest) {
+    const HistogramTable& table = find(all, name);
+    ++times;
+    CAPTURE(std::string(name));
+    CHECK(table.unit == unit);
+    CHECK(table.lower_edges.front() == lowest);
+    const auto after = std::ranges::upper_bound(table.lower_edges, value);
+    const auto bin = static_cast<std::size_t>(after - table.lower_edges.begin()) - 1;
+    CHECK(table.counts[bin] == times * samples);
+    CHECK(table.rates[bin].value == Approx(times));
+  };
+  check("grain_contact_duration", "s", 0x1p-30);
+  check("grain_contact_overlap", "1", 0x1p-28);
+  check("wall_contact_duration", "s", 0x1p-30);
+  check("wall_contact_overlap", "1", 0x1p-28);
+  check("wall_visit_entry_rate", "m/s", 0x1p-20);
+  check("wall_visit_entry_slip", "m/s", 0x1p-20);
+}
+
+TEST_CASE("overlaps are counted as parts of the sum of the radii") {
+  Tally tally;
+  Contact contact{.name = {no_wall, 0, 1}};
+  contact.max_overlap = 1e-5;
+  tally.end(contact, 1e-3);
+  contact.max_overlap = 4e-5;
+  tally.end(contact, 0.8e-3);
+  contact.name = {0, 0, 0};
+  tally.end(contact, 0.5e-3);
+  OverlapHistogram grains, walls;
+  for (const double part : {0.01, 0.05}) grains.add(part);
+  walls.add(0.08);
+  CHECK(tally.grains.overlaps == grains);
+  CHECK(tally.walls.overlaps == walls);
 }
 
 TEST_CASE("blocks that were kept go on as if nothing had been") {
