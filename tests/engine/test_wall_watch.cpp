@@ -5,6 +5,7 @@
 #include "tests/engine/systems.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 using namespace systems;
@@ -37,6 +38,8 @@ constexpr double ms = 1e-3;
 
 class Watched {
 public:
+  explicit Watched(State state = two_grains())
+      : state_(std::move(state)), watch_(state_, paper_model()) {}
   void ended(const Contact& contact) { state_.tally.end(contact, radius + wall_radius); }
   void lasts(const Contact& contact) { state_.contacts = {contact}; }
   const VisitTally& look_at(double time) {
@@ -48,8 +51,8 @@ public:
   void nothing_lasts() { state_.contacts.clear(); }
 
 private:
-  State state_ = two_grains();
-  WallWatch watch_{state_, paper_model()};
+  State state_;
+  WallWatch watch_;
 };
 
 }  // namespace
@@ -78,6 +81,27 @@ TEST_CASE("grains and walls have visits of their own") {
   CHECK(visits.of_contacts[0] == 3);
   // The right wall pushes to the left: there the impulse along +x is towards the wall.
   CHECK(std::abs(visits.dv_x.value() - 0.1) < 1e-12);
+}
+
+TEST_CASE("each visitor has its own mass, wherever its slot is") {
+  // Grain 1 is three times as heavy as grain 0, and comes first in the store.
+  State unequal = two_grains();
+  unequal.grains.id = {1, 0};
+  unequal.grains.mass = {3.0 * mass, mass};
+  Watched w(unequal);
+  const int visitor = GENERATE(0, 1);
+  const double its_mass = visitor == 0 ? mass : 3.0 * mass;
+  Contact contact = touch({0, visitor, 1}, 1.0 * ms, 1.06 * ms);
+  // The light one leaves with half of its speed, and needs 2 ms for a spacing; the other 1.15 ms.
+  contact.normal_loss = 0.5 * 0.75 * mass;
+  w.ended(contact);
+  w.ended(touch({0, visitor, 2}, 2.56 * ms, 2.62 * ms));
+  const VisitTally& visits = w.look_at(100.0 * ms);
+  CHECK(visits.visits() == (visitor == 0 ? 1 : 2));
+  CHECK(visits.dv_y.value() == Approx(4e-7 / its_mass));
+  CHECK(visits.dv_x.value() == Approx(2e-7 / its_mass));
+  // t_col is 71 us for the light one and 124 us for the other: 60 us are a passage for that only.
+  CHECK(w.state().tally.brakes.cut_short == (visitor == 0 ? 0 : 2));
 }
 
 TEST_CASE("a visit is open until no contact can come any more") {
@@ -141,7 +165,10 @@ TEST_CASE("neither the order of the ends nor the rhythm of the looks matters") {
         touch({static_cast<std::int32_t>(dice.below(2)), static_cast<std::int32_t>(dice.below(2)),
                static_cast<std::int32_t>(dice.below(8))},
               begin, begin + dice.between(0.01, 2.0) * ms));
-    contacts.back().impulse_y *= dice.between(0.5, 1.5);
+    Contact& contact = contacts.back();
+    for (double* part :
+         {&contact.impulse_x, &contact.impulse_y, &contact.entry_rate, &contact.entry_slip})
+      *part *= dice.between(0.5, 1.5);
   }
   Watched at_once;
   for (const Contact& contact : contacts) at_once.ended(contact);
@@ -171,7 +198,11 @@ TEST_CASE("neither the order of the ends nor the rhythm of the looks matters") {
   watch.look(state);
   CHECK(state.tally.visits.of_contacts == expected.of_contacts);
   CHECK(state.tally.visits.dv_y == expected.dv_y);
+  CHECK(state.tally.visits.dv_x == expected.dv_x);
   CHECK(state.tally.visits.entry_rate == expected.entry_rate);
+  CHECK(state.tally.visits.entry_slip == expected.entry_slip);
+  CHECK(state.tally.visits.entry_rates == expected.entry_rates);
+  CHECK(state.tally.visits.entry_slips == expected.entry_slips);
 }
 
 TEST_CASE("a run has the same visits however it is done") {
