@@ -1,6 +1,7 @@
 // The promise: the same bits for any number of threads, any order of the slots, any split of the
 // steps between calls, and for a run that was stopped and taken up again.
 #include "engine/observables.hpp"
+#include "engine/run_failure.hpp"
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/same_states.hpp"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 using namespace systems;
 using same_states::same;
@@ -119,20 +119,30 @@ TEST_CASE("a step by several threads is not begun before the last one is known")
 }
 
 TEST_CASE("a team smaller than asked for never goes unnoticed") {
-  // Inside a parallel region OpenMP grants one thread. Right bits or an exception, but no grains
-  // left standing.
+  // Inside a parallel region OpenMP grants one thread. A run that begins there makes do with it;
+  // one that has two is refused. No grains are left standing.
   const State reference = advanced(start(), paper_model(), 50);
-  bool noticed_or_right = false;
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  Simulation of_two(start(), paper_model(), 2, stepping, {}, Sharing::together);
+  REQUIRE(of_two.threads() == 2);
+  int granted = 0;
+  bool right = false, refused = false;
 #pragma omp parallel num_threads(2)
 #pragma omp single
   {
-    try {
-      noticed_or_right = same(advanced(start(), paper_model(), 50, 2), reference);
-    } catch (const std::exception&) {
-      noticed_or_right = true;
-    }
+    const auto goes_on = [](const auto& run) { return failure_of(run) == "no failure"; };
+    right = goes_on([&] {
+      Simulation of_one(start(), paper_model(), 2, stepping, {}, Sharing::together);
+      granted = of_one.threads();
+      of_one.advance(50);
+      if (!same(of_one.state(), reference)) throw RunFailure("other bits");
+    });
+    refused = !goes_on([&] { of_two.advance(50); });
   }
-  CHECK(noticed_or_right);
+  CHECK(granted == 1);
+  CHECK(right);
+  CHECK(refused);
+  CHECK(of_two.state().step == 0);
 }
 
 TEST_CASE("any split of the steps gives the same bits") {
@@ -141,10 +151,13 @@ TEST_CASE("any split of the steps gives the same bits") {
   SECTION("one by one") {
     for (std::int64_t i = 0; i < some_steps; ++i) simulation.advance(1);
   }
-  SECTION("nothing is a split too") {
-    simulation.advance(0);
-    simulation.advance(some_steps);
-    simulation.advance(0);
+  SECTION("nothing is a split too, and less is nothing") {
+    for (const std::int64_t none : {0, -7}) simulation.advance(none);
+    simulation.advance(100);
+    for (const std::int64_t none : {-70, 0, -1000}) simulation.advance(none);
+    CHECK(simulation.state().step == 100);
+    simulation.advance(some_steps - 100);
+    for (const std::int64_t none : {0, -1}) simulation.advance(none);
   }
   SECTION("at random") {
     Dice dice(33);
