@@ -43,7 +43,9 @@ TEST_CASE("a grain that grazes one wall grain does as in the reference") {
   // 1e-3: (pi/50)^2/24 = 2e-4 with factors of order one, and the largest sampled overlap lacks up
   // to (pi/100)^2/2 = 5e-4. A hundredth of that at a tenth of the step.
   const bool fine = GENERATE(false, true);
-  for (const reference::Row& row : reference::table("single_wall_grain")) {
+  const auto rows = reference::table("single_wall_grain");
+  CHECK(rows.size() == 80);
+  for (const reference::Row& row : rows) {
     ContactModel model = paper_model();
     model.normal = LinearLaw{stiffness, row("gamma")};
     const double t_col = LinearContact{stiffness, row("gamma"), mass}.collision_time();
@@ -55,7 +57,9 @@ TEST_CASE("a grain that grazes one wall grain does as in the reference") {
 TEST_CASE("a grain that grazes one wall grain does as in the reference under Hertz's law") {
   // The damping begins and ends like a square root, so that the error is of order 3/2.
   const bool fine = GENERATE(false, true);
-  for (const reference::Row& row : reference::table("single_wall_grain_hertz")) {
+  const auto rows = reference::table("single_wall_grain_hertz");
+  CHECK(rows.size() == 15);
+  for (const reference::Row& row : rows) {
     ContactModel model = paper_model();
     model.normal = HertzKuwabaraKonoLaw{5e5, row("gamma")};
     const double t_col = collision_time(model.normal, mass, 1.0);
