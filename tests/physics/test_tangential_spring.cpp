@@ -1,6 +1,7 @@
 // The tangential spring of Cundall and Strack: impacts against an independent integrator and closed
 // forms, and its energy.
 #include "engine/closed_forms.hpp"
+#include "engine/impact.hpp"
 #include "engine/observables.hpp"
 #include "tests/catch.hpp"
 #include "tests/physics/collisions.hpp"
@@ -49,6 +50,26 @@ double error_of(const reference::Row& row, double steps, double phase) {
          / speed;
 }
 
+/// On a wall grain by a grain without spin: the velocity after, by the way that the scenarios of
+/// single impacts go.
+Vector2d velocity_after(const reference::Row& row, double inertia) {
+  const double dt = row("contact_time") / 1000.0, back = 2.3 * dt;
+  const ImpactSetup setup{.grain_radius = row("radius_2"),
+                          .grain_mass = row("mass_2"),
+                          .wall_grain_radius = row("radius_1"),
+                          .wall_spacing = 0.0,
+                          .model = model_of(row),
+                          .inertia = inertia,
+                          .collision_time = row("contact_time")};
+  const ImpactResult result = follow(setup, {.x = row("x") - back * row("vx"),
+                                             .y = row("y") - back * row("vy"),
+                                             .v_x = -row("vx"),
+                                             .v_y = row("vy"),
+                                             .time_step = dt});
+  REQUIRE(result.end == ImpactEnd::away);
+  return {row("vx") + result.dv_x, row("vy") - result.dv_y};
+}
+
 double energy_of(const State& state) {
   const Energies e = observe(state).energies;
   return e.kinetic + e.rotational + e.elastic;
@@ -79,6 +100,21 @@ TEST_CASE("oblique impacts with a tangential spring are those of the reference")
     slide_and_stick += row("slides") + row("sticks") > 1.0;
   }
   CHECK(slide_and_stick > 20);
+}
+
+TEST_CASE("an impact on the wall is followed with the inertia of its grain") {
+  int turning = 0;
+  for (const reference::Row& row : reference::table("spinning")) {
+    if (!std::isinf(row("mass_1")) || row("w_2") != 0.0) continue;
+    const double inertia = row("inertia"), speed = std::hypot(row("vx"), row("vy"));
+    CAPTURE(inertia, row("k_t"), row("gamma_t"), row("gamma"), row("vx"));
+    const Vector2d expected(row("vx_after"), row("vy_after"));
+    CHECK((velocity_after(row, inertia) - expected).norm() < 5e-4 * speed);
+    if (inertia == 0.0) continue;
+    CHECK((velocity_after(row, 0.0) - expected).norm() > 2e-2 * speed);
+    ++turning;
+  }
+  CHECK(turning == 16);
 }
 
 TEST_CASE("impacts with a tangential spring converge at second order in the time step") {
