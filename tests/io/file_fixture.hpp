@@ -101,7 +101,7 @@ inline riesel::ContactTally tally(double scale) {
   tally.max_overlap = 3e-5 * scale;
   double value = scale;
   for (auto* sum : {&tally.duration, &tally.slip_path, &tally.normal_loss, &tally.friction_loss,
-                    &tally.impulse_y, &tally.impulse_y_times_time}) {
+                    &tally.energy_won, &tally.impulse_y, &tally.impulse_y_times_time}) {
     sum->add(value);
     value *= -1.7e-4;
   }
@@ -220,7 +220,7 @@ public:
     add(t.ended);
     add(t.max_overlap);
     for (const auto* sum : {&t.duration, &t.slip_path, &t.normal_loss, &t.friction_loss,
-                            &t.impulse_y, &t.impulse_y_times_time}) {
+                            &t.energy_won, &t.impulse_y, &t.impulse_y_times_time}) {
       add(*sum);
     }
     add_all(t.durations.counts());
