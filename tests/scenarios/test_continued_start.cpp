@@ -9,7 +9,10 @@
 #include "tests/ordered_grains.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 using namespace scenario_fixture;
 using Catch::Matchers::WithinAbs;
@@ -19,6 +22,12 @@ namespace {
 
 const std::string yaml = tube_yaml + "start: {random_velocity: 3 m/s}\n";
 
+constexpr double k_t = 570.0;  // N/m
+/// Of grains that roll, against a resistance, and are held by springs.
+const Overrides rolling = {"grains.rotation=disc", "contact.rolling_friction=0.1",
+                           "contact.slip=spring", "contact.slip_stiffness=570 N/m",
+                           "contact.slip_damping=100 1/s"};
+
 std::string continued_yaml(const std::filesystem::path& from) {
   return tube_yaml + "start: {kind: continued, from: " + from.string() + "}\n";
 }
@@ -26,13 +35,15 @@ std::string continued_yaml(const std::filesystem::path& from) {
 /// A state of the tube in which several grains touch, and its checkpoint.
 class EarlierRun {
 public:
-  EarlierRun() {
-    Simulation simulation(flow(yaml).state, flow(yaml).model, 1);
+  explicit EarlierRun(Overrides settings = {}) : settings_(std::move(settings)) {
+    const auto start = flow(yaml, settings_);
+    Simulation simulation(start.state, start.model, 1);
     simulation.advance(3000);
     while (simulation.state().contacts.size() < 5) simulation.advance(1);
     state_ = simulation.state();
-    io::write_checkpoint(directory_ / io::checkpoint_name,
-                         {.state = state_, .settings = read(yaml).effective_yaml(), .source = {}});
+    io::write_checkpoint(
+        directory_ / io::checkpoint_name,
+        {.state = state_, .settings = read(yaml, settings_).effective_yaml(), .source = {}});
   }
 
   /// Grains in the order of their ids.
@@ -42,18 +53,26 @@ public:
     return ordered;
   }
 
-  State continued(const Overrides& overrides = {}) const {
-    return flow(continued_yaml(directory_.path()), overrides).state;
-  }
-  ContactModel model(const Overrides& overrides = {}) const {
-    return flow(continued_yaml(directory_.path()), overrides).model;
-  }
+  State continued(const Overrides& overrides = {}) const { return next(overrides).state; }
+  ContactModel model(const Overrides& overrides = {}) const { return next(overrides).model; }
   const std::filesystem::path& directory() const { return directory_.path(); }
 
 private:
+  scenarios::Flow next(const Overrides& overrides) const {
+    Overrides all = settings_;
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return flow(continued_yaml(directory_.path()), all);
+  }
+
+  Overrides settings_;
   ScratchDirectory directory_;
   State state_;
 };
+
+/// Whether grains rotate and springs act: nothing of either may be lost.
+bool they_roll() { return GENERATE(false, true); }
+
+Overrides kind(bool rolls) { return rolls ? rolling : Overrides{}; }
 
 double stored_energy(const State& state) { return observe(state).energies.elastic; }
 
@@ -76,6 +95,7 @@ void check_nothing_moved(const State& before, const State& after) {
     const Grain one = grain_at(before, i), other = grain_at(after, i);
     CHECK(std::abs(one.vx - other.vx) < 1e-13);
     CHECK(std::abs(one.vy - other.vy) < 1e-13);
+    CHECK(std::abs(one.spin - other.spin) < 1e-10);  // of thousands of rad/s
     CHECK(one.radius == other.radius);
     CHECK(one.mass == other.mass);
   }
@@ -84,7 +104,13 @@ void check_nothing_moved(const State& before, const State& after) {
 }  // namespace
 
 TEST_CASE("A continued start has the places and velocities of the earlier end, whatever changes") {
-  const EarlierRun earlier;
+  const bool rolls = they_roll();
+  const EarlierRun earlier(kind(rolls));
+  if (rolls) {
+    const State before = earlier.state();
+    CHECK(std::ranges::count(before.grains.spin, 0) < std::ssize(before.grains.spin) / 2);
+    CHECK(std::ranges::count(before.grains.spin_kick, 0) < std::ssize(before.grains.spin_kick));
+  }
   for (const Overrides& overrides : std::vector<Overrides>{{},
                                                            {"run.steps_per_collision=77"},
                                                            {"contact.stiffness=200 kN/m"},
@@ -97,10 +123,12 @@ TEST_CASE("A continued start has the places and velocities of the earlier end, w
 }
 
 TEST_CASE("Contacts that last go on, with the energy of the new law and an empty account") {
-  const EarlierRun earlier;
+  const bool rolls = they_roll();
+  const EarlierRun earlier(kind(rolls));
   const State before = earlier.state();
   const State after = earlier.continued({"contact.stiffness=4000 N/m"});
   REQUIRE(after.contacts.size() == before.contacts.size());
+  double stored = 0.0;
   for (std::size_t i = 0; i < before.contacts.size(); ++i) {
     const Contact& old = before.contacts[i];
     const Contact& now = after.contacts[i];
@@ -111,12 +139,18 @@ TEST_CASE("Contacts that last go on, with the energy of the new law and an empty
     CHECK(std::abs(now.duration() - old.duration()) < 1e-15);
     CHECK(now.normal_loss == 0.0);
     CHECK(now.impulse_y == 0.0);
+    for (const auto member : {&Contact::friction_x, &Contact::friction_y, &Contact::spring,
+                              &Contact::torque, &Contact::rolling_torque})
+      CHECK(now.*member == old.*member);
+    for (const auto member : {&Contact::spring, &Contact::torque, &Contact::rolling_torque})
+      CHECK((old.*member != 0.0) == rolls);
+    stored += 0.5 * 4000.0 * old.overlap * old.overlap + 0.5 * k_t * old.spring * old.spring;
   }
-  CHECK(std::abs(stored_energy(after) / stored_energy(before) - 2.0) < 1e-14);
+  CHECK(std::abs(stored_energy(after) / stored - 1.0) < 1e-13);
 }
 
 TEST_CASE("With the same settings a continued run is the earlier run going on") {
-  const EarlierRun earlier;
+  const EarlierRun earlier(kind(they_roll()));
   Simulation uninterrupted(earlier.state(), earlier.model(), 1);
   Simulation continued(earlier.continued(), earlier.model(), 1);
   const std::int64_t begun = uninterrupted.state().tally.grains.begun;
@@ -136,7 +170,7 @@ TEST_CASE("With the same settings a continued run is the earlier run going on") 
 }
 
 TEST_CASE("A continued start has the same bits in both kinds of stepping") {
-  const EarlierRun earlier;
+  const EarlierRun earlier(kind(they_roll()));
   const State start = earlier.continued({"contact.stiffness=20 kN/m"});
   const ContactModel model = earlier.model({"contact.stiffness=20 kN/m"});
   Simulation plain(start, model, 1, Stepping::plain), windows(start, model, 1, Stepping::windows);
@@ -159,18 +193,25 @@ TEST_CASE("A continued start is refused where the earlier run does not fit") {
 }
 
 TEST_CASE("Velocities half a step before a continued start are those that it holds") {
-  const EarlierRun earlier;
+  const bool rolls = they_roll();
+  const EarlierRun earlier(kind(rolls));
   const Overrides softer{"contact.damping=", "contact.restitution=0.9", "contact.stiffness=10 N/m"};
   const State continued = earlier.continued(softer);
   const std::vector<Grain> half =
       scenarios::half_a_step_before(earlier.state(), continued.time_step);
   const double metres_per_second = continued.box.quantum_x() / continued.time_step;
-  double largest_change = 0.0;
+  double largest_change = 0.0, largest_change_of_spin = 0.0;
   for (std::size_t i = 0; i < half.size(); ++i) {
     CHECK_THAT(real(continued.grains.ux[i]) * metres_per_second, WithinAbs(half[i].vx, 1e-12));
     largest_change = std::max(largest_change, std::abs(half[i].vx - grain_at(continued, i).vx));
+    if (!rolls) continue;
+    CHECK_THAT(real(continued.grains.spin[i]) * quantum_of_angle / continued.time_step,
+               WithinAbs(half[i].spin, 1e-9));
+    largest_change_of_spin =
+        std::max(largest_change_of_spin, std::abs(half[i].spin - grain_at(continued, i).spin));
   }
   CHECK(largest_change > 1e-3);  // some are in contact
+  CHECK((largest_change_of_spin > 1.0) == rolls);
 }
 
 TEST_CASE("A continued start is refused if its time step is too long for the earlier motion") {
