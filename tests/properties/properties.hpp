@@ -19,6 +19,9 @@ struct Outcome {
   std::string failure;
 };
 
+/// Since the start.
+std::int64_t contacts_begun(const riesel::State& state);
+
 /// Plainly, on one thread, in one go.
 Outcome reference(const SetUp& set_up);
 /// By windows, in one go.
@@ -34,13 +37,15 @@ Complaints same_bits(const SetUp& set_up, const Outcome& expected, std::uint64_t
 Complaints same_by_windows(const SetUp& set_up, const Outcome& expected, int threads);
 
 /// Contacts that began have ended or last; damping and friction never win energy, nor does the
-/// whole but by the error of the time step; the walls gave the momentum along the tube; without
-/// walls, grains of equal mass keep theirs to the last bit.
+/// whole win or lose any but by the error of the time step; the walls gave the momentum along the
+/// tube; without walls, grains of equal mass keep theirs to the last bit.
 Complaints balances(const SetUp& set_up, const Outcome& outcome);
 
 /// One impact of two grains, or of a grain on a corrugated wall, at any angle and of any law.
 struct Impact {
-  double gain;  ///< of kinetic and elastic energy, as a part of that of the relative motion
+  double gain;      ///< of kinetic and elastic energy, as a part of that of the relative motion
+  double residual;  ///< of the balance of energy, as such a part
+  std::int64_t contacts;
   double steps_per_contact;  ///< in contact_time()
   riesel::ContactModel model;
 };
