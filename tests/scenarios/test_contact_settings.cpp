@@ -126,6 +126,24 @@ TEST_CASE("friction, slip and attraction are as chosen") {
   CHECK(std::holds_alternative<LiteralSlip>(tube_model({"contact.slip=literal"}).slip));
   const ContactModel viscous = tube_model({"contact.slip=viscous", "contact.slip_damping=1e5 1/s"});
   CHECK(std::get<ViscousSlip>(viscous.slip).gamma_t == 1e5);
+  const auto spring =
+      std::get<SpringSlip>(tube_model({"contact.slip=spring", "contact.slip_stiffness=570 N/m",
+                                       "contact.slip_damping=100 1/s"})
+                               .slip);
+  CHECK(spring.k_t == 570.0);
+  CHECK(spring.gamma_t == 100.0);
+}
+
+TEST_CASE("grains rotate as discs or spheres, and resist rolling, as chosen") {
+  const auto of = [](const std::string& rotation) {
+    return tube({"grains.rotation=" + rotation, "contact.rolling_friction=0.02"});
+  };
+  CHECK(tube().state.grains.inertia == 0.0);
+  CHECK(tube().model.rolling_friction == 0.0);
+  CHECK(of("disc").state.grains.inertia == 0.5);
+  CHECK(of("sphere").state.grains.inertia == 0.4);
+  for (const char* rotation : {"disc", "sphere"})
+    CHECK(of(rotation).model.rolling_friction == 0.02);
 }
 
 TEST_CASE("under a nonlinear law the time step is that of the impact speed set") {
