@@ -9,6 +9,7 @@
 #include <cmath>
 
 using namespace scenario_fixture;
+using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 namespace {
@@ -117,9 +118,10 @@ TEST_CASE("shaken walls heat what is between them, as they are told to") {
 TEST_CASE("a run between shaken walls goes on where they were") {
   const file_fixture::ScratchDirectory directory;
   const std::string angle = GENERATE("0", "90 degrees", "50 degrees");
+  const double stopped = GENERATE(23e-3, 27e-3);  // s: the walls go there, or come back
   const auto start = tube(shaken({"wall.shake_angle=" + angle}));
   Simulation simulation(start.state, start.model, 1);
-  simulation.advance(std::llround(23e-3 / start.state.time_step));
+  simulation.advance(std::llround(stopped / start.state.time_step));
   const State& earlier = simulation.state();
   io::write_checkpoint(
       directory / io::checkpoint_name,
@@ -136,6 +138,17 @@ TEST_CASE("a run between shaken walls goes on where they were") {
     };
     CHECK(off_by(now.walls[wall].x, then.walls[wall].x, start.state.box.quantum_x()) < 1e-15);
     CHECK(now.walls[wall].y == then.walls[wall].y);
+    // They swing on in the direction that they had, as much faster as the frequency is higher.
+    const WallMotion &before = earlier.walls[wall].motion, &after = next.state.walls[wall].motion;
+    const double period = 1.0 / before.frequency;
+    for (const double part : {-0.1, 0.1}) {
+      const WallWay was = before.way(earlier.box, earlier.time() + part * period);
+      const WallWay is = after.way(next.state.box, part * period * 50.0 / 70.0);
+      CHECK_THAT(is.x, WithinAbs(was.x, 1e-12));
+      CHECK_THAT(is.y, WithinAbs(was.y, 1e-12));
+    }
+    CHECK((then.walls[wall].ux < 0) == (now.walls[wall].ux < 0));
+    CHECK((then.walls[wall].uy < 0) == (now.walls[wall].uy < 0));
   }
   if (angle == "0") return;
   Overrides as_far = shaken(continued);  // but for the last bit
