@@ -7,6 +7,7 @@
 import math
 
 import h5py
+import numpy as np
 
 from riesel_command import DONE, SMALL_TUBE, CommandTest
 
@@ -125,6 +126,30 @@ class WallVisits(Validity):
         self.assertEqual(summary["validity"]["contacts_per_wall_visit"],
                          visits["contacts"]["value"])
 
+    def test_the_findings_are_ratios_of_the_series(self):
+        summary, _ = self.tube("fast", contact__stiffness=200, start__axial_velocity=15, run__duration="60 ms")
+        validity = summary["validity"]
+        found = {finding["name"]: finding["value"] for finding in validity["findings"]}
+        with h5py.File(self.home / "fast/run.h5", "r") as file:
+            series = {name: data[()] for name, data in file["series"].items()}
+            histograms = [(file[f"histograms/{kind}_contact_duration/count"][()],
+                           file[f"histograms/{kind}_contact_duration/lower_edge"][()]) for kind in ("grain", "wall")]
+            time_step = file["final"].attrs["time"] / file["final"].attrs["step"]
+        first = int(round(summary["transient_end"] / 1e-3))
+        gained = {name: column[-1] - column[first] for name, column in series.items()}
+        for name, part, whole, unit in (
+                ("brake_failure_fraction", "wall_braking_cut_short", "wall_braking", 1.0),
+                ("passages_per_wall_visit", "wall_contacts_cut_short", "wall_visits", 1.0),
+                ("wall_speed_over_v_crit", "wall_entry_slip", "wall_contacts_ended", validity["v_crit"]),
+                ("pulling_fraction", "wall_pulling_time", "wall_contact_time", 1.0)):
+            with self.subTest(name):
+                self.assertGreater(found[name], 0.0)
+                self.assertAlmostEqual(found[name] / (gained[part] / gained[whole] / unit), 1.0, delta=1e-9)
+        # Fewer than 20 contacts of a kind would tell nothing.
+        self.assertGreaterEqual(min(count.sum() for count, _ in histograms), 20)
+        shortest = [edges[np.argmax(np.cumsum(count) > 0.05 * count.sum())] for count, edges in histograms]
+        self.assertAlmostEqual(found["steps_per_contact"] / (min(shortest) / time_step), 1.0, delta=1e-9)
+
     def test_visits_lose_what_contacts_lose(self):
         # Per visit and per contact, of two sets of contacts that differ by the open visits only.
         summary, _ = self.tube("run", run__duration="1 s")
@@ -152,19 +177,29 @@ class Balance(Validity):
                 self.assertAlmostEqual(balance["n_dot"] * balance["dv_y"], balance["n_dot_dv_y"],
                                        delta=1e-9 * balance["gravity"])
 
-    def test_the_bar_of_the_balance_covers_as_often_as_it_says(self):
+    def assert_covers(self, off, name):
+        """`off`: of 40 means, in their own bars. 68 % are within; three standard deviations of that are 9."""
+        self.assertEqual(len(off), 40)
+        self.assertAlmostEqual(sum(abs(each) < 1.0 for each in off), 27, delta=9, msg=name)
+
+    def test_the_bars_of_the_balance_and_of_visits_cover_as_often_as_they_say(self):
         self.write("tube.yaml", SMALL_TUBE)
         self.write("sweep.yaml", "base: tube.yaml\nseeds: 40\n"
                                  "set: {run.duration: 0.5 s, grains.area_fraction: 0.5, start.axial_velocity: 1.5 m/s}\n")
         self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
-        off = []
+        off, visits = [], []
         for summary in map(self.summary, (self.home / "out/points").iterdir()):
             self.assertNotEqual(summary["state"], "accelerating")
             balance = summary["balance"]
             off.append(abs(balance["n_dot_dv_y"] - balance["gravity"]) / balance["errors"]["n_dot_dv_y"])
-        # 68 % and 95 % of 40; three standard deviations of the first are 9.
-        self.assertAlmostEqual(sum(each < 1.0 for each in off), 27, delta=9)
-        self.assertGreaterEqual(sum(each < 2.0 for each in off), 34)
+            visits.append(summary["wall_visits"])
+        self.assert_covers(off, "n_dot_dv_y")
+        self.assertGreaterEqual(sum(each < 2.0 for each in off), 34)  # of 95 %
+        for name in ("contacts", "dv_y", "dv_x", "entry_rate", "entry_slip"):
+            with self.subTest(name):
+                values, errors = np.array([(each[name]["value"], each[name]["error"]) for each in visits]).T
+                # The truth is not known, but to a sixth of a bar by the mean of all.
+                self.assert_covers((values - values.mean()) / errors, name)
 
     def test_in_free_fall_they_do_not(self):
         summary, _ = self.tube("fast", start__axial_velocity="20 m/s", run__duration="0.3 s")
