@@ -23,19 +23,22 @@ class Velocities:
                 velocities = [result["velocity"] for result in runs]
                 self.assertFalse(differ(kept, velocities, rate),
                                  f"{np.mean(velocities)} m/s, kept is {np.mean(kept)} m/s")
-                self.check_own_bars(kept, runs, rate)
+                self.check_own_bars(name, kept, runs, rate)
 
-    def check_own_bars(self, kept, runs, rate):
+    def check_own_bars(self, name, kept, runs, rate):
         """Where runs come out as accelerating or too short, an error bar promises nothing."""
 
 
 class SlowBranch(Velocities, unittest.TestCase):
 
     CASES = SLOW
+    # Of the kept runs of these three of four are, or more; of the others a tenth.
+    SOME_ARE_STEADY = {"slow soft", "slow", "slow power", "slow Hertz"}
 
-    def check_own_bars(self, kept, runs, rate):
+    def check_own_bars(self, name, kept, runs, rate):
         steady = [result for result in runs if result["state"] == "steady"]
         if not steady:
+            self.assertNotIn(name, self.SOME_ARE_STEADY)
             return
         self.check_balances(steady)
         means = [result["mean"] for result in steady]
@@ -43,13 +46,12 @@ class SlowBranch(Velocities, unittest.TestCase):
         self.assertFalse(differ_by_own_bars(kept, means, errors, rate),
                          f"{means} +- {errors} m/s, kept is {np.mean(kept)} m/s")
 
-
     def check_balances(self, steady):
-        """n_dot dv_y = g, eq. (9). Five of its errors are no chance (tests/cli/test_validity.py)."""
+        """n_dot dv_y = g, eq. (9). Five of its errors are no chance (README.md)."""
         for result in steady:
             balance = result["balance"]
             error = balance["errors"]["n_dot_dv_y"]
-            self.assertLess(error, 0.1 * balance["gravity"])
+            self.assertLess(error, 0.02 * balance["gravity"])
             self.assertLess(abs(balance["n_dot_dv_y"] - balance["gravity"]), 5.0 * error)
 
 
