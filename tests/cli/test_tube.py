@@ -125,6 +125,10 @@ class Tube(CommandTest):
             np.testing.assert_allclose(
                 stress[f"stress_{a}{b}"],
                 stress[f"kinetic_stress_{a}{b}"] + stress[f"contact_stress_{a}{b}"], atol=1e-12)
+        # What grains carry has no order of its letters; what contacts hand on has, without rotation.
+        np.testing.assert_allclose(
+            stress["stress_yx"], stress["kinetic_stress_xy"] + stress["contact_stress_yx"], atol=1e-12)
+        self.assertGreater(abs(stress["contact_stress_yx"] - stress["contact_stress_xy"]).max(), 0.0)
         self.assertTrue((stress["kinetic_stress_xx"] >= 0.0).all())
         self.assertGreater(stress["contact_stress_xx"].max(), 0.0)
 
@@ -161,6 +165,25 @@ class Tube(CommandTest):
             visits = self.summary(self.out)["wall_visits"]["of_contacts_since_start"]
             self.assertEqual(counts["wall_visit_entry_rate"], sum(visits))
             self.assertEqual(counts["wall_visit_entry_slip"], sum(visits))
+
+    def test_the_histograms_hold_the_sums_of_the_series(self):
+        """They lie between what they were if all values stood at the lower edges of their bins, or at the upper."""
+        with h5py.File(self.out / "run.h5", "r") as file:
+            for name, column, ended in (("wall_visit_entry_rate", "wall_visit_entry_rate", "wall_visits"),
+                                        ("wall_visit_entry_slip", "wall_visit_entry_slip", "wall_visits"),
+                                        ("wall_contact_duration", "wall_contact_time", "wall_contacts_ended")):
+                with self.subTest(name):
+                    count = file[f"histograms/{name}/count"][()]
+                    edges = file[f"histograms/{name}/lower_edge"][()]
+                    self.assertGreater(count.sum(), 10)
+                    # The outermost bins hold what is beyond all, too.
+                    self.assertEqual((count[0], count[-1]), (0, 0))
+                    count, lower, upper = count[:-1], edges[:-1], edges[1:]
+                    # The run goes on for a step or so after the last row.
+                    after_the_rows = count.sum() - file[f"series/{ended}"][-1]
+                    total, largest = file[f"series/{column}"][-1], upper[count > 0].max()
+                    self.assertLessEqual((count * lower).sum() - after_the_rows * largest, total)
+                    self.assertLess(total, (count * upper).sum())
 
     def test_the_rates_of_the_histograms_are_those_of_the_series(self):
         """Of what came after the transient, with error bars."""
