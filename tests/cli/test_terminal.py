@@ -143,7 +143,9 @@ class Terminal(CommandTest):
         os.close(screen)
         shown = self.read_until(keyboard, lambda text: text.count(b"\r") >= 4)
         process.kill()
-        for hours, minutes, seconds in re.findall(rb"(\d+):(\d+):(\d+) left", shown):
+        left = re.findall(rb"(\d+):(\d+):(\d+) left", shown)
+        self.assertGreater(len(left), 0, shown)
+        for hours, minutes, seconds in left:
             self.assertGreater(int(hours), 24)
             self.assertLess(max(int(minutes), int(seconds)), 60)
         self.assertRegex(shown, rb"\d left")
