@@ -529,10 +529,3 @@ class Shipped(SweepTest):
         for number, text in enumerate(examples):
             self.sweep_to_end(text.replace("base: ", f"base: {SHIPPED.parent}/"), f"out{number}", "--jobs", 2)
             self.assertEqual({row["status"] for row in self.rows(f"out{number}")}, {"done"})
-
-    def test_the_files_of_the_figures_are_sweeps(self):
-        files = sorted((SHIPPED / "paper").glob("*.yaml"))
-        self.assertGreater(len(files), 0)
-        for file in files:
-            with self.subTest(file.name):
-                self.assert_done(self.riesel("sweep", file, "--dry-run"))
