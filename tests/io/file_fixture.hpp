@@ -5,6 +5,7 @@
 #include "engine/state.hpp"
 #include "io/run_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/message_of.hpp"
 #include "tests/scratch_directory.hpp"
 
 #include <sys/wait.h>
@@ -25,6 +26,7 @@ namespace file_fixture {
 
 namespace fs = std::filesystem;
 
+using riesel::message_of;
 using riesel::ScratchDirectory;
 
 inline std::string contents(const fs::path& path) {
@@ -60,17 +62,6 @@ int in_other_process(Action action) {
 /// Of a series with two columns.
 inline const std::vector<riesel::io::Column> columns = {
     {"time", "s", "Time since the start."}, {"velocity", "m/s", "Mean axial velocity."}};
-
-/// The message of the Error that action() throws; empty if it throws none.
-template <class Error, class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 inline riesel::Contact contact(riesel::ContactName name, double first) {
   riesel::Contact contact{.name = name};

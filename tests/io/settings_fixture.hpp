@@ -3,6 +3,7 @@
 
 #include "io/settings.hpp"
 #include "tests/catch.hpp"
+#include "tests/message_of.hpp"
 
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 namespace settings_fixture {
 
 using namespace riesel::io;
+using riesel::message_of;
 
 inline SettingsTable with_common(const SettingsTable& rows) {
   auto table = common_settings();
@@ -58,14 +60,9 @@ inline Settings read(const std::string& text, const std::vector<std::string>& ov
   return Settings::from_text(text, "f.yaml", tables(), overrides);
 }
 
-/// The whole message; "no error" if there was none.
+/// The whole message; empty if there was none.
 inline std::string error(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    (void)read(text, overrides);
-  } catch (const SettingsError& caught) {
-    return caught.what();
-  }
-  return "no error";
+  return message_of<SettingsError>([&] { (void)read(text, overrides); });
 }
 
 /// The error of one line within an otherwise complete tube; the line's number is 4.

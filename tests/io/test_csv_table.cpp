@@ -1,6 +1,7 @@
 // Tables of quantities: what is read, and where it is said that something cannot be.
 #include "io/csv_table.hpp"
 #include "tests/catch.hpp"
+#include "tests/message_of.hpp"
 
 using namespace riesel::io;
 
@@ -11,12 +12,7 @@ const std::vector<CsvColumn> columns = {{.name = "x", .unit = "m"},
                                         {.name = "mass", .unit = "kg", .required = false}};
 
 std::string complaint(const std::string& text) {
-  try {
-    (void)parse_csv(text, "t.csv", columns);
-  } catch (const SettingsError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return riesel::message_of<SettingsError>([&] { (void)parse_csv(text, "t.csv", columns); });
 }
 
 void check_begins(const std::string& message, const std::string& beginning) {
@@ -77,9 +73,7 @@ TEST_CASE("places are counted in characters, as editors do") {
 
 TEST_CASE("a value can be rejected at its place") {
   const CsvTable table = parse_csv("x,vx\n1,2\n3,  4\n", "t.csv", columns);
-  try {
-    table.reject(1, "vx", "is too fast", "slow down");
-  } catch (const SettingsError& error) {
-    CHECK(std::string(error.what()) == "t.csv:3:5: vx: is too fast; slow down");
-  }
+  CHECK(
+      riesel::message_of<SettingsError>([&] { table.reject(1, "vx", "is too fast", "slow down"); })
+      == "t.csv:3:5: vx: is too fast; slow down");
 }

@@ -9,19 +9,10 @@
 using namespace riesel::io;
 using namespace file_fixture;
 
-namespace {
-
-template <class Call>
-std::string complaint(Call call) {
-  return message_of<Hdf5Error>(call);
-}
-
-}  // namespace
-
 TEST_CASE("A failed call of HDF5 says what was attempted, and HDF5's reasons") {
   silence_hdf5();
   const ScratchDirectory directory;
-  const auto none = complaint([&] { Hdf5File::open(directory / "none.h5"); });
+  const auto none = message_of<Hdf5Error>([&] { Hdf5File::open(directory / "none.h5"); });
   CHECK(none.starts_with("cannot open "));
   CHECK(contains(none, "No such file or directory"));
   CHECK_FALSE(contains(none, "\n"));
@@ -29,8 +20,8 @@ TEST_CASE("A failed call of HDF5 says what was attempted, and HDF5's reasons") {
   auto file = Hdf5File::create();
   auto root = file.root();
   root.create_group("g");
-  CHECK(contains(complaint([&] { root.create_group("g"); }), "name already exists"));
-  CHECK(complaint([&] { root.group("h"); }).starts_with("cannot open the group /h: "));
+  CHECK(contains(message_of<Hdf5Error>([&] { root.create_group("g"); }), "name already exists"));
+  CHECK(message_of<Hdf5Error>([&] { root.group("h"); }).starts_with("cannot open the group /h: "));
 }
 
 TEST_CASE("What has another shape than asked for is refused") {
@@ -40,8 +31,9 @@ TEST_CASE("What has another shape than asked for is refused") {
   root.set_attribute("number", 1.0);
   auto data = root.create_data<double>("d", {.rows = 2});
   const std::vector<double> three(3);
-  CHECK(contains(complaint([&] { data.write(std::span(three)); }), "the size does not match"));
-  CHECK(contains(complaint([&] { (void)root.text_attribute("number"); }),
+  CHECK(contains(message_of<Hdf5Error>([&] { data.write(std::span(three)); }),
+                 "the size does not match"));
+  CHECK(contains(message_of<Hdf5Error>([&] { (void)root.text_attribute("number"); }),
                  "it is no text of fixed length"));
   CHECK_THROWS_AS(root.attribute<double>("text"), Hdf5Error);
 }

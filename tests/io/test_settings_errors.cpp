@@ -145,7 +145,7 @@ TEST_CASE("missing values") {
         == "f.yaml:3:1: tube.width: is missing; give a length such as '0.66 mm' or a number in m");
   CHECK(error("scenario: tube\ncontact: {stiffness: 1}\n")
         == "f.yaml:1:1: tube.width: is missing; give a length such as '0.66 mm' or a number in m");
-  CHECK(tube_error("grains: {diameter: 1}\nrun: {}").find("no error") == 0);
+  CHECK(tube_error("grains: {diameter: 1}\nrun: {}").empty());
 }
 
 TEST_CASE("the scenario comes first") {
@@ -247,7 +247,7 @@ TEST_CASE("lists and ranges") {
   CHECK(speed_error("[1, [2]]")
         == "f.yaml:3:21: impact.speed: " + expected + "got a list; give a single value");
   CHECK(speed_error("[1, -2]").find("f.yaml:3:21: impact.speed: must be at least 0 m/s") == 0);
-  CHECK(speed_error("[1, ]") == "no error");
+  CHECK(speed_error("[1, ]").empty());
   CHECK(speed_error("[1, ~]").find("got nothing; give a single value") != std::string::npos);
   CHECK(speed_error("fast").find(
             "f.yaml:3:17: impact.speed: expected a velocity such as '0.5 m/s' or "

@@ -39,7 +39,7 @@ TEST_CASE("broken text") {
   CHECK(error("run:\n\tthreads: 2\n")
         == "f.yaml:2:1: tab in the indentation; YAML is indented with spaces: replace it");
   CHECK(error("run:\n  \tthreads: 2\n").find("f.yaml:2:3: tab in the indentation; ") == 0);
-  CHECK(error("scenario:\ttube\ncontact: {stiffness: 1}\ntube:  {width: 1} \t\n") == "no error");
+  CHECK(error("scenario:\ttube\ncontact: {stiffness: 1}\ntube:  {width: 1} \t\n").empty());
   CHECK(error("a: " + std::string(1'000'000, 'x'))
         == "f.yaml: is larger than 1000000 bytes; a settings file is a page of YAML; check that "
            "this is "
@@ -116,7 +116,7 @@ TEST_CASE("hostile files of the largest size are refused within seconds") {
        {std::string(900'000, '['), std::string(900'000, '{'), std::string(900'000, '-'),
         "scenario: " + std::string(900'000, '\''), many_keys, many_words,
         "a: &a [x]\nb: " + std::string(900'000, '*')}) {
-    CHECK(error(text) != "no error");
+    CHECK_FALSE(error(text).empty());
   }
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));
 }

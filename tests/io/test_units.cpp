@@ -2,6 +2,7 @@
 // does not pass.
 #include "io/units.hpp"
 #include "tests/catch.hpp"
+#include "tests/message_of.hpp"
 
 #include <string>
 #include <thread>
@@ -16,12 +17,8 @@ double si(const std::string& text, const std::string& si_unit) {
 }
 
 std::string remedy(const std::string& text, const std::string& si_unit) {
-  try {
-    (void)value_in_si(split_quantity(text).value(), si_unit);
-  } catch (const UnitError& error) {
-    return error.what();
-  }
-  return "no error";
+  return riesel::message_of<UnitError>(
+      [&] { (void)value_in_si(split_quantity(text).value(), si_unit); });
 }
 
 }  // namespace
