@@ -32,14 +32,17 @@ std::string continued_yaml(const std::filesystem::path& from) {
   return tube_yaml + "start: {kind: continued, from: " + from.string() + "}\n";
 }
 
-/// A state of the tube in which several grains touch, and its checkpoint.
+bool is_at_wall(const Contact& contact) { return contact.name.wall != no_wall; }
+
+/// A state of the tube in which several grains touch, one of them a wall, and its checkpoint.
 class EarlierRun {
 public:
   explicit EarlierRun(Overrides settings = {}) : settings_(std::move(settings)) {
     const auto start = flow(yaml, settings_);
     Simulation simulation(start.state, start.model, 1);
     simulation.advance(3000);
-    while (simulation.state().contacts.size() < 5) simulation.advance(1);
+    const auto& contacts = simulation.state().contacts;
+    while (contacts.size() < 5 || std::ranges::none_of(contacts, is_at_wall)) simulation.advance(1);
     state_ = simulation.state();
     io::write_checkpoint(
         directory_ / io::checkpoint_name,
@@ -271,8 +274,7 @@ TEST_CASE(
     "The work of gravity after a continued start is that of the way, also of grains at walls") {
   const EarlierRun earlier;
   const State start = earlier.continued();
-  const auto at_wall = [](const Contact& contact) { return contact.name.wall != no_wall; };
-  REQUIRE(std::ranges::any_of(start.contacts, at_wall));
+  REQUIRE(std::ranges::any_of(start.contacts, is_at_wall));
   Simulation simulation(start, earlier.model(), 1);
   double mass_times_way = 0.0;
   for (int step = 0; step < 300; ++step) {
