@@ -126,6 +126,16 @@ class WallVisits(Validity):
         self.assertEqual(summary["validity"]["contacts_per_wall_visit"],
                          visits["contacts"]["value"])
 
+    def test_a_ratio_that_cannot_vary_has_no_error(self):
+        """Grains of a gas touch a smooth wall once in a visit, however many visits there are in an interval."""
+        summary, _ = self.tube("gas", wall__surface="smooth", contact__friction=0, contact__restitution=1, gravity=0,
+                               contact__stiffness="20 kN/m", start__axial_velocity=0, start__random_velocity="1 m/s",
+                               grains__area_fraction=0.1, run__duration="0.1 s")
+        visits = summary["wall_visits"]
+        self.assertGreater(visits["visits"], 100)
+        self.assertEqual(visits["contacts"], {"value": 1.0, "error": 0.0})
+        self.assertGreater(visits["entry_rate"]["error"], 0.0)
+
     def test_the_findings_are_ratios_of_the_series(self):
         summary, _ = self.tube("fast", contact__stiffness=200, start__axial_velocity=15, run__duration="60 ms")
         validity = summary["validity"]
@@ -187,17 +197,18 @@ class Balance(Validity):
         self.write("sweep.yaml", "base: tube.yaml\nseeds: 40\n"
                                  "set: {run.duration: 0.5 s, grains.area_fraction: 0.5, start.axial_velocity: 1.5 m/s}\n")
         self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
-        off, visits = [], []
+        off, ratios = [], []
         for summary in map(self.summary, (self.home / "out/points").iterdir()):
             self.assertNotEqual(summary["state"], "accelerating")
             balance = summary["balance"]
             off.append(abs(balance["n_dot_dv_y"] - balance["gravity"]) / balance["errors"]["n_dot_dv_y"])
-            visits.append(summary["wall_visits"])
+            ratios.append({**summary["wall_visits"],
+                           "dv_y per contact": {"value": balance["dv_y"], "error": balance["errors"]["dv_y"]}})
         self.assert_covers(off, "n_dot_dv_y")
         self.assertGreaterEqual(sum(each < 2.0 for each in off), 34)  # of 95 %
-        for name in ("contacts", "dv_y", "dv_x", "entry_rate", "entry_slip"):
+        for name in ("contacts", "dv_y", "dv_x", "entry_rate", "entry_slip", "dv_y per contact"):
             with self.subTest(name):
-                values, errors = np.array([(each[name]["value"], each[name]["error"]) for each in visits]).T
+                values, errors = np.array([(each[name]["value"], each[name]["error"]) for each in ratios]).T
                 # The truth is not known, but to a sixth of a bar by the mean of all.
                 self.assert_covers((values - values.mean()) / errors, name)
 
