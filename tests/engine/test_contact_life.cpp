@@ -4,6 +4,7 @@
 #include "engine/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/engine/brute_force.hpp"
+#include "tests/engine/same_states.hpp"
 #include "tests/engine/systems.hpp"
 
 #include <algorithm>
@@ -53,6 +54,20 @@ State disturbed_contact() {
   add_grain(state, grain(6.001e-3, 5e-3, -0.1, 0.0));
   add_grain(state, grain(10e-3, 15e-3, 30.0, 0.3));
   return state;
+}
+
+/// Between grains or at one of two walls; may have won energy.
+Contact any_contact(Dice& dice) {
+  Contact contact{.name = {static_cast<std::int32_t>(dice.below(3)) - 1, 0, 1}};
+  contact.begin = dice.between(0.0, 1.0);
+  contact.end = contact.begin + dice.between(1e-6, 1e-4);
+  contact.max_overlap = dice.between(1e-6, 1e-4);
+  for (double* part : {&contact.entry_rate, &contact.entry_slip, &contact.slip_path})
+    *part = dice.between(0.1, 1.0);
+  for (double* part : {&contact.normal_loss, &contact.friction_loss, &contact.impulse_x,
+                       &contact.impulse_y, &contact.impulse_y_times_time})
+    *part = dice.between(-1e-6, 1e-6);
+  return contact;
 }
 
 ContactModel soft() {
@@ -122,6 +137,35 @@ TEST_CASE("the tally is the sum over the lives") {
   }
   const auto lasting = static_cast<std::int64_t>(end.contacts.size());
   CHECK(end.tally.grains.begun + end.tally.walls.begun - grains.ended - walls.ended == lasting);
+}
+
+TEST_CASE("the tallies of two threads together are that of one") {
+  using same_states::all_of;
+  Dice dice(24);
+  Tally one, left, right;
+  for (int i = 0; i < 60; ++i) {
+    const Contact contact = any_contact(dice);
+    const double work = dice.between(-1e-6, 1e-6);
+    for (Tally* tally : {&one, i % 2 == 0 ? &left : &right}) {
+      ++tally->of(contact.name).begun;
+      tally->end(contact, 2.0 * radius);
+      tally->impulses.work.add(work);
+      tally->brakes.add(contact, paper_model(), mass);
+      tally->visits.add(WallVisit(contact, {contact.begin, contact.end}), mass, 1.0);
+    }
+  }
+  REQUIRE(right.grains.energy_won.value() > 0.0);
+  REQUIRE(right.brakes.cut_short > 0);
+  left.merge(right);
+  CHECK(all_of(left.grains) == all_of(one.grains));
+  CHECK(all_of(left.walls) == all_of(one.walls));
+  CHECK(same_states::same(left.grains.deepest, one.grains.deepest));
+  CHECK(same_states::same(left.walls.deepest, one.walls.deepest));
+  CHECK(left.impulses.y == one.impulses.y);
+  CHECK(left.impulses.work == one.impulses.work);
+  CHECK(all_of(left.brakes) == all_of(one.brakes));
+  CHECK(all_of(left.visits) == all_of(one.visits));
+  CHECK(left.ended_at_walls.size() == one.ended_at_walls.size());
 }
 
 TEST_CASE("each wall has given what the log of events says") {
