@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 SPEED = os.path.abspath(os.environ["SPEED"])
+TUBE = pathlib.Path(__file__).resolve().parents[2] / "scenarios/periodic_tube.yaml"
 
 TOP = {"format", "format_version", "date", "quick", "part", "machine", "build", "bandwidth", "hashes_agree", "disagreements", "rows"}
 MACHINE = {"name", "cpu", "cores", "caches", "memory", "load_average"}
@@ -107,9 +108,8 @@ class LibrariesOfVectorTypes(unittest.TestCase):
 
     def test_all_come_to_the_bits_of_the_engine(self):
         with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "tube.yaml").write_text("{scenario: periodic_tube, run: {duration: 20 ms}}", encoding="utf-8")
-            subprocess.run([os.environ["RIESEL"], "run", "tube.yaml", "--out", "tube"], check=True, cwd=folder,
-                           capture_output=True)
+            subprocess.run([os.path.abspath(os.environ["RIESEL"]), "run", TUBE, "--set", "run.duration=20 ms", "--out", "tube"],
+                           check=True, cwd=folder, capture_output=True)
             done = subprocess.run([os.environ["SIMD"], f"{folder}/tube/checkpoint.h5"], check=False, text=True, capture_output=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("std::experimental::simd", done.stdout)

@@ -3,6 +3,8 @@
 A fault is (what, file, text, replacement); the text must stand in the file exactly once.
 """
 
+from faults_of_results import FAULTS_OF_RESULTS
+
 FAULTS = [
     ("what has come further begun again", "app/prolongation.cpp",
      "if (wanted.at_most < summary.time + 0.5 * step) return true;", "if (wanted.at_most < step) return true;"),
@@ -410,4 +412,5 @@ FAULTS = [
      "now() - received_at < same_wish", "now() - received_at < 0 * same_wish"),
     ("a checkpoint thrown away as its series is missing", "app/sweep_directory.cpp",
      "if (has_checkpoint(point) && !can_resume(point))", "if (!has_checkpoint(point) && can_resume(point))"),
+    *FAULTS_OF_RESULTS,
 ]
