@@ -92,14 +92,16 @@ io::DirectoryLock lock(const fs::path& sweep) {
 constexpr std::size_t usual_most_tasks = 1000;
 
 /// As they stand in the directories. Slurm's tasks leave out what has failed, unless it is to be
-/// tried again.
+/// tried again: what failed when it ran, as nothing else can be forgotten.
 void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
                        const Prolongation& prolongation, bool retry_failed) {
   prolongation.look_ahead(manifest, sweep);
   if (!retry_failed) return;
-  for (io::ManifestPoint& point : manifest.points)
-    if (point.status == to_string(RunStatus::failed))
+  for (io::ManifestPoint& point : manifest.points) {
+    const bool failed = point.status == to_string(RunStatus::failed);
+    if (failed && !io::read_run_record(point_directory(sweep, point.name)).failure.empty())
       point.status = to_string(RunStatus::interrupted);
+  }
 }
 
 /// What failed counts as stopped from now on: tasks go on with that. If they were told to try again

@@ -25,8 +25,8 @@ namespace {
 std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
   if (!record.failure.empty()) return record.failure;
   if (has_checkpoint(point) && !can_resume(point))
-    return fmt::format("{} is missing beside its checkpoint; restore it and go on with "
-                       "--retry-failed, which begins anew without it",
+    return fmt::format("{} is missing beside its checkpoint; restore it, or begin the point anew "
+                       "with --retry-failed",
                        io::run_file_name);
   return "";
 }

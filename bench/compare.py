@@ -74,6 +74,8 @@ def load(path, formats=(SUITE,)):
     if results.get("format_version") != FORMAT_VERSION:
         raise BadInput(f"{path}: has version {results.get('format_version')} of the format, "
                        f"known is {FORMAT_VERSION}")
+    if missing := {"date", "machine", "build"} - results.keys():
+        raise BadInput(f"{path}: is no whole result: {', '.join(sorted(missing))} missing")
     try:
         rows = results["rows"] if "rows" in results else [row for case in results["cases"] for row in case["rows"]]
         results["rows"] = {(r["case"], r["size"], r["variant"]): r for r in rows}
@@ -138,7 +140,7 @@ def print_between(a, b):
             print(f"{key[0]:18} {key[1]:>5}  {key[2]:22} only in B")
             continue
         base = a["rows"][key]
-        # What has no state that it starts from hashes what it comes to: of as much work.
+        # Rows without a start state hash what they come to, which is the same only after as much work.
         same_steps = row["steps_before"] == base["steps_before"] and (row["steps_before"] or row["work"] == base["work"])
         note = "" if row["state_hash"] == base["state_hash"] or not same_steps else "  other bits"
         print(f"{key[0]:18} {key[1]:>5}  {key[2]:22} {unpaired_ratio(row, base)}{note}")

@@ -77,7 +77,7 @@ void measure_ensemble(const fs::path& riesel, const fs::path& folder, const Effo
                   .size = "1.4k",
                   .variant = fmt::format("jobs {}", jobs[i]),
                   .grains = outcomes[i].grains,
-                  .threads = jobs[i],  // one of each job
+                  .threads = jobs[i],  // each job has one
                   .unit = "particle-steps",
                   .work = outcomes[i].particle_steps,
                   .timing = timings[i],

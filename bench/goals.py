@@ -4,10 +4,11 @@
     bench/goals.py                                          all of bench/results
     bench/goals.py --since 2026-11-26 bench/results/*amd*   of these files those of that date, or younger
 
-Files are results of the suite and of bench/peers/run.py, in any order; each machine has a table of its own. What was measured
-in short, with sources that were changed, or with bits that do not agree is left out. Of each result counts the median over
-its repetitions. A cell has the median over all files and their range: hours of one machine differ. Bold: each reaches the
-goal; if only some do, it says how many of how many.
+Files are results of the suite and of bench/peers/run.py, in any order; each name of a machine has a table of its own (that
+of AMD EPYC without a family stands for several processors: docs/performance-log.md). What was measured with --quick, with
+sources that were changed, or does not agree is left out. Of each result counts the median over its repetitions. A cell has
+the median over all files and their range: hours of one machine differ. Bold: each reaches the goal; if only some do, it says
+how many of how many.
 """
 
 import argparse
@@ -182,7 +183,8 @@ def parse():
 
 
 def counts(results):
-    return not (results.get("quick") or results["build"]["changed"] or results.get("disagreements"))
+    agreements = [one["agree"] for case in results.get("cases", []) for one in case.get("agreements", {}).values()]
+    return all(agreements) and not (results.get("quick") or results["build"]["changed"] or results.get("disagreements"))
 
 
 def main():
@@ -198,6 +200,8 @@ def main():
     for machine, files in machines.items():
         suites, peers = [sum(results["format"] == source for results in files) for source in (SUITE, PEERS)]
         tables.append(f"{machine}: {suites} results of the suite, {peers} beside LAMMPS\n\n{table(files)}")
+    if not tables:
+        raise BadInput("no result that counts")
     print("\n\n".join(tables))
 
 

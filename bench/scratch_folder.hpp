@@ -1,4 +1,5 @@
-// A place for files that are gone when they have served, also if an earlier run was interrupted.
+// A place for files that nobody wants any more when they have served. What an interrupted run has
+// left of it is in nobody's way.
 #pragma once
 
 #include <filesystem>

@@ -67,7 +67,21 @@ bool fits(const Flow& flow, const Machine& machine) {
   return enough;
 }
 
-/// What is to be measured. Throws std::invalid_argument if that is nothing.
+/// What the command line asks for, and cannot be done.
+struct Mistake : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Of each case that is asked for there must be one of the sizes.
+void reject_missing_sizes(const Options& options) {
+  for (const FlowCase& one : flow_cases()) {
+    const bool named = !options.cases.empty() && options.wants_case(one.name);
+    if (named && std::ranges::none_of(one.sizes, [&](auto& s) { return options.wants_size(s); }))
+      throw Mistake(one.name + ": has none of these sizes; 'speed list' tells which it has");
+  }
+}
+
+/// Without those that do not fit into the memory.
 std::vector<Flow> chosen_flows(const Options& options, const Machine& machine) {
   std::vector<Flow> chosen;
   for (const FlowCase& one : flow_cases())
@@ -75,11 +89,6 @@ std::vector<Flow> chosen_flows(const Options& options, const Machine& machine) {
       if (const Flow flow{one, size};
           options.wants_case(one.name) && options.wants_size(size) && fits(flow, machine))
         chosen.push_back(flow);
-  const auto is_flow = [](const std::string& name) {
-    return std::ranges::any_of(flow_cases(), [&](const FlowCase& one) { return one.name == name; });
-  };
-  if (chosen.empty() && !options.cases.empty() && std::ranges::all_of(options.cases, is_flow))
-    throw std::invalid_argument("nothing to measure: 'speed list' tells which sizes a case has");
   return chosen;
 }
 
@@ -113,6 +122,7 @@ void measure_all(const Options& options, const std::vector<Flow>& flows, const S
 }
 
 int run_suite(const Options& options) {
+  reject_missing_sizes(options);
   const StartStates states(options.cache);
   const std::vector<Flow> flows = chosen_flows(options, this_machine());
   make_all_states(options, flows, states);
@@ -269,7 +279,7 @@ int main(int argc, char** argv) {
       return command_line.program().exit(error) == 0 ? 0 : 2;
     }
     return command_line.command()();
-  } catch (const std::invalid_argument& mistake) {
+  } catch (const Mistake& mistake) {
     fmt::print(stderr, "speed: {}\n", mistake.what());
     return 2;
   } catch (const std::exception& error) {

@@ -20,7 +20,7 @@ namespace {
 /// To be raised when states are made differently: it goes into their names.
 constexpr int recipe = 1;
 
-io::Settings tile_of(const FlowCase& one, const std::vector<std::string>& overrides) {
+io::Settings read_settings(const FlowCase& one, const std::vector<std::string>& overrides) {
   return io::Settings::from_text(one.settings, one.name, scenarios::settings_tables(), overrides);
 }
 
@@ -92,14 +92,14 @@ State forgotten(const std::string& name, State state, const ContactModel& model)
 
 io::Settings settings_of(const FlowCase& one, const Size& size,
                          const std::vector<std::string>& overrides) {
-  const io::Settings tile = tile_of(one, overrides);
+  const io::Settings tile = read_settings(one, overrides);
   if (size.copies == 1) return tile;
   const double length = tile.number("tube.length");
   const double spacing = length / std::round(length / tile.number("wall.spacing"));
   std::vector<std::string> all = overrides;
   all.push_back(fmt::format("tube.length={:.17g}", length * size.copies));
   all.push_back(fmt::format("wall.spacing={:.17g}", spacing));
-  return tile_of(one, all);
+  return read_settings(one, all);
 }
 
 State repeated(const State& tile, int copies) {

@@ -111,16 +111,6 @@ double stored_energy(const State& state) {
   return sum.value();
 }
 
-/// Of n values, from their sum and the sum of their squares.
-double standard_deviation(double sum, double sum_of_squares, double n) {
-  const double mean = sum / n;
-  return std::sqrt(std::max(0.0, sum_of_squares / n - mean * mean));
-}
-
-}  // namespace
-
-namespace {
-
 /// kg m/s along y. Velocities have half of the kicks that act now, and grains set out with all of
 /// them: what lacks is half of what the walls give, as those of grains on each other cancel out.
 double half_of_kicks(const State& state) {
@@ -129,6 +119,12 @@ double half_of_kicks(const State& state) {
     sum.add(0.5 * state.grains.mass[i] * state.box.metres_y(state.grains.kick_y[i])
             / state.time_step);
   return sum.value();
+}
+
+/// Of n values, from their sum and the sum of their squares.
+double standard_deviation(double sum, double sum_of_squares, double n) {
+  const double mean = sum / n;
+  return std::sqrt(std::max(0.0, sum_of_squares / n - mean * mean));
 }
 
 }  // namespace

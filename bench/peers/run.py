@@ -69,9 +69,10 @@ class Riesel:
 
 
 def agreement(riesel, peer, start, settings, cores, steps):
-    """What both codes make of a state, and whether that is the same, the peer with these settings on so many cores. Over this short time the grains keep to their courses,
-    so that the numbers agree to the errors of the time step; later only statistics would. The others' errors are of first
-    order: they do ten times as many steps of a tenth. Energy tells of forces between grains, momentum of those of walls."""
+    """What both codes make of a state, and whether that is the same, the peer with these settings on so many cores. Over this
+    short time the grains keep to their courses, so that the numbers agree to the errors of the time step; later only
+    statistics would. The others' errors are of first order: they do ten times as many steps of a tenth. Energy tells of
+    forces between grains, momentum of those of walls."""
     finer = start | {"time_step": start["time_step"] / 10, "files": {peer.name: start["files"][peer.name] + "-finer"}}
     peer.write(finer)
     ours = riesel.advance(start, "plain 1", 0, steps)["state"]
@@ -251,20 +252,32 @@ def parse():
     parser.add_argument("--size", action="append", choices=SIZES, help="default: 1.4k and 10k")
     parser.add_argument("--repetitions", type=at_least_one, default=7, help="each from the state of another seed")
     parser.add_argument("--seconds", type=float, default=2.0, help="that a repetition takes the others on one core")
-    parser.add_argument("--out", type=Path, help="default: bench/results/peers-<machine>-<commit>.json, or with a number "
-                        "if that is there; written after each case")
+    parser.add_argument("--out", type=Path, help="default: bench/results/peers-<machine>-<commit>.json, with -part if not "
+                        "all is asked for, and with a number if that is there; written after each case")
     return parser.parse_args()
 
 
 def usual_place(origin, part):
-    """Of a file that is not there yet."""
+    """Of a file that was not there yet, and is now."""
     build = origin["build"]
     name = (f"peers-{origin['machine']['name']}-{build['commit'][:7]}{'-changed' if build['changed'] else ''}"
             f"{'-part' if part else ''}")
     folder, number = HERE.parent / "results", 1
-    while (path := folder / f"{name}{f'-{number}' if number > 1 else ''}.json").exists():
-        number += 1
-    return path
+    folder.mkdir(parents=True, exist_ok=True)
+    while True:
+        path = folder / f"{name}{f'-{number}' if number > 1 else ''}.json"
+        try:
+            path.touch(exist_ok=False)
+            return path
+        except FileExistsError:
+            number += 1
+
+
+def keep(results, path):
+    """The cases so far: whoever ends it in the middle has the whole file of before."""
+    beside = path.with_name(path.name + ".new")
+    beside.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    beside.replace(path)
 
 
 def main():
@@ -272,7 +285,6 @@ def main():
     riesel, peers = Riesel(options.speed), installed(options.peer)
     origin = riesel.ask("origin")
     out = options.out or usual_place(origin, part=bool(options.peer or options.case or options.size))
-    out.parent.mkdir(parents=True, exist_ok=True)
     results = {"format": PEERS, "format_version": FORMAT_VERSION,
                "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
                **origin, "peers": {peer.name: peer.version for peer in peers}, "cases": []}
@@ -283,7 +295,7 @@ def main():
             for law in LAWS:
                 if sharing := [peer for peer in peers if peer.law == law]:
                     results["cases"].append(compare_case(riesel, sharing, law, case, size, options))
-                    out.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+                    keep(results, out)
     print(f"\nkept in {out}")
     return 0 if all(one["agree"] for case in results["cases"] for one in case["agreements"].values()) else 1
 

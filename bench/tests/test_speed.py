@@ -11,7 +11,8 @@ import unittest
 SPEED = os.path.abspath(os.environ["SPEED"])
 TUBE = pathlib.Path(__file__).resolve().parents[2] / "scenarios/periodic_tube.yaml"
 
-TOP = {"format", "format_version", "date", "quick", "part", "machine", "build", "bandwidth", "hashes_agree", "disagreements", "rows"}
+TOP = {"format", "format_version", "date", "quick", "part", "machine", "build", "bandwidth", "hashes_agree", "disagreements",
+       "rows"}
 MACHINE = {"name", "cpu", "cores", "caches", "memory", "load_average"}
 BUILD = {"version", "commit", "changed", "compiler", "flags", "build_type"}
 ROW = {"case", "size", "variant", "grains", "threads", "unit", "work", "seconds", "per_second", "contacts_per_grain",
@@ -108,8 +109,8 @@ class LibrariesOfVectorTypes(unittest.TestCase):
 
     def test_all_come_to_the_bits_of_the_engine(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([os.path.abspath(os.environ["RIESEL"]), "run", TUBE, "--set", "run.duration=20 ms", "--out", "tube"],
-                           check=True, cwd=folder, capture_output=True)
+            command = [os.path.abspath(os.environ["RIESEL"]), "run", TUBE, "--set", "run.duration=20 ms", "--out", "tube"]
+            subprocess.run(command, check=True, cwd=folder, capture_output=True)
             done = subprocess.run([os.environ["SIMD"], f"{folder}/tube/checkpoint.h5"], check=False, text=True, capture_output=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("std::experimental::simd", done.stdout)

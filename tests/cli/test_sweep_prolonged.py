@@ -189,9 +189,11 @@ class Prolonged(SweepTest):
         for name in ("run.h5", "summary.json"):
             (run / name).unlink()
         before = bytes_of_files(run)
+        self.assertRegex(self.riesel("sweep", "out", "--dry-run").stdout, r"0\.7 +failed")
         result = self.riesel("sweep", "out")
         self.assertEqual(result.returncode, FAILED)
-        self.assertIn("run.h5 is missing beside its checkpoint; restore it and go on with --retry-failed", result.stdout)
+        self.assertIn("run.h5 is missing beside its checkpoint; restore it, or begin the point anew with --retry-failed",
+                      result.stdout)
         after = bytes_of_files(run)
         self.assertEqual({name: after[name] for name in after if "checkpoint" in name},
                          {name: before[name] for name in before if "checkpoint" in name})

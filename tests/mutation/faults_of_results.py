@@ -37,7 +37,8 @@ FAULTS_OF_RESULTS = [
     ("overlaps in metres", "engine/tally.cpp",
      "contact.max_overlap / reach", "contact.max_overlap + 0.0 * reach"),
     # Contacts and visits
-    ("the slip of surfaces taken for that of the centres", "engine/contact_kernel.cpp", "[i] = t.centre_slip;", "[i] = t.slip;"),
+    ("the slip of surfaces taken for that of the centres", "engine/contact_kernel.cpp",
+     "[i] = t.centre_slip;", "[i] = t.slip;"),
     ("the slip path of the centres", "engine/contact_kernel.cpp",
      "std::abs(t.slip) * u.dt", "std::abs(t.centre_slip) * u.dt"),
     ("visits by the mass of another grain", "engine/wall_watch.cpp", "mass(visit.grain)", "mass(0)"),
