@@ -28,7 +28,7 @@ class Lammps:
     name, law, about = "lammps", "viscous", 4e7
     least_steps = 200
     usual = {"skin": 0.2e-3, "every": 5}
-    choices = {"skin": (0.0125e-3, 0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3), "every": (1, 5, 10, 20, 40)}
+    choices = {"skin": (0.0125e-3, 0.025e-3, 0.05e-3, 0.1e-3, 0.2e-3, 0.3e-3, 0.45e-3, 0.6e-3), "every": (1, 5, 10, 20, 40)}
 
     def __init__(self):
         self.program = find_program("lmp", "LMP", "mpirun", "taskset")
