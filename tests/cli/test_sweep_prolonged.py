@@ -189,7 +189,7 @@ class Prolonged(SweepTest):
         for name in ("run.h5", "summary.json"):
             (run / name).unlink()
         before = bytes_of_files(run)
-        self.assertRegex(self.riesel("sweep", "out", "--dry-run").stdout, r"0\.7 +failed")
+        self.assertRegex(self.riesel("sweep", "out", "--dry-run").stdout, r"failed +contact\.restitution=0\.7")
         result = self.riesel("sweep", "out")
         self.assertEqual(result.returncode, FAILED)
         self.assertIn("run.h5 is missing beside its checkpoint; restore it, or begin the point anew with --retry-failed",
