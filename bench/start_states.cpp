@@ -92,7 +92,7 @@ State forgotten(const std::string& name, State state, const ContactModel& model)
 
 io::Settings settings_of(const FlowCase& one, const Size& size,
                          const std::vector<std::string>& overrides) {
-  const io::Settings tile = read_settings(one, overrides);
+  io::Settings tile = read_settings(one, overrides);
   if (size.copies == 1) return tile;
   const double length = tile.number("tube.length");
   const double spacing = length / std::round(length / tile.number("wall.spacing"));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -102,7 +103,7 @@ TEST_CASE("each histogram is the one that its name says") {
   }
   const auto all = histogram_tables(tally, blocks.blocks(), 0, 1.0);
   REQUIRE(all.size() == 6);
-  int times = 0;
+  std::int64_t times = 0;
   const auto check = [&](std::string_view name, std::string_view unit, double lowest) {
     const HistogramTable& table = find(all, name);
     ++times;
@@ -112,7 +113,7 @@ TEST_CASE("each histogram is the one that its name says") {
     const auto after = std::ranges::upper_bound(table.lower_edges, value);
     const auto bin = static_cast<std::size_t>(after - table.lower_edges.begin()) - 1;
     CHECK(table.counts[bin] == times * samples);
-    CHECK(table.rates[bin].value == Approx(times));
+    CHECK(table.rates[bin].value == Approx(static_cast<double>(times)));
   };
   check("grain_contact_duration", "s", 0x1p-30);
   check("grain_contact_overlap", "1", 0x1p-28);
