@@ -275,6 +275,7 @@ def usual_place(origin, part):
 
 def keep(results, path):
     """The cases so far: whoever ends it in the middle has the whole file of before."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(path.name + ".new")
     beside.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
     beside.replace(path)
@@ -290,6 +291,7 @@ def main():
                **origin, "peers": {peer.name: peer.version for peer in peers}, "cases": []}
     print(f"riesel {origin['build']['commit'][:7]}, {', '.join(f'{peer.name} {peer.version}' for peer in peers)}\n"
           f"{origin['machine']['cpu']}, {origin['machine']['cores']} cores, load {origin['machine']['load_average'][0]:.2f}")
+    keep(results, out)  # where that cannot be done is told now
     for case in options.case or CASES:
         for size in options.size or SIZES[:2]:
             for law in LAWS:
