@@ -263,7 +263,6 @@ def usual_place(origin, part):
     name = (f"peers-{origin['machine']['name']}-{build['commit'][:7]}{'-changed' if build['changed'] else ''}"
             f"{'-part' if part else ''}")
     folder, number = HERE.parent / "results", 1
-    folder.mkdir(parents=True, exist_ok=True)
     while True:
         path = folder / f"{name}{f'-{number}' if number > 1 else ''}.json"
         try:

@@ -34,6 +34,15 @@ class Validity(CommandTest):
         self.assertEqual(result.returncode, DONE, result)  # a busy machine may report progress
         return self.summary(self.home / out), result.stdout
 
+    def series(self, out):
+        with h5py.File(self.home / out / "run.h5", "r") as file:
+            return {name: data[()] for name, data in file["series"].items()}
+
+    @staticmethod
+    def gained_after_the_transient(summary, series):
+        first = int(round(summary["transient_end"] / 1e-3))  # rows are 1 ms apart
+        return {name: column[-1] - column[first] for name, column in series.items()}
+
 
 class Verdicts(Validity):
 
@@ -111,10 +120,8 @@ class WallVisits(Validity):
     def test_the_means_are_those_of_the_series(self):
         summary, _ = self.tube("run")
         visits = summary["wall_visits"]
-        with h5py.File(self.home / "run/run.h5", "r") as file:
-            series = {name: data[()] for name, data in file["series"].items()}
-        first = int(round(summary["transient_end"] / 1e-3))
-        gained = {name: column[-1] - column[first] for name, column in series.items()}
+        series = self.series("run")
+        gained = self.gained_after_the_transient(summary, series)
         self.assertEqual(visits["visits"], gained["wall_visits"])
         self.assertGreater(visits["visits"], 50)
         for name in ("contacts", "dv_y", "dv_x", "entry_rate", "entry_slip"):
@@ -141,12 +148,10 @@ class WallVisits(Validity):
         validity = summary["validity"]
         found = {finding["name"]: finding["value"] for finding in validity["findings"]}
         with h5py.File(self.home / "fast/run.h5", "r") as file:
-            series = {name: data[()] for name, data in file["series"].items()}
             histograms = [(file[f"histograms/{kind}_contact_duration/count"][()],
                            file[f"histograms/{kind}_contact_duration/lower_edge"][()]) for kind in ("grain", "wall")]
             time_step = file["final"].attrs["time"] / file["final"].attrs["step"]
-        first = int(round(summary["transient_end"] / 1e-3))
-        gained = {name: column[-1] - column[first] for name, column in series.items()}
+        gained = self.gained_after_the_transient(summary, self.series("fast"))
         for name, part, whole, unit in (
                 ("brake_failure_fraction", "wall_braking_cut_short", "wall_braking", 1.0),
                 ("passages_per_wall_visit", "wall_contacts_cut_short", "wall_visits", 1.0),
