@@ -26,11 +26,13 @@ bool Askew::pays(const State& state) const { return memory_of(state) >= least; }
 
 std::int64_t Askew::most_steps(const State& state) const { return pays(state) ? steps : 1; }
 
-std::size_t Askew::slices_per_thread(const State& state, int threads) const {
+std::size_t Askew::slices_per_thread(const State& state, int threads, bool by_flights) const {
+  constexpr double of_flights = 2.0;  // over those of plain stepping
   // So that slices have enough rows even where grains are denser than elsewhere.
   constexpr double rows_per_slice = 10.0;
   if (!pays(state)) return 1;
-  const double all = std::min(memory_of(state) / slice, Candidates::rows(state) / rows_per_slice);
+  const double size = by_flights ? of_flights * slice : slice;
+  const double all = std::min(memory_of(state) / size, Candidates::rows(state) / rows_per_slice);
   const auto slices = static_cast<std::size_t>(all / threads);
   return slices * static_cast<std::size_t>(threads) < 3 ? 1 : slices;
 }

@@ -19,9 +19,10 @@ namespace riesel {
 
 /// How slices go askew. The results do not depend on it.
 struct Askew {
-  /// Bytes of a slice, or more where the box is wide: so few that as many slices as there are steps
-  /// between the first and the last fit into a part of the last cache.
-  double slice = 0.7e6;
+  /// Bytes of a slice in plain stepping, or more where the box is wide: so few that as many slices
+  /// as there are steps between the first and the last fit into a part of the last cache. Flights,
+  /// which touch less of a slice in a step, have slices twice as large.
+  double slice = 0.35e6;
   std::int64_t steps = 12;  ///< that one slice is ahead of another at most
   /// Bytes: what takes less fits into the caches as it is, and all slices do each step together.
   double least = 30e6;
@@ -37,7 +38,7 @@ struct Askew {
   /// That one slice may be ahead of another in this state; 1: all do each step together.
   std::int64_t most_steps(const State& state) const;
   /// How many slices each of the threads is to have: one if they cannot go askew.
-  std::size_t slices_per_thread(const State& state, int threads) const;
+  std::size_t slices_per_thread(const State& state, int threads, bool by_flights) const;
   /// Whether flights with so many contacts gain by it. If they go askew `now`, somewhat fewer are
   /// enough, so that it is not now one, now the other.
   bool flights_gain(std::size_t contact_count, std::size_t grains, bool now) const;

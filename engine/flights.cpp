@@ -10,8 +10,8 @@ Flights::Flights(State& state, const ContactModel& model, Candidates& candidates
     : airspace_(state, model, candidates),
       askew_(askew),
       most_steps_askew_(askew.most_steps(state)),
-      may_go_askew_(askew.slices_per_thread(state, static_cast<int>(candidates.team().members()))
-                    > 1),
+      may_go_askew_(
+          askew.slices_per_thread(state, static_cast<int>(candidates.team().members()), true) > 1),
       progress_(candidates.slices().size()) {
   for (std::size_t number = 0; number < candidates.team().members(); ++number) {
     const std::span<Slice> share = candidates.share(number);

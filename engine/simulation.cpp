@@ -42,7 +42,7 @@ int team_size(int wanted) {
 /// grains that slices go askew: docs/performance-log.md.
 bool flights_look_faster(const State& state, int threads, const Askew& askew) {
   const auto contacts = static_cast<double>(state.contacts.size());
-  const double price = askew.slices_per_thread(state, threads) > 1 ? 6.0 : 2.5;
+  const double price = askew.slices_per_thread(state, threads, true) > 1 ? 6.0 : 2.5;
   return price * contacts < static_cast<double>(state.grains.size());
 }
 
@@ -102,14 +102,19 @@ Simulation::Simulation(State state, const ContactModel& model, int threads, Step
       model_(model),
       threads_(team_size(threads)),
       askew_(sound(askew)),
-      slices_alone_(askew_.slices_per_thread(state_, 1)),
-      slices_together_(askew_.slices_per_thread(state_, threads_)),
+      slices_(askew_slices(false)),
+      slices_of_flights_(askew_slices(true)),
       choice_(ways(stepping, sharing, state_, threads_, askew_)),
       wall_watch_(state_, model_) {
   prepare();
 }
 
 Simulation::~Simulation() = default;
+
+Simulation::Slices Simulation::askew_slices(bool by_flights) const {
+  return {.alone = askew_.slices_per_thread(state_, 1, by_flights),
+          .together = askew_.slices_per_thread(state_, threads_, by_flights)};
+}
 
 void Simulation::start_profile() {
   profile_ = Profile(true);
@@ -162,11 +167,12 @@ void Simulation::advance_piece(std::int64_t last) {
 
 Simulation::Preparation Simulation::wanted() const {
   const auto [by_flights, threads, apart] = choice_.way();
-  const std::size_t slices = threads == 1 ? slices_alone_ : slices_together_;
+  const Slices& slices = by_flights ? slices_of_flights_ : slices_;
   const bool before = prepared_ && prepared_->manner.slices_per_thread > 1;
   const bool askew =
       !by_flights || askew_.flights_gain(state_.contacts.size(), state_.grains.size(), before);
-  return {{by_flights, threads, askew ? slices : 1}, apart};
+  const std::size_t many = threads == 1 ? slices.alone : slices.together;
+  return {{by_flights, threads, askew ? many : 1}, apart};
 }
 
 /// Whoever is to step the grains starts from the state alone, as after a checkpoint.

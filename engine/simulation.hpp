@@ -77,8 +77,12 @@ private:
   ContactModel model_;
   const int threads_;
   const Askew askew_;
-  /// Slices of each thread if they go askew: of one thread alone, and of all.
-  const std::size_t slices_alone_, slices_together_;
+  /// Slices of each thread if they go askew: of one thread alone, and of all together.
+  struct Slices {
+    std::size_t alone, together;
+  };
+  Slices askew_slices(bool by_flights) const;
+  const Slices slices_, slices_of_flights_;
   SteppingChoice choice_;
   Profile profile_;
   std::optional<Preparation> prepared_;  // of one of the two

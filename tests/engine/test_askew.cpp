@@ -23,7 +23,9 @@ constexpr Askew small_slices{.slice = 4e3, .steps = 8, .least = 0.0, .contacts =
 
 State askew(const State& state, const ContactModel& model, std::int64_t steps, int threads,
             const Askew& how = small_slices, Stepping stepping = Stepping::plain) {
-  Simulation simulation(state, model, threads, stepping, how);
+  Askew of_as_many_grains = how;
+  if (stepping == Stepping::windows) of_as_many_grains.slice *= 0.5;  // flights have larger ones
+  Simulation simulation(state, model, threads, stepping, of_as_many_grains);
   simulation.advance(steps);
   return simulation.state();
 }
@@ -132,7 +134,7 @@ State blows(bool across) {
 
 TEST_CASE("slices go askew without a look only where grains have room for all steps") {
   State tube = long_tube(0.1);
-  const std::size_t slices = small_slices.slices_per_thread(tube, 1);
+  const std::size_t slices = small_slices.slices_per_thread(tube, 1, false);
   Candidates candidates(tube, CappedSlip{}, 1, Candidates::plain_stepping, slices);
   const auto ahead = [&](std::int64_t step) {
     return candidates.steps_ahead(step, small_slices.steps);
@@ -160,15 +162,16 @@ TEST_CASE("slices go askew without a look only where grains have room for all st
 TEST_CASE("slices of a long tube go ahead of each other") {
   for (const double polydispersity : {0.0, 0.1, 0.2}) {
     const State tube = long_tube(polydispersity);
-    const std::size_t slices = small_slices.slices_per_thread(tube, 1);
+    const std::size_t slices = small_slices.slices_per_thread(tube, 1, false);
     CHECK(slices >= 6);
     CHECK(steps_ready(tube, slices) == small_slices.steps);
     CHECK(steps_ready(advanced(tube, paper_model(), 600), slices) > 2);
   }
   for (const State& state : {springs_across(0.2), springs_along(0.2, 1.0)})
-    CHECK(steps_ready(state, small_slices.slices_per_thread(state, 1)) == small_slices.steps);
+    CHECK(steps_ready(state, small_slices.slices_per_thread(state, 1, false))
+          == small_slices.steps);
   for (const State& state : {blows(false), blows(true)})
-    CHECK(long_lead.slices_per_thread(state, 2) >= 2);
+    CHECK(long_lead.slices_per_thread(state, 2, false) >= 2);
 }
 
 TEST_CASE("slices do each step together where pairs may be of slices that are no neighbours") {
@@ -189,13 +192,13 @@ TEST_CASE("slices without memory or steps are refused") {
 
 TEST_CASE("each thread has one slice where slices could not go askew") {
   const State tube = long_tube(0.1);
-  CHECK(Askew{}.slices_per_thread(tube, 1) == 1);  // so few grains
-  CHECK(Askew{}.most_steps(tube) == 1);            // also where many threads have a slice each
+  CHECK(Askew{}.slices_per_thread(tube, 1, false) == 1);  // so few grains
+  CHECK(Askew{}.most_steps(tube) == 1);  // also where many threads have a slice each
   CHECK(small_slices.most_steps(tube) == small_slices.steps);
-  CHECK(small_slices.slices_per_thread(small_tube(31), 1) == 1);
+  CHECK(small_slices.slices_per_thread(small_tube(31), 1, false) == 1);
   State wide = tube;
   wide.box.length = 30.0 * diameter;
-  CHECK(small_slices.slices_per_thread(wide, 1) == 1);
+  CHECK(small_slices.slices_per_thread(wide, 1, false) == 1);
 }
 
 TEST_CASE("slices go askew sooner, and are of fewer grains, where grains are close together") {
@@ -204,7 +207,10 @@ TEST_CASE("slices go askew sooner, and are of fewer grains, where grains are clo
   dilute.box.length *= 10.0;
   const auto grains = static_cast<double>(dense.grains.size());
   constexpr Askew large_slices{.slice = 10e3, .least = 0.0};
-  CHECK(large_slices.slices_per_thread(dense, 1) > large_slices.slices_per_thread(dilute, 1));
+  CHECK(large_slices.slices_per_thread(dense, 1, false)
+        > large_slices.slices_per_thread(dilute, 1, false));
+  CHECK(large_slices.slices_per_thread(dense, 1, true)
+        == large_slices.slices_per_thread(dense, 1, false) / 2);
   CHECK(Askew{.least = 120.0 * grains}.pays(dense));
   CHECK_FALSE(Askew{.least = 120.0 * grains}.pays(dilute));
   CHECK(Askew{.least = 100.0 * grains}.pays(dilute));
@@ -218,8 +224,8 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
   throw_grains(start, 200,
                {.left = 0.0, .right = 12e-3, .low = 100e-3, .high = 125e-3, .speed = 3.0}, dice);
   constexpr Askew tiny_slices{.slice = 600.0, .steps = 8, .least = 0.0, .contacts = 0.0};
-  REQUIRE(tiny_slices.slices_per_thread(start, 1) > 25);
-  REQUIRE(steps_ready(start, tiny_slices.slices_per_thread(start, 1)) == 1);
+  REQUIRE(tiny_slices.slices_per_thread(start, 1, false) > 25);
+  REQUIRE(steps_ready(start, tiny_slices.slices_per_thread(start, 1, false)) == 1);
   const State expected = advanced(start, paper_model(), 500, 1, Stepping::plain);
   REQUIRE(expected.tally.grains.begun > 50);
   const int threads = GENERATE(1, 2);
