@@ -108,6 +108,7 @@ void print_shaking(const State& state) {
   if (!motion.oscillates()) return;
   const double omega = 2.0 * std::numbers::pi * motion.frequency;
   const double speed = motion.fastest_oscillation();
+  if (speed == 0.0) return;  // it has been stopped away from its place
   const double gravity = std::hypot(state.gravity.x, state.gravity.y);
   line("walls shake", "up to {:.3g} m/s and {:.3g} m/s^2{}, {:.0f} steps per period", speed,
        omega * speed, gravity > 0.0 ? fmt::format(" ({:.3g} g)", omega * speed / gravity) : "",
@@ -187,8 +188,7 @@ void print_brake(const scenarios::Flow& flow, double across, double mean_vy) {
            "is above v_crit (brake failure): give start.random_velocity");
     return;
   }
-  const double t_col =
-      collision_time(flow.model.normal, mean_mass(flow.state.grains), std::max(across, 1e-3));
+  const double t_col = collision_time(flow.model.normal, mean_mass(flow.state.grains), across);
   const double reach = 0.5 * mean_diameter(flow.state.grains) + wall.radius;
   print_critical_velocity(chord_of_impact(reach, across, t_col), t_col, std::abs(mean_vy));
 }

@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -347,6 +348,7 @@ int run_program(int argc, char** argv) {
   app::occupy_closed_streams();
   app::heed_ends_of_children();
   app::end_on_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // the write that is cut off tells of it then (EFBIG)
   std::set_new_handler(give_up_without_memory);
   CommandLine line(argc, argv);
   try {

@@ -4,6 +4,7 @@
 #include "app/resumed_settings.hpp"
 #include "app/run_flow.hpp"
 #include "app/terminal.hpp"
+#include "engine/histogram_blocks.hpp"
 #include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
@@ -73,11 +74,15 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
     settings.reject(length.key, fmt::format("the run has come to {:.6g} s already", state.time()),
                     "choose a longer time");
   scenarios::reject_too_many_steps(settings, length, state.time_step);
-  if (found.checkpoint.rows > 0
-      && found.checkpoint.profiles.columns() != Strips::of(state).columns())
-    throw UnusableInput(found.path.string()
-                        + ": is damaged (its profiles are not those of this tube); start the run "
-                          "again");
+  const auto damaged = [&](const std::string& flaw) {
+    return UnusableInput(found.path.string() + ": is damaged (" + flaw + "); start the run again");
+  };
+  if (found.checkpoint.rows > 0) {
+    if (found.checkpoint.profiles.columns() != Strips::of(state).columns())
+      throw damaged("its profiles are not those of this tube");
+    if (found.checkpoint.histograms.columns() != HistogramBlocks().blocks().columns())
+      throw damaged("its histograms are not those of this version");
+  }
   return resume_flow(settings, std::move(found.checkpoint), std::move(directory), arguments,
                      options.flow);
 }

@@ -80,7 +80,7 @@ const std::vector<Entry>& entries() {
        [](auto& o, auto&) { return o.energies.wall_work; }},
       {{"normal_loss", "J", "Dissipated by normal damping since the start."},
        [](auto& o, auto&) { return o.energies.normal_loss; }},
-      {{"friction_loss", "J", "Dissipated by friction since the start."},
+      {{"friction_loss", "J", "Dissipated by friction and resistance to rolling since the start."},
        [](auto& o, auto&) { return o.energies.friction_loss; }},
       {{"energy_residual", "J", "What is missing in the balance of energy."},
        [](auto& o, auto&) { return o.energies.residual; }},

@@ -80,7 +80,8 @@ struct WallLattice {
   bool smooth() const { return count == 0; }
   /// Whether it can be one: of the number and the size of its grains.
   bool sound() const {
-    return smooth() ? radius == 0.0 : count > 0 && radius > 0.0 && std::isfinite(radius);
+    if (smooth()) return radius == 0.0;
+    return count > 0 && count <= INT32_MAX && radius > 0.0 && std::isfinite(radius);
   }
   /// m, from its line to the farthest point that it ever covers.
   double reach() const { return radius + std::abs(motion.amplitude_x); }

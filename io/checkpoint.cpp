@@ -203,6 +203,11 @@ std::string flaw_of(const Checkpoint& checkpoint) {
   for (const TimeBlocks* blocks : {&checkpoint.profiles, &checkpoint.histograms})
     if (!std::ranges::all_of(blocks->sums(), [](double sum) { return std::isfinite(sum); }))
       return "a sum over a block of time is not finite";
+  for (const auto& [name, blocks] : {std::pair{"profiles", &checkpoint.profiles},
+                                     std::pair{"histograms", &checkpoint.histograms}})
+    if (blocks->columns() > 0 && blocks->samples() != checkpoint.rows)
+      return fmt::format("the {} have {} samples, and there are {} rows", name, blocks->samples(),
+                         checkpoint.rows);
   if (checkpoint.state.walls.empty()) return "there are no walls";
   return riesel::flaw_of(checkpoint.state);
 }

@@ -85,7 +85,8 @@ void check(const FinalState& state) {
   require(!state.grains.empty(), "there are no grains");
   require(std::ranges::all_of(state.grains, [](const Grain& g) { return is_sound(g); }),
           "a grain has impossible values");
-  require(std::ranges::all_of(state.walls, [](const WallLattice& w) { return is_sound(w); }),
+  require(state.walls.size() <= WallImpulses::most_walls
+              && std::ranges::all_of(state.walls, [](const WallLattice& w) { return is_sound(w); }),
           "a wall has impossible values");
   require(std::ranges::all_of(state.contacts,
                               [&](const Contact& c) {

@@ -58,6 +58,8 @@ Problem prepare(const io::Settings& settings) {
   setup.bead_radius = 0.5 * settings.number("grains.diameter");
   setup.bead_mass = settings.number("grains.mass");
   setup.velocity = settings.number("column.velocity");
+  reject_heavy_bodies(settings, "grains.mass", setup.beads * setup.bead_mass, "column.velocity",
+                      setup.velocity);
   setup.model = contact_model(settings);
   setup.collision_time = collision_time(settings, setup.model, setup.bead_mass);
   setup.time_step =

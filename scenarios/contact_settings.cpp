@@ -1,6 +1,7 @@
 #include "scenarios/contact_settings.hpp"
 
 #include "engine/closed_forms.hpp"
+#include "engine/exact_sum.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
@@ -77,6 +78,18 @@ ContactModel contact_model(const io::Settings& settings) {
           .attraction = attraction(settings),
           .rolling_friction =
               inertia(settings) > 0.0 ? settings.number("contact.rolling_friction") : 0.0};
+}
+
+void reject_heavy_bodies(const io::Settings& settings, const std::string& mass_key, double mass,
+                         const std::string& speed_key, double speed) {
+  constexpr double contacts = 1000.0;  // that are summed up, generously
+  constexpr double most = ExactSum::largest_sum / contacts;
+  if (std::max(mass, 1.0) * std::max(speed * speed, 1.0) < most) return;
+  settings.reject(
+      mass > 1.0 ? mass_key : speed_key,
+      fmt::format("{:.3g} kg at {:.3g} m/s are beyond what sums over contacts hold", mass, speed),
+      "choose less (do masses and velocities have their units?); stiffness may be "
+      "scaled with the mass, which changes no motion");
 }
 
 double inertia(const io::Settings& settings) {

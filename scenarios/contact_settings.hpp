@@ -15,6 +15,11 @@ double collision_time(const io::Settings& settings, const ContactModel& model, d
 double time_step(const io::Settings& settings, const ContactModel& model, double collision_time,
                  double reduced_mass);
 
+/// Rejects bodies whose momenta or energies (of so many kg and m/s) are beyond what sums over their
+/// contacts hold.
+void reject_heavy_bodies(const io::Settings& settings, const std::string& mass_key, double mass,
+                         const std::string& speed_key, double speed);
+
 /// Moment of inertia of the grains over m r^2; 0: they do not rotate.
 double inertia(const io::Settings& settings);
 

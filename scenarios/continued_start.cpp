@@ -84,6 +84,25 @@ void go_on_from(const WallMotion& before, const State& earlier, WallMotion& moti
   motion.start = wrapped_difference(y_of(before, earlier.step), y_of(motion, 0));
 }
 
+bool alike(double a, double b) {
+  constexpr double rounding = 1e-12;
+  return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
+}
+
+bool alike(const WallLattice& a, const WallLattice& b) {
+  return alike(a.line, b.line) && alike(a.radius, b.radius) && a.count == b.count;
+}
+
+/// Also of scenarios from outside, whose settings nobody here knows: places are parts of the box.
+void reject_other_box(const io::Settings& settings, const State& earlier, const State& empty) {
+  if (alike(earlier.box.width, empty.box.width) && alike(earlier.box.length, empty.box.length)
+      && std::ranges::equal(earlier.walls, empty.walls,
+                            [](const auto& a, const auto& b) { return alike(a, b); }))
+    return;
+  settings.reject(from_key, "has a state in another box or between other walls than these settings",
+                  "make them equal: box and walls are those of the earlier run");
+}
+
 }  // namespace
 
 State earlier_state(const io::Settings& settings, const State& empty) {
@@ -99,6 +118,7 @@ State earlier_state(const io::Settings& settings, const State& empty) {
                     fmt::format("has a state with {} wall{}, and {} has {}", walls,
                                 walls == 1 ? "" : "s", settings.scenario(), empty.walls.size()),
                     "give the checkpoint.h5 that a run of this scenario has written");
+  reject_other_box(settings, checkpoint.state, empty);
   return std::move(checkpoint.state);
 }
 

@@ -39,6 +39,8 @@ ImpactCurve empty_curve(const io::Settings& settings, double wall_spacing) {
   setup.grain_mass = settings.number("grains.mass");
   setup.wall_grain_radius = 0.5 * settings.number("wall.grain_diameter");
   setup.wall_spacing = wall_spacing;
+  reject_heavy_bodies(settings, "grains.mass", setup.grain_mass, "impact.axial_velocity",
+                      std::ranges::max(settings.numbers("impact.axial_velocity")));
   setup.model = contact_model(settings);
   setup.inertia = inertia(settings);
   setup.collision_time = collision_time(settings, setup.model, setup.grain_mass);

@@ -207,6 +207,7 @@ std::optional<std::vector<Place>> grown(const State& empty, std::vector<Place> p
 
 std::optional<std::vector<Place>> pack(const State& empty, const std::vector<double>& radii,
                                        std::uint64_t seed) {
+  if (radii.empty()) return std::vector<Place>{};
   const double largest = *std::max_element(radii.begin(), radii.end());
   const Lattice lattice = widest_lattice(empty, radii.size(), largest);
   std::vector<Place> places = occupied_sites(lattice, radii.size(), seed);

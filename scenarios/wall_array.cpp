@@ -5,10 +5,13 @@
 // touches two and more wall grains before it leaves, and the loss of axial velocity rises again:
 // the paper's emergency brake.
 #include "engine/closed_forms.hpp"
+#include "scenarios/contact_settings.hpp"
 #include "scenarios/impact_settings.hpp"
 #include "scenarios/walls.hpp"
 
 #include <fmt/core.h>
+
+#include <algorithm>
 
 namespace riesel::scenarios {
 
@@ -91,7 +94,10 @@ Problem prepare(const io::Settings& settings) {
   for (std::size_t i = 0; i < starts.size(); ++i)
     starts[i] = static_cast<double>(i) * spacing / static_cast<double>(starts.size());
 
-  for (const double v_x : settings.numbers("impact.normal_velocity")) {
+  const std::vector<double> towards = settings.numbers("impact.normal_velocity");
+  reject_heavy_bodies(settings, "grains.mass", curve.setup.grain_mass, "impact.normal_velocity",
+                      std::ranges::max(towards));
+  for (const double v_x : towards) {
     const double chord = chord_of_impact(curve.setup.reach(), v_x, curve.setup.collision_time);
     for (const double v_y : settings.numbers("impact.axial_velocity"))
       add_point(settings, curve, v_x, v_y, height, starts, chord);

@@ -3,6 +3,7 @@
 import pathlib
 import random
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -107,6 +108,16 @@ class Interruption(CommandTest):
         self.wait_until((self.out / "checkpoint.h5").exists, "the first checkpoint")
         self.assertTrue(catches(process.pid, signal.SIGTERM))
         self.assertFalse(catches(process.pid, signal.SIGHUP))
+
+    def test_a_limit_on_the_size_of_files_is_an_error_of_writing(self):
+        """Which the system tells by a signal besides."""
+        most = 20_000  # bytes, less than run.h5 has
+        process = self.start("run", "long.yaml", "--out", "out", "--threads", 1,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 1, stderr)
+        self.assert_one_message(stderr, "File too large", "raise the limit on the size of files")
+        self.assertEqual(list(self.out.glob("*.tmp")), [])
 
     def test_one_wish_may_come_several_times(self):
         """Of a terminal that goes, or of whoever ends all processes."""

@@ -22,10 +22,10 @@ Checkpoint special_checkpoint(std::size_t grains = 4, double inertia = 0.0) {
           .source = "# mine\nscenario: periodic_tube\n",
           .run = 0xfedcba9876543210U,
           .warnings = {"limits.speed is exceeded", "limits.overlap is exceeded"},
-          .rows = 12345,
+          .rows = 5,
           .wall_seconds = 0.1,
           .profiles = TimeBlocks(3, 5, 2, {1.0 / 3.0, -0.0, 1e300, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0}),
-          .histograms = TimeBlocks(2, 3, 2, {11.0, 0.0, 12.0, 13.0})};
+          .histograms = TimeBlocks(2, 5, 4, {11.0, 0.0, 12.0, 13.0})};
 }
 
 std::string bits_of(const Checkpoint& checkpoint) {
@@ -373,21 +373,25 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "a sum over a block of time is not finite");
   CHECK(refusal([](auto& c) { c.histograms = TimeBlocks(1, 1, 1, {infinity}); })
         == "a sum over a block of time is not finite");
+  CHECK(refusal([](auto& c) { c.rows = 4; })
+        == "the profiles have 5 samples, and there are 4 rows");
+  CHECK(refusal([](auto& c) { c.histograms = TimeBlocks(1, 6, 8, {1.0}); })
+        == "the histograms have 6 samples, and there are 5 rows");
 }
 
 TEST_CASE("The newest good generation of a checkpoint is found") {
   const ScratchDirectory directory;
   const auto path = directory / checkpoint_name;
   auto checkpoint = special_checkpoint();
-  for (const std::int64_t rows : {1, 2}) {
-    checkpoint.rows = rows;
+  for (const double seconds : {1.0, 2.0}) {
+    checkpoint.wall_seconds = seconds;
     write_checkpoint(path, checkpoint);
   }
   const auto from = GENERATE(true, false) ? directory.path() : path;
 
   SECTION("the newest") {
     const auto found = find_checkpoint(from);
-    CHECK(found.checkpoint.rows == 2);
+    CHECK(found.checkpoint.wall_seconds == 2);
     CHECK(found.path == path);
     CHECK(found.note.empty());
   }
@@ -395,14 +399,14 @@ TEST_CASE("The newest good generation of a checkpoint is found") {
     fs::resize_file(path, 1000);
     CHECK(error_of_reading(path).ends_with("; use " + previous_generation(path).string()));
     const auto found = find_checkpoint(from);
-    CHECK(found.checkpoint.rows == 1);
+    CHECK(found.checkpoint.wall_seconds == 1);
     CHECK(found.path == previous_generation(path));
     CHECK(found.note == path.string() + ": is damaged (its length or checksum is wrong)");
   }
   SECTION("the one before, as the newest is missing") {
     fs::remove(path);
     const auto found = find_checkpoint(from);
-    CHECK(found.checkpoint.rows == 1);
+    CHECK(found.checkpoint.wall_seconds == 1);
     CHECK(found.note == path.string() + ": cannot be opened: No such file or directory");
   }
   SECTION("none") {

@@ -46,6 +46,14 @@ TEST_CASE("the limit of hard beads has the restitutions of both kinds of contact
   CHECK(c.rigid.restitution > 0.0);
 }
 
+TEST_CASE("beads that sums do not hold are refused") {
+  CHECK(complaint(column_yaml, {"grains.mass=1 t", "contact.stiffness=2e12"}) == "accepted");
+  check_mentions(complaint(column_yaml, {"grains.mass=1e12 kg", "contact.stiffness=2e21"}),
+                 {"grains.mass:", "sums over contacts", "units"});
+  check_mentions(complaint(column_yaml, {"column.velocity=100 km/s"}),
+                 {"column.velocity:", "sums over contacts"});
+}
+
 TEST_CASE("laws whose restitution is not known are refused") {
   check_mentions(
       complaint(column_yaml, {"contact.law=hertz", "contact.stiffness=1e5", "contact.damping=1"}),

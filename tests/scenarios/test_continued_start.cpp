@@ -6,6 +6,7 @@
 #include "io/durable_file.hpp"
 #include "scenarios/continued_start.hpp"
 #include "tests/io/file_fixture.hpp"
+#include "tests/message_of.hpp"
 #include "tests/ordered_grains.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
@@ -193,6 +194,25 @@ TEST_CASE("A continued start is refused where the earlier run does not fit") {
   check_mentions(complaint(yaml, {"start.from=/nowhere"}), {"start.from", "has no effect"});
   check_mentions(complaint(continued, {"start.axial_velocity=1"}), {"has no effect"});
   check_mentions(complaint(yaml, {"start.kind=continued"}), {"start.from", "is missing"});
+}
+
+TEST_CASE("A continued start is refused by its state where no setting tells the difference") {
+  const EarlierRun earlier;
+  const io::Settings settings = io::Settings::from_text(continued_yaml(earlier.directory()), "t",
+                                                        scenarios::settings_tables());
+  const State fits = flow(yaml).state;
+  CHECK_NOTHROW(scenarios::earlier_state(settings, fits));
+  const auto refused = [&](auto change) {
+    State other = fits;
+    change(other);
+    return message_of<io::SettingsError>([&] { scenarios::earlier_state(settings, other); });
+  };
+  const std::vector<std::string> mentions{"start.from", "another box or between other walls"};
+  check_mentions(refused([](State& s) { s.box.width *= 1.001; }), mentions);
+  check_mentions(refused([](State& s) { s.box.length *= 1.001; }), mentions);
+  check_mentions(refused([](State& s) { s.walls[1].line *= 1.001; }), mentions);
+  check_mentions(refused([](State& s) { s.walls[0].radius *= 1.001; }), mentions);
+  check_mentions(refused([](State& s) { ++s.walls[0].count; }), mentions);
 }
 
 TEST_CASE("Velocities half a step before a continued start are those that it holds") {

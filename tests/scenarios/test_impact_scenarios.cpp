@@ -116,3 +116,11 @@ TEST_CASE("more impacts than a summary holds are refused") {
   check_mentions(complaint(array_yaml, {"impact.normal_velocity=" + many, "impact.starts=10000"}),
                  {"impact.starts:", "impacts in", "more than 10000000"});
 }
+
+TEST_CASE("impacts that sums do not hold are refused") {
+  for (const std::string& yaml : {single_yaml, array_yaml})
+    check_mentions(complaint(yaml, {"grains.mass=1e15 kg", "contact.stiffness=2e24"}),
+                   {"grains.mass:", "sums over contacts"});
+  check_mentions(complaint(single_yaml, {"impact.axial_velocity=[1 m/s, 1000 km/s]"}),
+                 {"impact.axial_velocity:", "sums over contacts"});
+}

@@ -221,3 +221,9 @@ TEST_CASE("masses go as the areas, and a grain of the mean diameter has the mass
     CHECK_THAT(grain.mass, WithinAbs(2e-6 * relative * relative, 1e-19));
   }
 }
+
+TEST_CASE("no grains are packed at no places") {
+  const auto places = scenarios::pack(tube().state, {}, 1);
+  REQUIRE(places);
+  CHECK(places->empty());
+}
