@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pathlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, overload
+from typing import overload
 
 import h5py
 import numpy as np
@@ -57,19 +57,16 @@ class Trajectory(Sequence[Frame]):
     def __getitem__(self, index: slice) -> list[Frame]: ...
 
     def __getitem__(self, index: int | slice) -> Frame | list[Frame]:
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        index = range(len(self))[index]
+        # Opened anew for each frame of a loop, too: a run that goes on writes over what HDF5 knows
+        # of the file (its outline, io/trajectory_file.hpp).
         with opened(self._path, _REMEDY) as file:
-            if isinstance(index, slice):
-                return [self._frame(file, i) for i in range(*index.indices(len(self)))]
-            return self._frame(file, range(len(self))[index])
-
-    def __iter__(self) -> Iterator[Frame]:
-        with opened(self._path, _REMEDY) as file:
-            yield from (self._frame(file, i) for i in range(len(self)))
-
-    def _frame(self, file: Any, index: int) -> Frame:
-        grains, walls = file["particles/grains"], file["particles/walls/position"]
-        return Frame(time=float(self.time[index]), step=int(self.step[index]),
-                     position=grains["position/value"][index, :, :2],
-                     velocity=grains["velocity/value"][index, :, :2],
-                     spin=grains["spin/value"][index] if "spin" in grains else None,
-                     wall_position=walls["value"][index, :, :2] if self.walls_move else walls[:, :2])
+            grains, walls = file["particles/grains"], file["particles/walls/position"]
+            return Frame(time=float(self.time[index]), step=int(self.step[index]),
+                         position=grains["position/value"][index, :, :2],
+                         velocity=grains["velocity/value"][index, :, :2],
+                         spin=grains["spin/value"][index] if "spin" in grains else None,
+                         wall_position=walls["value"][index, :, :2] if self.walls_move
+                         else walls[:, :2])

@@ -166,6 +166,24 @@ class Flow(CommandTest):
         self.assertEqual(run.provenance["git_commit"], run.summary["commit"])
 
 
+class GrowingTrajectory(CommandTest):
+
+    def test_a_loop_over_frames_outlives_the_checkpoints_of_a_run_that_goes_on(self):
+        directory = self.run_small_tube("run", "--set", "output.trajectory_interval=0.05 ms")
+        frames = riesel.Run(directory).trajectory
+        loop = iter(frames)
+        next(loop)
+        # Each ends with a checkpoint, and every other one is written over what was read.
+        for duration in (10, 15, 20):
+            self.resume_to_end(directory, "--set", f"run.duration={duration} ms")
+        grown = riesel.Run(directory).trajectory
+        self.assertGreater(len(grown), len(frames))
+        rest = list(loop)
+        self.assertEqual(len(rest), len(frames) - 1)
+        for frame, same in zip(rest, grown[1:]):
+            np.testing.assert_array_equal(frame.position, same.position)
+
+
 class Impacts(CommandTest):
 
     def test_a_curve_and_no_flow(self):
