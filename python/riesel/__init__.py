@@ -10,11 +10,13 @@ written, and nothing is read before it is asked for.
 """
 
 from .estimate import Estimate, mean_of
+from .files import NotThere, Unreadable
 from .run import FinalState, Finding, Histogram, Run, Validity
 from .sweep import Mean, MeanProfiles, Point, Sweep
-from .table import NotThere, Table
+from .table import Table
 from .trajectory import Frame, Trajectory
 from .tree import Tree
 
-__all__ = ["Estimate", "FinalState", "Finding", "Frame", "Histogram", "Mean", "MeanProfiles", "NotThere",
-           "Point", "Run", "Sweep", "Table", "Trajectory", "Tree", "Validity", "mean_of"]
+__all__ = ["Estimate", "FinalState", "Finding", "Frame", "Histogram", "Mean", "MeanProfiles",
+           "NotThere", "Point", "Run", "Sweep", "Table", "Trajectory", "Tree", "Unreadable",
+           "Validity", "mean_of"]

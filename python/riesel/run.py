@@ -16,7 +16,8 @@ import yaml
 from numpy.typing import NDArray
 
 from .estimate import Estimate
-from .table import NotThere, Table, opened, part, table_of, text
+from .files import NotThere, members, opened, part
+from .table import Table, table_of, text
 from .trajectory import Trajectory
 from .tree import Tree
 
@@ -91,17 +92,18 @@ class Run:
     @property
     def is_done(self) -> bool:
         """Whether it has come to its end: then there is a summary."""
-        return (self.directory / "summary.json").exists()
+        return self._summary_file.exists()
 
     @cached_property
     def settings(self) -> Tree:
         """Every setting used, defaults included, in SI units: settings["contact.friction"]."""
-        return Tree(yaml.safe_load(self._read("effective.yaml", "give the directory of a run")))
+        return Tree(members(self.directory / "effective.yaml", yaml.safe_load,
+                            "give the directory of a run"))
 
     @cached_property
     def summary(self) -> Tree:
         """summary.json: summary["balance.n_dot"]. What is not known is None."""
-        return Tree(json.loads(self._read("summary.json", self._go_on)))
+        return Tree(members(self._summary_file, json.loads, self._go_on))
 
     def estimate(self, name: str) -> Estimate:
         """A value of the summary that has an error: estimate("mean_axial_velocity"). That of
@@ -183,6 +185,10 @@ class Run:
             return [_texts(group), *(_texts(group[name]) for name in resumed)]
 
     @property
+    def _summary_file(self) -> pathlib.Path:
+        return self.directory / "summary.json"
+
+    @property
     def _run_file(self) -> pathlib.Path:
         return self.directory / "run.h5"
 
@@ -191,12 +197,6 @@ class Run:
         return f"let the run come to its end, or see 'riesel resume {self.directory}'"
 
     _written_at_the_end = "it is written when a flow has come to its end"
-
-    def _read(self, name: str, remedy: str) -> str:
-        path = self.directory / name
-        if not path.exists():
-            raise NotThere(f"{path}: is not there; {remedy}")
-        return path.read_text(encoding="utf-8")
 
 
 def _known(value: float | None) -> float:

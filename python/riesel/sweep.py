@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from .estimate import Estimate, mean_of
+from .files import NotThere, Unreadable, members, opened, part
 from .run import Run
-from .table import NotThere, Table, opened, part, table_of
+from .table import Table, table_of
 
 
 @dataclass(frozen=True)
@@ -72,32 +73,29 @@ class MeanProfiles(_OfRuns):
 class Sweep:
     """What `riesel sweep` has left in its directory."""
 
+    varied: Mapping[str, str]  #: the settings in which the points differ, with their units
+    points: list[Point]  #: in the order of the sweep file, equal ones as often as they stand in it
+
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = pathlib.Path(directory)
-        manifest = self.directory / "manifest.json"
-        if not manifest.exists():
-            raise NotThere(f"{manifest}: is not there; give the directory of a sweep")
-        self._manifest: dict[str, Any] = json.loads(manifest.read_text(encoding="utf-8"))
+        file = self.directory / "manifest.json"
+        anew = "run 'riesel sweep' with its sweep file: it writes a new one and keeps the results"
+        manifest = members(file, json.loads, "give the directory of a sweep", anew)
+        try:
+            self.varied = {setting["key"]: setting["unit"] for setting in manifest["varied"]}
+            self.points = [self._point(entry) for entry in manifest["points"]]
+        except (KeyError, TypeError) as error:
+            raise Unreadable(f"{file}: is no manifest of a sweep ({error!r}); {anew}") from error
 
     def __repr__(self) -> str:
         return f"Sweep({str(self.directory)!r})"
-
-    @cached_property
-    def varied(self) -> Mapping[str, str]:
-        """The settings in which the points differ, with their units."""
-        return {setting["key"]: setting["unit"] for setting in self._manifest["varied"]}
-
-    @cached_property
-    def points(self) -> list[Point]:
-        """In the order of the sweep file; equal points stand in the list as often as in it."""
-        return [self._point(entry) for entry in self._manifest["points"]]
 
     @cached_property
     def table(self) -> Table:
         """The table of `riesel collect`: a row per point, done or not, with its settings and all
         single values of its summary, NaN or "" where there is none."""
         remedy = f"make it by 'riesel collect {self.directory}'"
-        with opened(self.directory / "sweep.h5", remedy) as file:
+        with opened(self.directory / "sweep.h5", remedy, remedy) as file:
             return table_of(part(file, "points", remedy))
 
     def means(self, column: str, over: str = "seed") -> list[Mean]:

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
-import pathlib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
-
-
-class NotThere(LookupError):
-    """A file or a part of it that was not written (yet); the text tells why and what to do."""
 
 
 class Table(Mapping[str, NDArray[Any]]):
@@ -48,22 +42,6 @@ class Table(Mapping[str, NDArray[Any]]):
 def text(value: Any) -> str:
     """Of an attribute or a data set of a single text."""
     return value.decode() if isinstance(value, bytes) else str(value)
-
-
-@contextlib.contextmanager
-def opened(path: pathlib.Path, remedy: str) -> Iterator[Any]:
-    """The HDF5 file."""
-    if not path.exists():
-        raise NotThere(f"{path}: is not there; {remedy}")
-    with h5py.File(path, "r") as file:
-        yield file
-
-
-def part(file: Any, name: str, remedy: str) -> Any:
-    """A group of the file that may not be there."""
-    if name not in file:
-        raise NotThere(f"{file.filename}: has no {name}; {remedy}")
-    return file[name]
 
 
 def _column(data: Any) -> NDArray[Any]:

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from .table import opened
+from .files import opened
 
 _REMEDY = "give the run a setting output.trajectory_interval"
 

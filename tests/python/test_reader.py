@@ -246,6 +246,61 @@ class NotThere(CommandTest):
         self.assertGreaterEqual(run.final.time, run.series["time"][-1])
 
 
+class Unreadable(CommandTest):
+    """What is damaged is told with the path and a remedy."""
+
+    def assert_unreadable(self, path, read, remedy):
+        with self.assertRaisesRegex(riesel.Unreadable, rf"{path}: .*; {remedy}"):
+            read()
+
+    @staticmethod
+    def cut_in_half(path):
+        path.write_bytes(path.read_bytes()[:path.stat().st_size // 2])
+
+    def test_files_of_a_run(self):
+        directory = self.run_small_tube("run", "--set", "output.trajectory_interval=1 ms")
+        frames = riesel.Run(directory).trajectory
+        for name in ("run.h5", "trajectory.h5", "summary.json"):
+            self.cut_in_half(directory / name)
+        (directory / "effective.yaml").write_text("contact: {", encoding="utf-8")
+        run = riesel.Run(directory)
+        for name, parts in (("run.h5", ("series", "profiles", "histograms", "final", "provenance")),
+                            ("trajectory.h5", ("trajectory",)), ("summary.json", ("summary",)),
+                            ("effective.yaml", ("settings",))):
+            for part in parts:
+                self.assert_unreadable(directory / name, lambda: getattr(run, part),
+                                       "restore the file, or make the run again")
+        self.assert_unreadable(directory / "trajectory.h5", lambda: list(frames), "restore")
+
+    def test_files_that_hold_something_else(self):
+        directory = self.run_small_tube("run", "--set", "output.trajectory_interval=1 ms")
+        for name in ("summary.json", "effective.yaml"):
+            (directory / name).write_text("[1, 2]", encoding="utf-8")
+        with h5py.File(directory / "run.h5", "r+") as file:
+            del file["final"].attrs["time"]
+        with h5py.File(directory / "trajectory.h5", "w"):
+            pass
+        run = riesel.Run(directory)
+        for name, part in (("summary.json", "summary"), ("effective.yaml", "settings"),
+                           ("run.h5", "final"), ("trajectory.h5", "trajectory")):
+            self.assert_unreadable(directory / name, lambda: getattr(run, part), "restore")
+
+    def test_files_of_a_sweep(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        self.write("sweep.yaml", SWEEP)
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--prepare", "--out", "out"))
+        out = self.home / "out"
+        sweep = riesel.Sweep(out)
+        self.write("out/sweep.h5", "no HDF5")
+        self.assert_unreadable(out / "sweep.h5", lambda: sweep.table, "make it by 'riesel collect")
+        manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
+        del manifest["points"][1]["branch"]
+        for text in (json.dumps(manifest), "{}", "[]", '{"varied": 1}', '{"varied'):
+            self.write("out/manifest.json", text)
+            self.assert_unreadable(out / "manifest.json", lambda: riesel.Sweep(out),
+                                   "run 'riesel sweep' with its sweep file")
+
+
 class Mean(unittest.TestCase):
 
     def test_its_error_covers_the_truth_as_often_as_it_says(self):
