@@ -4,37 +4,72 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from numbers import Real
 from typing import NamedTuple
 
 import numpy as np
 
 
-class Estimate(NamedTuple):
-    """A mean with its 68 % error bar; NaN where it is not known."""
-
+class _ValueAndError(NamedTuple):
     value: float
     error: float
+
+
+class Estimate(_ValueAndError):
+    """A mean with its 68 % error bar; NaN where it is not known. Sums and differences are those of
+    independent means; plain numbers, also as factors, are exact."""
+
+    __slots__ = ()
+    __array_ufunc__ = None  # so that numbers of numpy on the left leave it to what stands here
 
     def __str__(self) -> str:
         """Two digits of the error, and the value as far: "1.534 +- 0.050"."""
         if 0.0 < self.error < math.inf:
-            decimals = 1 - math.floor(math.log10(self.error))
+            # Of the error as it is told: 0.0996 is 0.10.
+            decimals = 1 - int(f"{self.error:.1e}".partition("e")[2])
             if decimals <= 6:
                 return f"{self.value:.{max(0, decimals)}f} +- {self.error:.{max(0, decimals)}f}"
             order = math.floor(math.log10(abs(self.value))) if self.value else -decimals
             return f"{self.value:.{max(1, order + decimals)}e} +- {self.error:.1e}"
         return f"{self.value:.4g} +- {self.error:.2g}"
 
-    def __sub__(self, other: "Estimate") -> "Estimate":
-        """The difference of two independent means."""
-        return Estimate(self.value - other.value, math.hypot(self.error, other.error))
+    # Also reversed and of numbers: in their place would be those of tuples, which join and repeat.
+
+    def __add__(self, other: object) -> Estimate:
+        if isinstance(other, Estimate):
+            return Estimate(self.value + other.value, math.hypot(self.error, other.error))
+        if isinstance(other, Real):
+            return Estimate(self.value + float(other), self.error)
+        return NotImplemented
+
+    def __radd__(self, other: object) -> Estimate:
+        return self + other
+
+    def __sub__(self, other: object) -> Estimate:
+        if isinstance(other, (Estimate, Real)):
+            return self + -1.0 * other
+        return NotImplemented
+
+    def __rsub__(self, other: object) -> Estimate:
+        return -1.0 * self + other
+
+    def __mul__(self, other: object) -> Estimate:
+        if isinstance(other, Real):
+            return Estimate(self.value * float(other), self.error * abs(float(other)))
+        return NotImplemented
+
+    def __rmul__(self, other: object) -> Estimate:
+        return self * other
 
 
 def mean_of(values: Sequence[float]) -> Estimate:
-    """The mean of independent values, such as those of runs that differ in their seeds. Its error is
-    the standard error by their scatter times Student's 68 % point: three know little of their own
-    scatter. NaN of a single one."""
+    """The mean of independent values, such as those of runs that differ in their seeds. Its error
+    is the standard error by their scatter times Student's 68 % point: three know little of their
+    own scatter. NaN of a single one. Raises TypeError for estimates and other than numbers."""
     n = len(values)
+    if not all(isinstance(value, Real) for value in values):
+        raise TypeError("mean_of: takes numbers; of estimates give the values, as in "
+                        "mean_of([estimate.value for estimate in estimates])")
     if n == 0:
         return Estimate(math.nan, math.nan)
     mean = float(np.mean(values))
