@@ -16,10 +16,12 @@ import yaml
 from numpy.typing import NDArray
 
 from .estimate import Estimate
-from .files import NotThere, members, opened, part
+from .files import NotThere, Unreadable, members, opened, part
 from .table import Table, table_of, text
 from .trajectory import Trajectory
 from .tree import Tree
+
+_SUMMARY_FORMAT = 2  # summary_format of io/summary.hpp
 
 
 class Finding(NamedTuple):
@@ -78,8 +80,9 @@ class FinalState:
 
 
 class Run:
-    """What a run has left in its directory. Parts that are not there raise NotThere; what has been
-    read is kept, so make a new Run to see what a run that goes on has written since."""
+    """What a run has left in its directory. Parts that are not there raise NotThere, files that are
+    damaged Unreadable. What has been read is kept, so make a new Run to see what a run that goes on
+    has written since."""
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = pathlib.Path(directory)
@@ -103,7 +106,14 @@ class Run:
     @cached_property
     def summary(self) -> Tree:
         """summary.json: summary["balance.n_dot"]. What is not known is None."""
-        return Tree(members(self._summary_file, json.loads, self._go_on))
+        summary = Tree(members(self._summary_file, json.loads, self._go_on))
+        number = summary.get("format", 1)  # the first one did not tell
+        if number != _SUMMARY_FORMAT:
+            version = summary.get("version", "?")
+            raise Unreadable(f"{self._summary_file}: has format {number} of riesel {version}, and "
+                             f"this package reads {_SUMMARY_FORMAT}; use the package of that "
+                             "riesel, or make the run again")
+        return summary
 
     def estimate(self, name: str) -> Estimate:
         """A value of the summary that has an error: estimate("mean_axial_velocity"). That of
@@ -122,7 +132,8 @@ class Run:
             raise NotThere(f"{self.directory}: impacts and columns of beads have no verdict of the "
                            "whole run; see curve['verdict']")
         return Validity(self.summary["validity.verdict"],
-                        [Finding(**finding) for finding in self.summary["validity.findings"]])
+                        [Finding(*(finding[name] for name in Finding._fields))
+                         for finding in self.summary["validity.findings"]])
 
     @cached_property
     def series(self) -> Table:

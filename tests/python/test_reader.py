@@ -152,6 +152,12 @@ class Flow(CommandTest):
                          [finding.name for finding in validity.findings
                           if finding.verdict in ("suspect", "unphysical")])
 
+    def test_findings_may_come_to_tell_more(self):
+        run = riesel.Run(self.directory)
+        findings = [{**finding, "sigma": 1.0} for finding in run.summary["validity.findings"]]
+        run.summary = riesel.Tree({"validity": {"verdict": "valid", "findings": findings}})
+        self.assertEqual(run.validity.findings, self.run_of_it.validity.findings)
+
     def test_provenance_of_the_start_and_of_each_resumption(self):
         run = self.run_of_it
         self.assertIn(" run ", run.provenance["command"])
@@ -277,6 +283,20 @@ class Unreadable(CommandTest):
         for name, part in (("summary.json", "summary"), ("effective.yaml", "settings"),
                            ("run.h5", "final"), ("trajectory.h5", "trajectory")):
             self.assert_unreadable(directory / name, lambda: getattr(run, part), "restore")
+
+    def test_a_summary_of_another_format(self):
+        directory = self.run_small_tube("run")
+        summary = self.summary(directory) | {"version": "0.3.9"}
+        later = json.dumps(summary | {"format": 3})
+        del summary["format"]
+        for number, text in ((1, json.dumps(summary)), (3, later)):
+            (directory / "summary.json").write_text(text, encoding="utf-8")
+            self.assert_unreadable(
+                directory / "summary.json", lambda: riesel.Run(directory).summary,
+                "use the package of that riesel, or make the run again")
+            with self.assertRaisesRegex(riesel.Unreadable,
+                                        rf"format {number} of riesel 0\.3\.9, .* reads 2;"):
+                riesel.Run(directory).estimate("mean_axial_velocity")
 
     def test_files_of_a_sweep(self):
         self.write("tube.yaml", SMALL_TUBE)
