@@ -35,8 +35,9 @@ def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE) -> I
 
 
 def part(file: Any, name: str, remedy: str) -> Any:
-    """A group of the HDF5 file that may not be there. Raises NotThere."""
-    if name not in file:
+    """A group of the HDF5 file. Raises NotThere if there is none, or nothing in it: riesel makes
+    that of the series for every run."""
+    if not len(file.get(name, ())):
         raise NotThere(f"{file.filename}: has no {name}; {remedy}")
     return file[name]
 

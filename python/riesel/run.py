@@ -137,9 +137,9 @@ class Run:
 
     @cached_property
     def series(self) -> Table:
-        """One row per output.interval, while the run goes on up to the last checkpoint."""
+        """Of a flow: one row per output.interval, while it goes on up to the last checkpoint."""
         with opened(self._run_file, self._go_on) as file:
-            return table_of(part(file, "series", "give the directory of a run"))
+            return table_of(part(file, "series", "only flows have one"))
 
     @cached_property
     def profiles(self) -> Table:
@@ -205,7 +205,11 @@ class Run:
 
     @property
     def _go_on(self) -> str:
-        return f"let the run come to its end, or see 'riesel resume {self.directory}'"
+        checkpoints = ("checkpoint.h5", "checkpoint.h5.previous")
+        if any((self.directory / name).exists() for name in checkpoints):
+            return f"let the run come to its end, or see 'riesel resume {self.directory}'"
+        # Of impacts and columns of beads there are none, nor of a flow that has just begun.
+        return "let the run come to its end, or start it again if it was stopped"
 
     _written_at_the_end = "it is written when a flow has come to its end"
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .files import opened
 
-_REMEDY = "give the run a setting output.trajectory_interval"
+_REMEDY = "only flows have one, if they are given a setting output.trajectory_interval"
 
 
 @dataclass(frozen=True, repr=False)

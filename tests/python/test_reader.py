@@ -192,11 +192,12 @@ class Impacts(CommandTest):
             np.testing.assert_array_equal(run.curve[name], [point[name] for point in points])
         self.assertEqual(run.curve["verdict"].tolist(), [0.0, 2.0])
         self.assertEqual([point["verdict"] for point in points], ["valid", "unphysical"])
-        for part in ("profiles", "histograms", "final", "validity", "trajectory"):
+        for part in ("profiles", "histograms", "validity"):
             with self.assertRaisesRegex(riesel.NotThere, "out.*; "):
                 getattr(run, part)
-        with self.assertRaisesRegex(riesel.NotThere, "only flows have one"):
-            run.final
+        for part in ("series", "final", "trajectory"):
+            with self.assertRaisesRegex(riesel.NotThere, "out.*; only flows have one"):
+                getattr(run, part)
 
     def test_a_column_of_beads_has_a_curve_and_no_verdict_of_all(self):
         run = riesel.Run(self.run_to_end(self.write("column.yaml", COLUMN), "out"))
@@ -206,6 +207,19 @@ class Impacts(CommandTest):
             np.testing.assert_array_equal(run.curve[name], [point[name] for point in points])
         with self.assertRaisesRegex(riesel.NotThere, r"columns of beads .* see curve\['verdict'\]"):
             run.validity
+        with self.assertRaisesRegex(riesel.NotThere, "run.h5: has no series; only flows have one"):
+            run.series
+
+    def test_of_those_that_were_stopped_none_is_told_to_be_resumed(self):
+        self.run_to_end(self.write("wall.yaml", IMPACTS), "out")
+        for name in ("run.h5", "summary.json"):  # come last
+            (self.home / "out" / name).unlink()
+        run = riesel.Run(self.home / "out")
+        for part in ("curve", "summary"):
+            with self.assertRaisesRegex(riesel.NotThere, "start it again if it was stopped") as told:
+                getattr(run, part)
+            self.assertNotIn("resume", str(told.exception))
+        self.assert_refused(self.riesel("resume", "out"))
 
 
 class NotThere(CommandTest):
