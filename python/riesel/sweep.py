@@ -22,7 +22,7 @@ from .table import Table, table_of
 @dataclass(frozen=True)
 class Point:
     """One run of a sweep as its manifest has it. `status`, `attempts` and `reason` are those of the
-    moment in which the manifest was written; `run.is_done` looks at the directory itself."""
+    moment in which the manifest was written; `is_done` looks at the directory itself."""
 
     directory: pathlib.Path
     name: str
@@ -36,8 +36,13 @@ class Point:
 
     @property
     def run(self) -> Run:
-        """The run itself."""
+        """The run itself. Raises NotThere if its directory was removed, to begin it anew."""
         return Run(self.directory)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether its run has come to its end and is still there."""
+        return self.directory.is_dir() and self.run.is_done
 
 
 @dataclass(frozen=True)
@@ -125,7 +130,7 @@ class Sweep:
         strip, likewise."""
         found = []
         for group in self._groups(over):
-            done = [run for point in group if point.directory.is_dir() and (run := point.run).is_done]
+            done = [point.run for point in group if point.is_done]
             found.append(MeanProfiles(**_common(group[0], over), runs=len(done),
                                       steady=sum(run.summary.get("state") == "steady" for run in done),
                                       valid=sum(run.summary.get("validity.verdict") == "valid" for run in done),

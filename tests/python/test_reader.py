@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import shutil
 import statistics
 
 import h5py
@@ -418,13 +419,14 @@ class OfSweep(CommandTest):
         self.assert_done(self.riesel("sweep", "sweep.yaml", "--prepare", "--out", "out"))
         planned = riesel.Sweep(self.home / "out")
         self.assertEqual([point.status for point in planned.points], ["waiting"] * 4)
-        self.assertFalse(planned.points[0].run.is_done)
+        self.assertFalse(planned.points[0].is_done)
         with self.assertRaisesRegex(riesel.NotThere, "riesel collect"):
             planned.table
 
         self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
         sweep = riesel.Sweep(self.home / "out")
         self.assertEqual([point.status for point in sweep.points], ["done"] * 4)
+        self.assertEqual([point.is_done for point in sweep.points], [True] * 4)
         self.assertEqual([point.branch for point in sweep.points], ["slow", "fast"] * 2)
         self.assertEqual([point.settings["contact.restitution"] for point in sweep.points],
                          [0.7, 0.7, 0.9, 0.9])
@@ -437,3 +439,7 @@ class OfSweep(CommandTest):
         self.assertEqual(sweep.table["state_hash"].tolist(), [row["state_hash"] for row in rows])
         self.assertEqual(sweep.table["energy.residual"].tolist(),
                          [float(row["energy.residual"]) for row in rows])
+        shutil.rmtree(sweep.points[1].directory)
+        self.assertEqual([point.is_done for point in sweep.points], [True, False, True, True])
+        with self.assertRaisesRegex(riesel.NotThere, "is no directory"):
+            sweep.points[1].run
