@@ -46,7 +46,7 @@ class Validity(NamedTuple):
         return [finding for finding in self.findings if finding.verdict != "valid"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Histogram:
     """Four equal bins in each octave: `rate` is how many per second ended in each after the
     transient, `count` how many since the start."""
@@ -65,7 +65,7 @@ class Histogram:
         return np.append(self.lower_edge, end_of_last_octave)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FinalState:
     """The grains, contacts and walls at one moment: m, m/s, kg. Grains are in the order of their
     ids; columns of vectors have the shape (grains, 2), x across and y along the tube."""

@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 
 class Table(Mapping[str, NDArray[Any]]):
     """Columns by name: numpy arrays of equal length, numbers or texts. `unit[name]` is SI, "1" for
-    pure numbers and "" where there is none; `doc[name]` says what it is."""
+    pure numbers and "" where there is none; `doc[name]` says what it is. Equal only to itself."""
+
+    __eq__ = object.__eq__  # that of mappings asks for the truth of arrays
+    __hash__ = object.__hash__
 
     def __init__(self, columns: Mapping[str, NDArray[Any]], unit: Mapping[str, str],
                  doc: Mapping[str, str]) -> None:

@@ -16,7 +16,7 @@ from .files import opened
 _REMEDY = "only flows have one, if they are given a setting output.trajectory_interval"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Frame:
     """Grains at one moment, in the order of their ids: arrays of the shape (grains, 2), x across and
     y along the tube, in [0, length)."""

@@ -133,6 +133,14 @@ class Flow(CommandTest):
         with self.assertRaises(IndexError):
             trajectory[len(trajectory)]
 
+    def test_what_holds_arrays_is_equal_to_itself_only(self):
+        one, other = self.run_of_it, riesel.Run(self.directory)
+        for of in (lambda run: run.trajectory[0], lambda run: run.final, lambda run: run.series,
+                   lambda run: run.histograms["wall_contact_duration"]):
+            mine, same = of(one), of(other)
+            self.assertEqual((mine == mine, mine == same), (True, False))
+            self.assertIn(mine, {mine})
+
     def test_histograms(self):
         with self.file() as file:
             self.assertEqual(sorted(self.run_of_it.histograms), sorted(file["histograms"]))
@@ -337,6 +345,7 @@ class OfSweep(CommandTest):
         self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
         sweep = riesel.Sweep(self.home / "out")
         fast = sweep.mean_profiles()[3]
+        self.assertNotEqual(fast, sweep.mean_profiles()[3])
         self.assertEqual((fast.settings["contact.restitution"], fast.branch, fast.runs, fast.steady), (0.9, "fast", 3, 0))
         tables = [point.run.profiles for point in sweep.points
                   if (point.settings["contact.restitution"], point.branch) == (0.9, "fast")]
