@@ -11,7 +11,7 @@ def runs_by_setting(sweep):
     """[runs that are done and differ in the seed alone, each once], in the order of the sweep file."""
     groups = {}
     for point in riesel.Sweep(sweep).points:
-        if point.run.is_done:
+        if point.is_done:
             others = tuple(item for item in point.settings.items() if item[0] != "seed")
             groups.setdefault((others, point.branch, point.leg), {})[point.name] = point.run
     return [list(group.values()) for group in groups.values()]
