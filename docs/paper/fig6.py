@@ -2,9 +2,7 @@
 from statistics import mean
 
 from results import print_table, save
-from tube import grouped, mean_text, runs_of, runs_of_all, stay_cells, steady_of
-
-import riesel  # by way of tube
+from tube import grouped, mean_of_runs, mean_text, runs_of, runs_of_all, stay_cells, steady_of, still_gains
 
 LONG_ENOUGH = 3.0  # s, for a fast run to settle
 SAME = 0.05  # part of a velocity by which runs may differ that approach the same state
@@ -31,7 +29,8 @@ def draw_fig6(plt, slow, fast):
     """Full: the slow branch, mean of the seeds that stay. Open: the fast states."""
     figure, panels = plt.subplots(1, len(COLORS), figsize=(10, 3.4), sharey=True)
     for axes, (k_n, color) in zip(panels, COLORS.items()):
-        for (e_n,), runs in grouped([run for run in slow if run.k_n == k_n and run.stays], "e_n"):
+        for (e_n,), runs in grouped([run for run in slow if run.k_n == k_n and run.stays and not still_gains(run)],
+                                      "e_n"):
             draw_state(axes, e_n, runs, color, marker="o")
         for state in (state for state in fast if state.k_n == k_n):
             for runs in state.states:
@@ -46,7 +45,7 @@ def draw_fig6(plt, slow, fast):
 
 def draw_state(axes, e_n, runs, color, **symbol):
     """The mean of several seeds with its error; of a single one the point."""
-    value, error = riesel.mean_of([run.velocity for run in runs])
+    value, error = mean_of_runs("velocity", runs)
     axes.errorbar(e_n, value, error if len(runs) > 1 else None, color=color, capsize=2, **symbol)
 
 

@@ -1,12 +1,10 @@
 """Fig. 6 with rigid grains, of which a program of its own tells (bench/rigid), beside ever stiffer ones."""
 from results import print_table, save
-from tube import grouped, mean_text, plus_minus, runs_of, stay_cells
-
-import riesel  # by way of tube
+from tube import grouped, mean_of_runs, mean_text, plus_minus, runs_of, stay_cells, still_gains
 
 USUAL = 1e-7  # s, the shortest interval between two impacts that lose energy
 SLOW, FAST = 1.0, 100.0  # m/s, the starts
-RULE = 0.46  # soft grains are faster by this times the square of slip / v_crit, below 0.7
+RULE = 0.46  # soft grains are faster by this times the square of slip / v_crit, below 0.7 and at e_N of 0.76 and more
 STIFFNESSES = {2e7: ("20 MN/m", "C1"), 2e6: ("2 MN/m", "C4"), 2e5: ("200 kN/m", "C3"), 2e4: ("20 kN/m", "C2"),
                2e3: ("2 kN/m", "C0")}
 
@@ -42,7 +40,8 @@ def fig6_rigid(tables, out, plt):
                 [(e_n, of_rigid(SLOW, e_n), of_rigid(FAST, e_n), of_soft(stiffer, 2e7, SLOW, e_n),
                   of_soft(stiffer, 2e7, FAST, e_n), of_soft(stiffer, 2e6, SLOW, e_n), of_soft(slow, 2e5, SLOW, e_n),
                   of_soft(slow, 2e3, SLOW, e_n), of_soft(slow, 200.0, SLOW, e_n)) for e_n in e_ns])
-    excesses = [Excess(runs, rigid) for _, runs in sorted(grouped(stiffer, "k_n", "e_n", "start"))]
+    excesses = [Excess(runs, rigid) for _, runs in sorted(grouped(
+        [run for run in stiffer if not still_gains(run)], "k_n", "e_n", "start"))]
     print_table("Fig. 6, how much faster than rigid grains soft ones are, by their speed along the wall",
                 ("k_N (N/m)", "e_N", "start (m/s)", "mean v_y (m/s)", "slip at the wall / v_crit", "faster than rigid by"),
                 [(x.k_n, x.e_n, x.start, mean_text("velocity", x.runs), f"{x.wall_speed:.3f}",
@@ -57,14 +56,14 @@ def fig6_rigid(tables, out, plt):
 
 
 class Excess:
-    """By what part runs of one stiffness and e_N are faster than rigid grains; its error is that of seeds and starts."""
+    """By what part runs of one stiffness and e_N are faster than rigid grains; its error is that of both means."""
 
     def __init__(self, runs, rigid):
         self.runs, first = runs, runs[0]
         self.k_n, self.e_n, self.start = first.k_n, first.e_n, first.start
-        self.wall_speed = riesel.mean_of([run.wall_speed for run in runs])[0]
-        velocity, error = riesel.mean_of([run.velocity for run in runs])
-        of_rigid, error_of_rigid = riesel.mean_of([run.velocity for run in rigid if run.e_n == self.e_n])
+        self.wall_speed = mean_of_runs("wall_speed", runs)[0]
+        velocity, error = mean_of_runs("velocity", runs)
+        of_rigid, error_of_rigid = mean_of_runs("velocity", [run for run in rigid if run.e_n == self.e_n])
         ratio = velocity / of_rigid
         self.value = ratio - 1
         self.error = ratio * ((error / velocity) ** 2 + (error_of_rigid / of_rigid) ** 2) ** 0.5
@@ -75,7 +74,7 @@ def draw(plt, rigid, soft, excesses):
     groups = sorted(grouped([run for run in rigid if run.settled], "e_n"))
     draw_means(states, groups, color="k", marker="s", markersize=4, label="rigid")
     for k_n, (label, color) in STIFFNESSES.items():
-        groups = sorted(grouped([run for run in soft if run.k_n == k_n and run.stays], "e_n"))
+        groups = sorted(grouped([run for run in soft if run.k_n == k_n and run.stays and not still_gains(run)], "e_n"))
         draw_means(states, groups, color=color, marker="o", linestyle="none", markerfacecolor="none", label=label)
         of_this = [x for x in excesses if x.k_n == k_n]
         excess.errorbar([x.wall_speed for x in of_this], [100 * x.value for x in of_this], [100 * x.error for x in of_this],
@@ -90,6 +89,6 @@ def draw(plt, rigid, soft, excesses):
 
 
 def draw_means(axes, groups, **style):
-    means = [riesel.mean_of([run.velocity for run in runs]) for _, runs in groups]
+    means = [mean_of_runs("velocity", runs) for _, runs in groups]
     axes.errorbar([e_n for (e_n,), _ in groups], [value for value, _ in means], [error for _, error in means], capsize=2,
                   **style)

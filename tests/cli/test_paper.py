@@ -11,7 +11,7 @@ sys.path.insert(0, str(DOCS / "paper"))
 
 from fig6 import fast_states  # noqa: E402
 from fig6_thresholds import Threshold, ends_by, thresholds  # noqa: E402
-from tube import Run, grouped, plus_minus, runs_of, seeds_text, stay_cells  # noqa: E402
+from tube import Run, grouped, mean_text, plus_minus, runs_of, stay_cells  # noqa: E402
 
 PAGE, LONG_TABLES = DOCS / "paper.md", DOCS / "paper-tables.md"
 
@@ -142,5 +142,18 @@ class Thresholds(unittest.TestCase):
         self.assertEqual((ends[6.0].all_lost, ends[6.0].none_lost), (0.86, 0.87))
 
     def test_seeds_give_a_mean_with_the_error_of_so_few(self):
-        self.assertEqual(seeds_text([1.0, 2.0, 3.0]), plus_minus(2.0, 1.32 / 3**0.5))
-        self.assertEqual(seeds_text([1.5]), "1.5")
+        runs = [slow_run(0.9, seed, velocity=str(seed)) for seed in (1, 2, 3)]
+        self.assertEqual(mean_text("velocity", runs), plus_minus(2.0, 1.32 / 3**0.5))
+        self.assertEqual(mean_text("velocity", runs[:1]), "1")
+
+    def test_the_own_errors_of_a_few_seeds_count_where_they_are_larger(self):
+        def runs(number, own):
+            return [slow_run(0.9, seed, velocity=str(2.0 + 0.001 * (seed % 2)), velocity_error=str(own))
+                    for seed in range(number)]
+        self.assertEqual(mean_text("velocity", runs(4, 0.2)), plus_minus(2.0005, 0.1))
+        self.assertIn("± 0.000", mean_text("velocity", runs(4, 1e-6)))
+        self.assertIn("± 0.000", mean_text("velocity", runs(10, 0.2)))  # ten know their scatter
+
+    def test_a_share_that_is_hardly_known_settles_nothing(self):
+        self.assertTrue(slow_run(0.9, 1, share="0.8", share_error="0.14").settled)
+        self.assertFalse(slow_run(0.9, 1, share="0.8", share_error="0.16").settled)
