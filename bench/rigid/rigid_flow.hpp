@@ -7,9 +7,9 @@
 // independent check of the engine's stiffest flows.
 //
 // Rigid grains that lose energy may meet infinitely often within a finite time. As grains that
-// touch for a moment do not lose it while they have not parted, an impact is elastic if one of the
-// two has had another one less than `shortest_interval` ago: Luding and McNamara, Granular Matter
-// 1, 113 (1998).
+// touch for a moment do not lose it while they have not parted, an impact has e_N = 1, and friction
+// as ever, if one of the two has had another one less than `shortest_interval` ago: Luding and
+// McNamara, Granular Matter 1, 113 (1998).
 #pragma once
 
 #include "bench/rigid/impact_rule.hpp"
