@@ -15,7 +15,9 @@ struct LinearContact {
   double k_n, gamma_n, reduced_mass;
   Attraction attraction = Attraction::keep;
 
-  /// Below critical damping two bodies rebound; above they do not, and there is no t_col.
+  /// Below critical damping two bodies rebound; above they do not if the contact may pull, and
+  /// there is no t_col. (If it may not they do, with less than least_restitution_without_pull;
+  /// eq. (4) does not hold for that, and it counts as no rebound here.)
   bool rebounds() const;
   /// s, eq. (4). Throws std::domain_error, as restitution() does, for a contact that does not
   /// rebound.
@@ -25,11 +27,13 @@ struct LinearContact {
   double restitution() const;
 };
 
-/// What critical damping leaves to a linear contact that may not pull: exp(-2).
+/// What critical damping leaves to a linear contact that may not pull: exp(-2). More damping leaves
+/// less: exp(-(beta/Omega) ln((beta + Omega)/(beta - Omega))), beta = gamma_N/2 and Omega^2 =
+/// beta^2 - k_N/m_red.
 inline constexpr double least_restitution_without_pull = 0.13533528323661270;
 
-/// 1/s, the gamma_N that gives restitution 0 < e_N <= 1 to a linear contact. Throws
-/// std::domain_error if it may not pull and e_N is not above least_restitution_without_pull.
+/// 1/s, the gamma_N below critical damping that gives restitution 0 < e_N <= 1 to a linear contact.
+/// Throws std::domain_error if it may not pull and e_N is not above least_restitution_without_pull.
 double damping_for_restitution(double restitution, double k_n, double reduced_mass,
                                Attraction attraction);
 
