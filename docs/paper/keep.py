@@ -29,7 +29,7 @@ def mean_and_error(samples):
         return np.mean(samples), np.nan
     phase = np.pi / n * np.outer(np.arange(1, 9), np.arange(n) + 0.5)
     slowest = np.sqrt(2 / n) * np.cos(phase) @ (samples - np.mean(samples))
-    return np.mean(samples), 1.0668 * np.sqrt(np.mean(slowest**2) / n)
+    return np.mean(samples), 1.0665 * np.sqrt(np.mean(slowest**2) / n)
 
 
 def walls_of(file):
