@@ -28,7 +28,7 @@ void check_impacts(const io::Settings& settings, const scenarios::ImpactCurve& c
        shortest_step);
   warn_of_time_step(settings);
   print_slip(settings, setup.model.slip, setup.grain_mass, longest_step);
-  const double smaller = std::min(setup.grain_radius, setup.reach() - setup.grain_radius);
+  const double smaller = std::min(setup.grain_radius, setup.wall_grain_radius);
   if (fastest_normal > 0.0)
     warn_of_overlap(
         expected_overlap_ratio(setup.model.normal, {setup.grain_mass, fastest_normal, smaller}),

@@ -256,10 +256,9 @@ private:
     std::vector<std::string> names;
     for (const app::Subcommand& known : app::subcommands_of(program_)) names.push_back(known.name);
     if (std::ranges::find(names, name) != names.end()) return;
-    const auto nearest = io::nearest_name(name, names);
-    throw app::UnusableInput(
-        fmt::format("there is no command '{}'; {}see 'riesel --help'", name,
-                    nearest ? fmt::format("did you mean '{}'? ", *nearest) : ""));
+    const auto question = io::did_you_mean(name, names);
+    throw app::UnusableInput(fmt::format("there is no command '{}'; {}see 'riesel --help'", name,
+                                         question ? *question + " " : ""));
   }
 
   static int print(const std::string& text) {

@@ -22,10 +22,9 @@ const scenarios::Scenario& find(const std::string& name) {
     if (scenario.name == name) return scenario;
     names.push_back(scenario.name);
   }
-  const auto nearest = io::nearest_name(name, names);
-  throw UnusableInput(fmt::format("{}: unknown scenario; {}", name,
-                                  nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                          : "choose " + io::enumerate(names)));
+  throw UnusableInput(
+      fmt::format("{}: unknown scenario; {}", name,
+                  io::did_you_mean(name, names).value_or("choose " + io::enumerate(names))));
 }
 
 }  // namespace

@@ -74,14 +74,6 @@ bool is_over(const ColumnSetup& setup, const State& state) {
          <= std::max(hardly * std::sqrt(squares / setup.beads), slowly * setup.velocity);
 }
 
-/// A bead that is beyond the centre of the plate is never driven back.
-bool has_broken_through(const State& state) {
-  const GrainView grains(state);
-  for (std::size_t slot = 0; slot < state.grains.size(); ++slot)
-    if (grains[slot].x < 0.0) return true;
-  return false;
-}
-
 ColumnResult result(const ColumnSetup& setup, const State& state, bool over) {
   double sum = 0.0, squares = 0.0;
   for (const double v : velocities(state)) {
@@ -107,7 +99,8 @@ ColumnResult drop(const ColumnSetup& setup, double gap, Stepping stepping) {
   Simulation simulation(start(setup, gap), setup.model, 1, stepping);
   const double longest = patience(setup, gap);
   bool over = false;
-  while (!over && !has_broken_through(simulation.state()) && simulation.state().time() < longest) {
+  // A bead that is beyond the centre of the plate is never driven back.
+  while (!over && !grain_outside(simulation.state()) && simulation.state().time() < longest) {
     simulation.advance(steps_between_looks);
     over = is_over(setup, simulation.state());
   }

@@ -208,10 +208,10 @@ private:
   std::size_t kept() const;
   void end_lost_contacts(const State& state, std::int64_t step);
 
-  SlipLaw slip_;  // of the contacts that end in a sorting
-  double skin_;   // m
-  double max_radius_;
-  bool one_size_;  // all grains have this radius
+  SlipLaw slip_;       // of the contacts that end in a sorting
+  double skin_;        // m
+  double max_radius_;  // m
+  bool one_size_;      // all grains have this radius
   CoarseUnits units_;
   Cells cells_;
   CoarsePositions when_sorted_;

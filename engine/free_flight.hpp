@@ -76,10 +76,10 @@ struct PairRange {
   std::size_t begin, end;
 };
 
-/// Adds those of the pairs to `may_touch` that may touch within `steps`; none is
-/// overlooked as long as no grain is farther than `tolerance` (m) from its course. All courses have
-/// just been set. Most pairs that have just been listed stay apart until they are listed again, and
-/// to know that takes less than to know when they touch.
+/// Adds those of the pairs to `may_touch` that may touch within `steps`; none is overlooked as long
+/// as no grain is farther than `tolerance` (m) from its course. All courses have just been set.
+/// Most pairs that have just been listed stay apart until they are listed again, and to know that
+/// takes less than to know when they touch.
 void sift(const Slice& slice, PairRange range, const State& state, std::int64_t steps,
           double tolerance, Selection& may_touch);
 

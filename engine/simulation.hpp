@@ -36,7 +36,8 @@ enum class Sharing {
 class Simulation {
 public:
   /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its
-  /// invariants do not hold or the box is too small for the nearest image to be unique.
+  /// invariants do not hold, the box is too small for the nearest image to be unique, or there is
+  /// no thread; RunFailure if the system grants fewer threads.
   Simulation(State state, const ContactModel& model, int threads,
              Stepping stepping = Stepping::automatic, const Askew& askew = {},
              Sharing sharing = Sharing::automatic);

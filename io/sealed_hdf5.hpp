@@ -11,7 +11,7 @@
 namespace riesel::io {
 
 /// Seals a file that was created with a user block of `seal_size` bytes, and writes it durably.
-/// Throws FileError.
+/// Throws FileError, and Hdf5Error if HDF5 cannot make it.
 void write_sealed_hdf5(const std::filesystem::path& path, Hdf5File& file, std::string_view kind,
                        Previous previous);
 

@@ -69,17 +69,19 @@ std::optional<std::string> other_scenario_remedy(const std::string& key,
                      enumerate(others));
 }
 
+std::string question(const std::string& name) { return fmt::format("did you mean '{}'?", name); }
+
 std::optional<std::string> mistyped_remedy(const std::string& key, const SettingsTable& table) {
   const auto section = section_of(key);
   if (const auto nearest = nearest_name(name_in_section(key), names_of(table, section))) {
-    return fmt::format("did you mean '{}'?", key_of(section, *nearest));
+    return question(key_of(section, *nearest));
   }
   std::vector<std::string> names;
   for (const auto& row : table) names.push_back(name_in_section(row.key));
   if (const auto nearest = nearest_name(name_in_section(key), names)) {
     const auto row = std::ranges::find(
         table, *nearest, [](const Setting& candidate) { return name_in_section(candidate.key); });
-    return fmt::format("did you mean '{}'?", row->key);
+    return question(row->key);
   }
   return {};
 }
@@ -113,6 +115,12 @@ std::optional<std::string> nearest_name(const std::string& name,
     }
   }
   return nearest;
+}
+
+std::optional<std::string> did_you_mean(const std::string& name,
+                                        const std::vector<std::string>& candidates) {
+  const auto nearest = nearest_name(name, candidates);
+  return nearest ? std::optional(question(*nearest)) : std::nullopt;
 }
 
 std::string enumerate(const std::vector<std::string>& names) {

@@ -14,6 +14,10 @@ namespace riesel::io {
 std::optional<std::string> nearest_name(const std::string& name,
                                         const std::vector<std::string>& candidates);
 
+/// "did you mean 'b'?", of the nearest_name(); nothing if there is none.
+std::optional<std::string> did_you_mean(const std::string& name,
+                                        const std::vector<std::string>& candidates);
+
 /// "a, b or c"
 std::string enumerate(const std::vector<std::string>& names);
 

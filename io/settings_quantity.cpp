@@ -65,10 +65,9 @@ void refuse_unknown_entries(const Setting& row, const YamlNode& map) {
   const std::vector<std::string> known = {"from", "to", "points", "spacing"};
   for (const auto& entry : map.entries) {
     if (std::ranges::find(known, entry.key) != known.end()) continue;
-    const auto nearest = nearest_name(entry.key, known);
     throw SettingsError(entry.key_place, row.key + "." + entry.key, "unknown key",
-                        nearest ? fmt::format("did you mean '{}'?", *nearest)
-                                : "the keys of a range are from, to, points and spacing");
+                        did_you_mean(entry.key, known)
+                            .value_or("the keys of a range are from, to, points and spacing"));
   }
 }
 

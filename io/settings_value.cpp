@@ -41,9 +41,7 @@ SettingValue read_integer_or_auto(const Setting& row, const YamlNode& node) {
 std::string read_choice(const Setting& row, const YamlNode& node) {
   const auto& text = read_scalar(row, node);
   if (std::ranges::find(row.choices, text) != row.choices.end()) return text;
-  const auto nearest = nearest_name(text, row.choices);
-  refuse_value(row, node,
-               nearest ? fmt::format("did you mean '{}'?", *nearest) : "choose one of them");
+  refuse_value(row, node, did_you_mean(text, row.choices).value_or("choose one of them"));
 }
 
 bool read_boolean(const Setting& row, const YamlNode& node) {

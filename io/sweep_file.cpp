@@ -28,9 +28,8 @@ std::string unknown_key_remedy(const std::string& key) {
   if (key == "scenario") {
     return "this is a settings file: use 'riesel run', or name it as the base of a sweep";
   }
-  const auto nearest = nearest_name(key, known_keys());
-  return nearest ? fmt::format("did you mean '{}'?", *nearest)
-                 : "the keys of a sweep are " + enumerate(known_keys());
+  return did_you_mean(key, known_keys())
+      .value_or("the keys of a sweep are " + enumerate(known_keys()));
 }
 
 void refuse_unknown_keys(const YamlNode& file) {
@@ -111,7 +110,7 @@ SweepContinuation read_continuation(const YamlNode& node, const std::vector<Swee
   std::vector<std::string> keys;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     for (const auto& key : axes[i].keys) {
-      if (key == node.scalar) return {.axis = i, .key = key, .place = node.place};
+      if (key == node.scalar) return {.axis = i, .place = node.place};
       keys.push_back(key);
     }
   }

@@ -33,7 +33,6 @@ struct SweepBranch {
 /// The axis along which each run starts from the final state of its neighbour.
 struct SweepContinuation {
   std::size_t axis = 0;  ///< index into SweepFile::axes
-  std::string key;       ///< as the user wrote it
   Place place;
 };
 

@@ -1,5 +1,5 @@
-// What the scenarios of many grains have in common: how grains begin, and
-// the way from grains at their places to a flow.
+// What the scenarios of many grains have in common: how grains begin, and the way from grains at
+// their places to a flow.
 #pragma once
 
 #include "scenarios/scenario.hpp"
