@@ -16,12 +16,15 @@ constexpr std::string_view orange = "#d9730d", pale_orange = "#f9dcc0", pale_gre
 
 std::string label_of(const io::Column& column) { return with_unit(column.name, column.unit); }
 
+/// A value and, if its error is known, the ends of its bar.
+void add(const io::Measured& m, std::vector<double>& extent) {
+  extent.push_back(m.value);
+  if (std::isfinite(m.error)) extent.insert(extent.end(), {m.value - m.error, m.value + m.error});
+}
+
 /// With room for the mean and its error.
 io::Interval range_with(std::vector<double> values, const std::optional<io::Measured>& mean) {
-  if (mean) {
-    const double error = std::isfinite(mean->error) ? mean->error : 0.0;
-    values.insert(values.end(), {mean->value - error, mean->value + error});
-  }
+  if (mean) add(*mean, values);
   return io::range_of(values);
 }
 
@@ -55,8 +58,7 @@ io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::strin
     const io::ProfileWithErrors& profile = profiles.named(name);
     legend.emplace_back(name, io::look_of(legend.size()));
     for (std::size_t i = 0; i < profile.values.size(); ++i)
-      for (const double sign : {-1.0, 0.0, 1.0})
-        extent.push_back(profile.values[i] + sign * profile.errors[i]);
+      add({.value = profile.values[i], .error = profile.errors[i]}, extent);
   }
   io::Plot plot(figure_width, 300.0, label + " across the tube",
                 {.label = "x (m)", .range = io::range_of(profiles.x)},

@@ -238,6 +238,18 @@ class OtherRuns(Report):
         self.assertLess(int(drawn), int(grains))
         self.assertGreater(int(drawn), 1000)
 
+    def test_profiles_stay_within_their_axes_where_errors_are_not_known(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        self.report_on(out)
+        with h5py.File(out / "run.h5") as run:
+            self.assertTrue(np.isnan(run["profiles/mean_axial_velocity_error"][()]).all())
+        for name in ("area_fraction", "velocity", "temperature", "stress"):
+            root = self.figure(out, name)
+            places = [float(disc.get("cy")) for disc in root.iter(f"{SVG}circle")]
+            self.assertGreater(len(places), 5, name)
+            self.assertGreaterEqual(min(places), 0.0, name)
+            self.assertLessEqual(max(places), float(root.get("height")), name)
+
     def test_a_run_that_asked_for_precision_tells_why_it_ended(self):
         out = self.run_small_tube("out", "--set", "run.duration=", "--set",
                                   "run.until.relative_error=1 %", "--set", "run.until.at_most=0.2 ms")
