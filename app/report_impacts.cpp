@@ -71,7 +71,8 @@ std::vector<ImpactLine> lines_of(const io::CurveSummary& summary) {
 
 std::string what_dashes_mean() {
   return fmt::format(
-      "Lines are dashed where the result is unphysical: more than {:g} of the braking is done by "
+      "Lines are dashed, and single points open, where the result is unphysical: more than {:g} of "
+      "the braking is done by "
       "contacts that are passed through before they can push (brake failure), grains sink into "
       "each other by more than {:g} of the smaller radius, or errors of the time step make or take "
       "more than {:g} of the energy.",

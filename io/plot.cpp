@@ -88,7 +88,10 @@ void Plot::curve(std::span<const double> x, std::span<const double> y, const Sty
   const auto columns = static_cast<std::size_t>(right_ - left);
   std::vector<Point> piece;
   const auto draw = [&] {
-    if (!piece.empty()) svg_.polyline(thinned(piece, columns), style);
+    if (piece.size() == 1)  // a line of no length paints nothing
+      draw_single(piece.front(), style);
+    else if (!piece.empty())
+      svg_.polyline(thinned(piece, columns), style);
     piece.clear();
   };
   svg_.begin_group("curve", {.fill = "none"});
@@ -101,6 +104,13 @@ void Plot::curve(std::span<const double> x, std::span<const double> y, const Sty
   }
   draw();
   svg_.end_group();
+}
+
+void Plot::draw_single(Point place, const Style& style) {
+  svg_.disc(place, 2.5,
+            {.fill = style.dashes.empty() ? style.stroke : "#ffffff",
+             .stroke = style.stroke,
+             .stroke_width = style.stroke_width});
 }
 
 void Plot::area(Interval x, Interval y, const Style& style) {

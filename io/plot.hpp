@@ -40,7 +40,7 @@ public:
   Point at(double x, double y) const;
 
   /// A line through all pairs, x ascending; more of them than pixels are thinned. Pairs that are
-  /// not finite are gaps.
+  /// not finite are gaps; one between two gaps is a small disc, open where the line is dashed.
   void curve(std::span<const double> x, std::span<const double> y, const Style& style);
   /// What lies within the axes of a rectangle or a straight line.
   void area(Interval x, Interval y, const Style& style);
@@ -69,6 +69,7 @@ public:
 
 private:
   void draw_axes();
+  void draw_single(Point place, const Style& style);
   void draw_symbol(Point place, const Look& look, bool is_full);
 
   Axis x_, y_;

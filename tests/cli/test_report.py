@@ -339,6 +339,21 @@ class Impacts(Report):
         self.assertIn(self.state_hash(self.out), self.page.text)
 
 
+class ImpactsOfOneVelocity(Report):
+
+    def test_they_are_drawn_as_discs_open_where_the_result_is_unphysical(self):
+        for velocity, is_open in (("1 m/s", False), ("40 m/s", True)):
+            with self.subTest(velocity):
+                out = self.run_to_end(SHIPPED / "wall_array.yaml", velocity, "--set",
+                                      f"impact.axial_velocity={velocity}")
+                self.assertEqual([point["verdict"] == "unphysical" for point in self.summary(out)["curve"]],
+                                 [is_open] * 3)
+                self.report_on(out)
+                for name in ("dv_y", "contacts", "dv_x", "max_overlap"):
+                    discs = self.figure(out, name).findall(f"{SVG}g[@class='curve']/{SVG}circle")
+                    self.assertEqual([disc.get("fill") != disc.get("stroke") for disc in discs], [is_open] * 3)
+
+
 class Refused(Report):
 
     def assert_no_report(self, directory, *mentions):

@@ -179,6 +179,16 @@ TEST_CASE("A curve is interrupted where it is not known") {
   CHECK(count_of(plot.svg().element(), "<polyline") == 2);
 }
 
+TEST_CASE("A point of a curve between two gaps is a disc, open where the curve is dashed") {
+  auto plot = small_plot();
+  const std::vector<double> x = {0.0, 1.0, 2.0}, y = {std::nan(""), 0.5, std::nan("")};
+  plot.curve(x, y, {.stroke = "blue"});
+  CHECK(count_of(plot.svg().element(), "fill=\"blue\" stroke=\"blue\"") == 1);
+  plot.curve(x, y, {.stroke = "red", .dashes = "5 4"});
+  CHECK(count_of(plot.svg().element(), "fill=\"#ffffff\" stroke=\"red\"") == 1);
+  CHECK(count_of(plot.svg().element(), "<polyline") == 0);
+}
+
 TEST_CASE("Marks stay within the axes") {
   auto plot = small_plot();
   const auto before = plot.svg().element();
