@@ -54,6 +54,7 @@ void Svg::begin_group(std::string_view name, const Style& style) {
 void Svg::end_group() { shapes_ += "</g>\n"; }
 
 void Svg::begin_link(std::string_view address, std::string_view tip) {
+  has_links_ = true;
   shapes_ += "<a" + attribute("href", address) + "><title>" + escaped(tip) + "</title>\n";
 }
 
@@ -95,9 +96,11 @@ void Svg::upward_text(Point at, std::string_view text, const Style& style) {
 
 std::string Svg::with_name_space(std::string_view name_space) const {
   const auto width = number(width_), height = number(height_);
+  // To assistive technology an image is one thing, without the links in it.
+  const std::string_view role = has_links_ ? "group" : "img";
   return "<svg" + attribute("xmlns", name_space) + attribute("width", width)
          + attribute("height", height) + attribute("viewBox", "0 0 " + width + " " + height)
-         + " role=\"img\" font-family=\"sans-serif\" font-size=\"12\">\n<title>"
+         + attribute("role", role) + " font-family=\"sans-serif\" font-size=\"12\">\n<title>"
          + escaped(description_) + "</title>\n" + shapes_ + "</svg>\n";
 }
 

@@ -62,6 +62,7 @@ private:
 
   double width_, height_;
   std::string description_, shapes_;
+  bool has_links_ = false;
 };
 
 }  // namespace riesel::io

@@ -126,6 +126,8 @@ class FinishedSweep(SweepReport):
         self.assertNotRegex(raw, r"https?://|url\(|@import|<script|<img|<link")
         links = [given["href"] for name, given in self.page.elements if name == "a"]
         self.assertEqual(len(links), 12 + 12 + 1)  # in the figure, in the table, and the report
+        roles = [given["role"] for name, given in self.page.elements if name == "svg"]
+        self.assertEqual(roles, ["group"])  # an image would hide its links from a screen reader
         for link in links:
             self.assertTrue((self.sweep_directory / link).exists(), link)
         self.assertEqual(sum(link.endswith(f"{self.reported.name}/report.html") for link in links), 2)

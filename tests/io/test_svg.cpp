@@ -71,6 +71,15 @@ TEST_CASE("A drawing names its format in a file, and refers to nothing in a page
   CHECK_FALSE(has(svg.element(), "http"));
 }
 
+TEST_CASE("A drawing is an image, or a group if there are links in it") {
+  Svg svg(10.0, 10.0, "nothing");
+  CHECK(has(svg.element(), " role=\"img\""));
+  svg.begin_link("there", "a tip");
+  svg.end_link();
+  CHECK(has(svg.element(), " role=\"group\""));
+  CHECK_FALSE(has(svg.element(), "role=\"img\""));
+}
+
 TEST_CASE("A drawing takes no coordinate that is not finite") {
   Svg svg(10.0, 10.0, "nothing");
   for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()})
