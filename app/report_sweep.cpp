@@ -4,6 +4,7 @@
 #include "app/plain_words.hpp"
 #include "app/report_impacts.hpp"
 #include "app/report_sweep_curves.hpp"
+#include "io/settings_text.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +41,7 @@ public:
     show_impacts();
     list_points();
     page().heading("The sweep");
-    page().folded("The sweep file", record_->sweep_file);
+    page().folded("The sweep file", io::with_plain_line_ends(record_->sweep_file));
     return draft_.report();
   }
 

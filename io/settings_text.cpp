@@ -70,15 +70,19 @@ std::string read_settings_text(const std::filesystem::path& file) {
   return text;
 }
 
-std::string clean_settings_text(std::string_view text, const std::string& source) {
-  if (text.size() > largest_settings_text) refuse_size(source);
-  text = without_byte_order_mark(text);
-  std::string clean;
-  clean.reserve(text.size());
+std::string with_plain_line_ends(std::string_view text) {
+  std::string plain;
+  plain.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool before_newline = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
-    if (!before_newline) clean += text[i];
+    if (!before_newline) plain += text[i];
   }
+  return plain;
+}
+
+std::string clean_settings_text(std::string_view text, const std::string& source) {
+  if (text.size() > largest_settings_text) refuse_size(source);
+  std::string clean = with_plain_line_ends(without_byte_order_mark(text));
   refuse_bad_characters(clean, source);
   refuse_tab_indentation(clean, source);
   return clean;

@@ -320,6 +320,12 @@ class OtherSweeps(SweepReport):
         self.assertNotIn("n_dot dv_y / g", page.text)
         self.assertNotIn("inf ±", page.text)
 
+    def test_a_sweep_file_with_line_ends_of_windows_is_shown_without_them(self):
+        text = "base: tube.yaml\nset: {run.duration: 0.1 ms}\naxes: {contact.friction: [0.1, 0.2]}\n"
+        page = self.report_on(self.sweep(text.replace("\n", "\r\n")))
+        self.assertIn(text, page.text)
+        self.assertNotIn("\N{REPLACEMENT CHARACTER}", page.text)
+
     def test_impacts_are_drawn_as_in_the_paper(self):
         sweep = self.sweep(IMPACTS)
         page = self.report_on(sweep)
