@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -53,17 +54,44 @@ std::string explanation_of_end(const std::string& ended_by) {
   return "the time was up before two looks in a row found the mean as precise as was asked for";
 }
 
+namespace {
+
+/// The power of ten of the first digit, after rounding to so many: -1 of 0.0996 by two, 0.10.
+int order_of(double x, int digits) {
+  const std::string text = fmt::format("{:.{}e}", x, digits - 1);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
+/// "1.534" and "0.050": an error bar of `error_digits` digits, and a value that ends where it does.
+/// Where the bar is not known or none, the value has `digits` digits, and no bar is told.
+struct Digits {
+  std::string value, error;
+};
+
 Digits digits_of(const io::Measured& m, int digits, int error_digits) {
-  const auto order = [](double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); };
   if (!(m.error > 0.0) || !std::isfinite(m.error))
     return {fmt::format("{:.{}g}", m.value, digits), ""};
   constexpr int most_decimals = 6;  // smaller ones have an exponent
-  const int decimals = std::max(0, error_digits - 1 - order(m.error));
+  const int last = order_of(m.error, error_digits) - error_digits + 1;
+  const int decimals = std::max(0, -last);
   if (decimals <= most_decimals)
     return {fmt::format("{:.{}f}", m.value, decimals), fmt::format("{:.{}f}", m.error, decimals)};
-  const int significant = m.value == 0.0 ? 1 : order(m.value) - order(m.error) + error_digits;
+  constexpr int exact = std::numeric_limits<double>::max_digits10;
+  const int significant = m.value == 0.0 ? 1 : order_of(m.value, exact) - last + 1;
   return {fmt::format("{:.{}g}", m.value, std::max(1, significant)),
           fmt::format("{:.{}g}", m.error, error_digits)};
+}
+
+}  // namespace
+
+std::string with_error(const io::Measured& m, std::string_view unit, std::string_view sign,
+                       int digits, int error_digits) {
+  if (std::isnan(m.value)) return "not known";
+  const auto [value, error] = digits_of(m, digits, error_digits);
+  const std::string bar = std::isnan(m.error) ? " (error not known)"
+                          : error.empty()     ? ""
+                                              : fmt::format(" {} {}", sign, error);
+  return fmt::format("{}{}{}{}", value, bar, unit.empty() ? "" : " ", unit);
 }
 
 std::string explanation(const Finding& f) {

@@ -29,12 +29,11 @@ double sufficient_duration(const io::FlowSummary& summary);
 /// Why a run came to its end: "duration", "precision" or "at_most".
 std::string explanation_of_end(const std::string& ended_by);
 
-/// "1.534" and "0.050": an error bar of `error_digits` digits, and a value that ends where it does.
-/// Where the bar is not known or none, the value has `digits` digits, and no bar is told.
-struct Digits {
-  std::string value, error;
-};
-Digits digits_of(const io::Measured& measured, int digits = 4, int error_digits = 2);
+/// "1.534 ± 0.050 m/s": an error bar of `error_digits` digits, and a value that ends where it does.
+/// Without a bar, which may be not known or none, the value has `digits` digits. `unit` may be
+/// empty; the screen has "+-" for the `sign`.
+std::string with_error(const io::Measured& measured, std::string_view unit,
+                       std::string_view sign = "±", int digits = 4, int error_digits = 2);
 
 /// What speaks against a run: the value, the threshold it passed, what it means and what helps.
 std::string explanation(const Finding& finding);

@@ -12,11 +12,9 @@ namespace riesel::app {
 
 namespace {
 
-/// With its error bar, if it has one.
+/// As the screen has it.
 std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int error_digits = 2) {
-  if (std::isnan(m.value)) return "not known";
-  const auto [value, error] = digits_of(m, digits, error_digits);
-  return value + (error.empty() ? "" : " +- " + error) + " " + unit;
+  return with_error(m, unit, "+-", digits, error_digits);
 }
 
 void print_balance(const io::FlowSummary::Balance& b) {

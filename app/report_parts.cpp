@@ -1,7 +1,5 @@
 #include "app/report_parts.hpp"
 
-#include "app/plain_words.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,15 +37,6 @@ void ReportDraft::add_origin(const io::RunSummary& run, const io::RunHistory& hi
 
 std::string number(double value, const char* form) {
   return std::isnan(value) ? "not known" : fmt::format(fmt::runtime(form), value);
-}
-
-std::string with_error(const io::Measured& m, const std::string& unit) {
-  if (std::isnan(m.value)) return "not known";
-  const auto [value, error] = digits_of(m);
-  const std::string bar = std::isnan(m.error) ? " (error not known)"
-                          : error.empty()     ? ""
-                                              : " ± " + error;
-  return value + bar + (unit.empty() ? "" : " " + unit);
 }
 
 std::string with_unit(const std::string& name, const std::string& unit) {

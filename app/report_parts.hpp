@@ -61,9 +61,6 @@ private:
 /// "not known" for what is not a number. `form` is a format of one double.
 std::string number(double value, const char* form = "{:.4g}");
 
-/// "1.53 ± 0.02 m/s"; `unit` may be empty.
-std::string with_error(const io::Measured& measured, const std::string& unit);
-
 /// "spacing (m)"; without a unit if that is empty or "1".
 std::string with_unit(const std::string& name, const std::string& unit);
 

@@ -1,6 +1,7 @@
 #include "app/report_sweep_curves.hpp"
 
 #include "app/cell_text.hpp"
+#include "app/plain_words.hpp"
 #include "app/report_impacts.hpp"
 #include "app/report_panels.hpp"
 

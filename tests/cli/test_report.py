@@ -255,6 +255,13 @@ class OtherRuns(Report):
                                   "run.until.relative_error=1 %", "--set", "run.until.at_most=0.2 ms")
         self.assertIn("The run ended (at_most): the time was up", self.report_on(out).text)
 
+    def test_an_error_has_two_digits_also_where_rounding_carries(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
+        for error, told in ((0.0996, "1.50 ± 0.10 m/s"), (0.0994, "1.500 ± 0.099 m/s"), (0.996, "1.5 ± 1.0 m/s")):
+            summary = {**self.summary(out), "mean_axial_velocity": {"value": 1.5, "error": error}}
+            (out / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+            self.assertIn(f"Mean axial velocity {told} after", self.report_on(out).text)
+
     def test_figures_of_an_earlier_report_do_not_stay(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.2 ms")
         self.report_on(out)
