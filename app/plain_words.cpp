@@ -195,11 +195,13 @@ std::string where_hard(const io::ColumnSummary& summary) {
     return judge_drop(0.0, p.detachment, 0.0) != Validity::valid;
   };
   std::vector<io::ColumnPoint> points = summary.column;
+  // Drops that were given up tell nothing of how many beads touch at once.
+  std::erase_if(points, [](const io::ColumnPoint& p) { return std::isnan(p.detachment); });
   std::ranges::sort(points, std::ranges::greater{}, &io::ColumnPoint::gap_ratio);
   const auto soft = std::ranges::find_if(points, touches_several);
   if (soft == points.end()
-      && std::ranges::count(points, Validity::valid, &io::ColumnPoint::verdict)
-             < std::ssize(points))
+      && std::ranges::count(summary.column, Validity::valid, &io::ColumnPoint::verdict)
+             < std::ssize(summary.column))
     return "not resolved, or too deep: raise run.steps_per_collision or contact.stiffness.";
   if (soft == points.begin())
     return "t_col is too long for all of these gaps: raise contact.stiffness.";

@@ -45,7 +45,7 @@ void show_curves(const io::ColumnSummary& s, ReportDraft& draft) {
   draft.page().heading("Curves");
   draft.page().paragraph(
       "Dashes: hard beads, which collide one after the other. Full symbols: valid. Open: suspect. "
-      "Red crosses: unphysical, as contacts last so long that beads touch several others at once.");
+      "Red crosses: unphysical.");
   draft.add_figure(
       "restitution",
       draw(s, &io::ColumnPoint::restitution, s.rigid.restitution, "effective restitution"),

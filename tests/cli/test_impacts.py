@@ -1,5 +1,6 @@
 """The shipped impact scenarios from end to end."""
 
+import json
 import math
 
 import h5py
@@ -218,6 +219,17 @@ class BeadColumn(CommandTest):
         close = self.riesel("run", SHIPPED / "bead_column.yaml", "--out", "close", "--set", "column.gap_ratio=0.1")
         self.assertIn("too long for all of these gaps: raise contact.stiffness", close.stdout)
 
+    def test_drops_that_were_given_up_tell_nothing_of_t_col(self):
+        out = self.drop("out")
+        summary = self.summary(out)
+        valid = min(p["gap_ratio"] for p in summary["column"] if p["verdict"] == "valid")
+        widest = max(summary["column"], key=lambda point: point["gap_ratio"])
+        widest.update(detachment=None, restitution=None, verdict="suspect")
+        (out / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+        self.assert_done(self.riesel("report", out))
+        self.assertIn(f"t_col is too long for gaps below {valid:.3g} v t_col",
+                      (out / "report.html").read_text(encoding="utf-8"))
+
     def test_energy_that_comes_from_nowhere_is_told(self):
         """Beads without damping that steps do not resolve."""
         result = self.riesel("run", SHIPPED / "bead_column.yaml", "--out", "coarse", "--set", "contact.restitution=1",
@@ -247,6 +259,7 @@ class BeadColumn(CommandTest):
         self.assert_done(self.riesel("report", out))
         page = (out / "report.html").read_text(encoding="utf-8")
         self.assertIn("t_col is too long for gaps below", page)
+        self.assertIn("Red crosses: unphysical.<", page)
         self.assertTrue((out / "figures" / "restitution.svg").is_file())
         self.write("base.yaml", (SHIPPED / "bead_column.yaml").read_text(encoding="utf-8"))
         self.write("sweep.yaml", "base: base.yaml\naxes:\n  - {contact.stiffness: [2000 N/m, 20000 N/m]}\n")
