@@ -2,6 +2,7 @@
 
 #include "app/plain_words.hpp"
 #include "app/report_contacts.hpp"
+#include "app/report_curves.hpp"
 #include "app/report_figures.hpp"
 #include "app/state_figure.hpp"
 
@@ -51,15 +52,23 @@ private:
                                  s.run.grains, s.time, s.run.steps, s.ended_by,
                                  explanation_of_end(s.ended_by)));
     const bool is_steady = s.state == "steady";
+    const bool by_temperature = s.judged_by == "granular_temperature";
     page().paragraph(
-        fmt::format("Mean axial velocity {} after {:.3g} s{}. State, by {} independent "
-                    "samples: {}: {}.{}",
-                    with_error(s.mean_axial_velocity, "m/s"), s.transient_end,
-                    std::isnan(s.mean_axial_velocity.error) ? "" : " (68 % error bar)",
-                    number(s.independent_samples, "{:.3g}"), s.state, explanation_of_state(s),
-                    is_steady ? "" : " The mean is not to be used as a property of the flow."),
+        fmt::format(
+            "{}. {}. State, by {} independent samples: {}: {}.{}",
+            told(judged_quantity(by_temperature), fmt::format(" after {:.3g} s", s.transient_end)),
+            told(judged_quantity(!by_temperature), ""), number(s.independent_samples, "{:.3g}"),
+            s.state, explanation_of_state(s),
+            is_steady ? "" : " The mean is not to be used as a property of the flow."),
         is_steady ? "good" : "doubtful");
     tell_validity();
+  }
+
+  /// "Mean axial velocity 1.534 ± 0.050 m/s after 0.25 s (68 % error bar)"; `when` may be empty.
+  std::string told(const FlowQuantity& quantity, const std::string& when) const {
+    const io::Measured& mean = quantity.of(summary());
+    return fmt::format("{} {}{}{}", quantity.heading, with_error(mean, quantity.unit), when,
+                       std::isnan(mean.error) ? "" : " (68 % error bar)");
   }
 
   void tell_validity() {

@@ -55,6 +55,9 @@ class FinishedRun(Report):
         summary = self.summary(self.out)
         mean = summary["mean_axial_velocity"]
         self.assertIn(f"{with_error(mean)} m/s", self.page.text)
+        temperature = summary["fluctuations"]["granular_temperature"]
+        self.assertRegex(self.page.text, r"Mean axial velocity .* Granular temperature "
+                         rf"{with_error(temperature)} m\^2/s\^2 \(68 % error bar\)\. State")
         self.assertIn("too_short: 1 of 20 independent samples", self.page.text)
         self.assertIn(f"{summary['grains']} grains", self.page.text)
         self.assertIn(summary["state_hash"], self.page.text)
