@@ -198,6 +198,10 @@ class Limits(CommandTest):
         self.assertEqual(after["warnings"], before["warnings"])
         self.assertEqual(after["findings"][-1]["name"], "limits_exceeded")
         self.assertEqual((after["findings"][-1]["value"], after["findings"][-1]["verdict"]), (2, "suspect"))
+        self.assert_done(self.riesel("report", "warned"))
+        page = (self.home / "warned/report.html").read_text(encoding="utf-8")
+        for warning in before["warnings"]:
+            self.assertIn(f"<li>{warning}</li>", page)
         self.assertNotEqual(after["verdict"], "valid")
         self.assertIn("limits_exceeded", result.stdout)
 
