@@ -158,18 +158,20 @@ void show_contacts(const io::RunContents& run, const io::FlowSummary& summary, R
   for (const bool is_wall : {false, true}) {
     const char* of = is_wall ? "wall" : "grain";
     const auto add = [&](const std::string& what, const std::string& label,
-                         const std::vector<HistogramMark>& marks) {
+                         const std::vector<HistogramMark>& marks, const std::string& more) {
       const std::string name = fmt::format("{}_contact_{}", of, what);
       const io::HistogramWithErrors& histogram = run.histogram_of(name);
-      draft.add_figure(name, draw_histogram(histogram, label, marks), histogram.column.doc);
+      draft.add_figure(name, draw_histogram(histogram, label, marks), histogram.column.doc + more);
     };
-    add("duration", "duration (s)", marks_of_durations(summary, is_wall));
+    add("duration", "duration (s)", marks_of_durations(summary, is_wall),
+        is_wall ? " t_col: a head-on contact of a grain of the mean mass with a wall."
+                : " t_col: a head-on contact between two grains of the mean mass.");
     add("overlap", "largest overlap over the sum of the radii",
-        marks_of_overlaps(summary, run.final_state, is_wall));
+        marks_of_overlaps(summary, run.final_state, is_wall), "");
   }
   draft.page().paragraph(fmt::format(
       "How many contacts ended per second after the transient, by bins of a quarter of an octave, "
-      "with 68 % error bars. t_col: a head-on contact between grains of the mean mass. A wall "
+      "with 68 % error bars. A wall "
       "contact that lasts less than {:.3g} of its own t_col is cut short: the grain has passed "
       "before it was pushed away. Suspect and unphysical: the thresholds of max_overlap_ratio, for "
       "a pair of mean size; steps: that of steps_per_contact. The shortest contacts are grazing "

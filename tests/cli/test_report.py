@@ -175,6 +175,9 @@ class FinishedRun(Report):
                 self.assertAlmostEqual(marks[label], slope * np.log(value) + offset, delta=1.0,
                                        msg=f"{name}: {label}")
         self.assertAlmostEqual(t_col["walls"] / t_col["grains"], 2 ** 0.5, delta=0.02)
+        for partners, told in (("between grains", "between two grains of the mean mass"),
+                               ("of grains with walls", "of a grain of the mean mass with a wall")):
+            self.assertIn(f"How long contacts {partners} last. t_col: a head-on contact {told}.", self.page.text)
 
     def test_the_braking_of_each_wall_is_told_and_drawn(self):
         braking = self.summary(self.out)["braking_force"]
