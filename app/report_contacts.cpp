@@ -16,6 +16,12 @@ namespace {
 
 constexpr std::string_view pale_blue = "#a9c1dd";
 
+/// A value on the axis of a histogram that means something.
+struct HistogramMark {
+  double at = 0.0;  ///< in the unit of the axis; not a number: not known, and not drawn
+  std::string label;
+};
+
 /// Where bin `i` ends: the bins of an octave are equally wide.
 double upper_edge(const std::vector<double>& edges, std::size_t i) {
   return i + 1 < edges.size() ? edges[i + 1] : 2.0 * edges[i] - edges[i - 1];
@@ -78,6 +84,24 @@ std::vector<HistogramMark> marks_of_durations(const io::FlowSummary& summary, bo
   return marks;
 }
 
+/// What brakes: a wall or all of them, and the series of the impulse that it has given.
+struct Brake {
+  std::string name, impulse;
+};
+
+std::vector<Brake> brakes_of(const io::FlowSummary::BrakingForce& force) {
+  std::vector<Brake> brakes = {{left_wall_of(force), "left_wall_impulse_y"}};
+  if (force.right)
+    brakes.insert(brakes.end(),
+                  {{right_wall, "right_wall_impulse_y"}, {"both walls", "wall_impulse_y"}});
+  return brakes;
+}
+
+/// Not where gravity does not pull along the walls.
+bool has_weight(const io::FlowSummary::BrakingForce& force) {
+  return std::isfinite(force.weight) && force.weight != 0.0;
+}
+
 /// s and N: the mean force of a wall over each of at most `parts` parts of the rows.
 std::array<std::vector<double>, 2> force_of(const io::Series& time, const io::Series& impulse,
                                             std::size_t parts) {
@@ -93,8 +117,7 @@ std::array<std::vector<double>, 2> force_of(const io::Series& time, const io::Se
   return force;
 }
 
-}  // namespace
-
+/// Bars with errors on logarithmic axes; `marks` ascend.
 io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_label,
                        const std::vector<HistogramMark>& marks) {
   io::Plot plot(figure_width, 270.0, h.column.doc, axis_of_values(h, x_label, marks),
@@ -123,34 +146,55 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
   return plot.svg();
 }
 
+/// Mean forces (N, positive where they brake) over parts of the time, and the weight: that of all
+/// grains, as the part of it that a wall carries depends on what presses the grains to it.
 io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary) {
   constexpr std::size_t parts = 50;
   const io::Series& time = run.series_of("time");
-  std::vector<std::string> walls = {"left"};
-  if (summary.braking_force.right) walls.emplace_back("right");
-  const double share = summary.braking_force.weight / static_cast<double>(walls.size());
+  const std::vector<Brake> brakes = brakes_of(summary.braking_force);
+  const bool with_weight = has_weight(summary.braking_force);
   std::vector<std::array<std::vector<double>, 2>> forces;
   std::vector<double> extent = {0.0};
-  for (const std::string& wall : walls) {
-    forces.push_back(force_of(time, run.series_of(wall + "_wall_impulse_y"), parts));
+  for (const Brake& brake : brakes) {
+    forces.push_back(force_of(time, run.series_of(brake.impulse), parts));
     extent.insert(extent.end(), forces.back()[1].begin(), forces.back()[1].end());
   }
-  if (std::isfinite(share)) extent.push_back(share);
+  if (with_weight) extent.push_back(summary.braking_force.weight);
 
-  io::Plot plot(figure_width, 250.0, "Braking force of each wall",
+  io::Plot plot(figure_width, 250.0, "Braking force of the walls",
                 {.label = "time (s)", .range = io::range_of(time.values)},
                 {.label = "braking force (N)", .range = io::range_of(extent)});
   mark_transient(summary.transient_end, plot);
   std::vector<std::pair<std::string, io::Look>> legend;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    legend.emplace_back(walls[i] + " wall", io::look_of(i));
+  for (std::size_t i = 0; i < brakes.size(); ++i) {
+    legend.emplace_back(brakes[i].name, io::look_of(i));
     plot.curve(forces[i][0], forces[i][1],
                {.stroke = legend[i].second.colour, .stroke_width = 1.5});
   }
-  if (std::isfinite(share))
-    plot.level(plot.x().range, share, {.stroke = ink::grey, .dashes = "5 4"});
+  if (with_weight)
+    plot.level(plot.x().range, summary.braking_force.weight,
+               {.stroke = ink::grey, .dashes = "5 4"});
   plot.legend("", legend, false);
   return plot.svg();
+}
+
+}  // namespace
+
+std::string left_wall_of(const io::FlowSummary::BrakingForce& force) {
+  return force.right ? "left wall" : "bottom";
+}
+
+void show_braking(const io::RunContents& run, const io::FlowSummary& summary, ReportDraft& draft) {
+  const auto& force = summary.braking_force;
+  std::string caption =
+      fmt::format("Axial force of {} on the grains, positive where it brakes, in means over parts "
+                  "of the time.",
+                  force.right ? "the walls" : "the bottom");
+  if (has_weight(force))
+    caption += fmt::format(" Dashed: the weight of all grains along {} in a steady state.",
+                           force.right ? "the walls, which carry it together"
+                                       : "the bottom, which carries it");
+  draft.add_figure("braking", draw_braking(run, summary), caption);
 }
 
 void show_contacts(const io::RunContents& run, const io::FlowSummary& summary, ReportDraft& draft) {

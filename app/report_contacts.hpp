@@ -5,26 +5,17 @@
 #include "app/report_parts.hpp"
 #include "io/run_reader.hpp"
 #include "io/summary.hpp"
-#include "io/svg.hpp"
 
 #include <string>
-#include <vector>
 
 namespace riesel::app {
 
-/// A value on the axis of a histogram that means something.
-struct HistogramMark {
-  double at = 0.0;  ///< in the unit of the axis; not a number: not known, and not drawn
-  std::string label;
-};
+/// What a page calls the walls: one that has no other above it is the bottom of a chute.
+std::string left_wall_of(const io::FlowSummary::BrakingForce& force);
+inline constexpr auto right_wall = "right wall";
 
-/// Bars with errors on logarithmic axes; `marks` ascend.
-io::Svg draw_histogram(const io::HistogramWithErrors& histogram, const std::string& x_label,
-                       const std::vector<HistogramMark>& marks);
-
-/// Mean forces of the left and the right wall (N, positive where they brake) over parts of the
-/// time, and half of the weight.
-io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary);
+/// How the walls brake, in time, as a part of a flow's report.
+void show_braking(const io::RunContents& run, const io::FlowSummary& summary, ReportDraft& draft);
 
 /// The histograms of a flow as a part of its report.
 void show_contacts(const io::RunContents& run, const io::FlowSummary& summary, ReportDraft& draft);

@@ -199,24 +199,22 @@ private:
         {"their product, equal to gravity in a steady state", with_error(b.n_dot_dv_y, "m/s^2")},
         {"gravity", number(b.gravity) + " m/s^2"},
         {"contacts with other grains per grain", with_error(summary().grain_contact_rate, "1/s")},
-        {"braking force of the left wall", with_error(force.left, "N")}};
+        {"braking force of the " + left_wall_of(force), with_error(force.left, "N")}};
     if (force.right)
-      rows.push_back({"braking force of the right wall", with_error(*force.right, "N")});
-    rows.insert(rows.end(), {{"weight of all grains, carried by the walls in a steady state",
-                              number(force.weight) + " N"},
-                             {"visits to a wall", number(v.visits, "{:.0f}")},
-                             {"contacts per visit", with_error(v.contacts, "")},
-                             {"axial velocity lost per visit", with_error(v.dv_y, "m/s")},
-                             {"velocity above which a wall contact is cut short, v_crit",
-                              std::isnan(summary().validity.v_crit)
-                                  ? "none"
-                                  : number(summary().validity.v_crit) + " m/s"}});
+      rows.push_back(
+          {fmt::format("braking force of the {}", right_wall), with_error(*force.right, "N")});
+    rows.insert(
+        rows.end(),
+        {{"weight of all grains along the walls, carried by them in a steady state",
+          number(force.weight) + " N"},
+         {"visits to a wall", number(v.visits, "{:.0f}")},
+         {"contacts per visit", with_error(v.contacts, "")},
+         {"axial velocity lost per visit", with_error(v.dv_y, "m/s")},
+         {"velocity above which a wall contact is cut short, v_crit",
+          std::isnan(summary().validity.v_crit) ? "none"
+                                                : number(summary().validity.v_crit) + " m/s"}});
     page().table(rows);
-    draft_.add_figure(
-        "braking", draw_braking(record_->run, summary()),
-        "Axial force of each wall on the grains, positive where it brakes, in means over parts of "
-        "the time. Dashed: the share of the weight of all grains that each wall carries in a "
-        "steady state.");
+    show_braking(record_->run, summary(), draft_);
     draft_.add_figure("visits", draw_visits(v.of_contacts),
                       "Contacts per visit to a wall, of all visits that have ended since the "
                       "start. Many contacts with short passages are the brake failure of the "

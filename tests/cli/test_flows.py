@@ -1,11 +1,13 @@
 """Flows beside the tube, through the command: smooth walls, slopes, walls that move."""
 
 import json
+import xml.etree.ElementTree
 
 import h5py
 import numpy as np
 
-from riesel_command import CommandTest
+from report_files import SVG
+from riesel_command import CommandTest, with_error
 
 CONTACT = "contact: {stiffness: 500 N/m, restitution: 0.8, friction: 0.5}\n"
 CHUTE = f"""
@@ -37,6 +39,14 @@ class Flows(CommandTest):
     def run_of(self, name, text, *options):
         self.write(f"{name}.yaml", text)
         return self.run_to_end(f"{name}.yaml", name, *options)
+
+    def braking(self, out):
+        return xml.etree.ElementTree.parse(out / "figures/braking.svg").getroot()
+
+    def level_of_braking(self, out):
+        """y of the dashed lines from one side to the other."""
+        return [float(line.get("y1")) for line in self.braking(out).findall(f"{SVG}line")
+                if line.get("stroke-dasharray") == "5 4" and line.get("y1") == line.get("y2")]
 
     def test_a_dense_chute_is_no_brake_failure(self):
         out = self.run_of("chute", CHUTE)
@@ -71,6 +81,31 @@ class Flows(CommandTest):
                 way = (y[1, side] - y[0, side]) - velocity * (walls["time"][1] - walls["time"][0])
                 length = file["particles/walls/box/edges"][1]
                 self.assertLess(abs(way - length * np.round(way / length)).max(), 1e-8)
+
+    def test_the_report_of_a_shear_cell_tells_how_hot_it_is_and_of_no_weight(self):
+        out = self.run_of("cell", CELL)
+        self.assert_done(self.riesel("report", out))
+        page = (out / "report.html").read_text(encoding="utf-8")
+        temperature = with_error(self.summary(out)["fluctuations"]["granular_temperature"])
+        self.assertRegex(page, rf"<p[^>]*>Granular temperature {temperature} m\^2/s\^2 after .* Mean axial velocity ")
+        self.assertNotIn("Dashed: the weight", page)
+        self.assertEqual(self.level_of_braking(out), [])
+
+    def test_the_walls_of_a_leaning_tube_carry_the_weight_together(self):
+        """Whatever each of them does: the line stands where the force of both is as large."""
+        out = self.run_of("smooth", SMOOTH)
+        self.assert_done(self.riesel("report", out))
+        self.assertIn("Dashed: the weight of all grains along the walls, which carry it together in a steady state.",
+                      (out / "report.html").read_text(encoding="utf-8"))
+        with h5py.File(out / "run.h5") as file:
+            time, impulse = file["series/time"][()], file["series/wall_impulse_y"][()]
+        ends = np.arange(51) * (len(time) - 1) // 50  # of the parts that are drawn
+        force = -np.diff(impulse[ends]) / np.diff(time[ends])
+        drawn = [float(place.split(",")[1]) for place in self.braking(out).findall(
+            f"{SVG}g[@class='curve']/{SVG}polyline")[-1].get("points").split()]
+        slope, offset = np.polyfit(force, drawn, 1)
+        level, = self.level_of_braking(out)
+        self.assertAlmostEqual(level, slope * self.summary(out)["braking_force"]["weight"] + offset, delta=0.05)
 
     def test_a_gas_that_only_cools_is_not_steady(self):
         """Its mean velocity is conserved and tells nothing."""

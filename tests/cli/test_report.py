@@ -186,7 +186,7 @@ class FinishedRun(Report):
             self.assertIn(f"braking force of the {wall} wall{with_error(force)} N",
                           self.page.text)
         curves = self.figure(self.out, "braking").findall(f"{SVG}g[@class='curve']/{SVG}polyline")
-        self.assertEqual([len(curve.get("points").split()) for curve in curves], [5, 5])
+        self.assertEqual([len(curve.get("points").split()) for curve in curves], [5, 5, 5])
 
     def test_why_it_ended_is_told(self):
         self.assertIn("The run ended (duration): its duration was over.", self.page.text)
