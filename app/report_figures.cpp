@@ -60,7 +60,7 @@ io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::strin
     for (std::size_t i = 0; i < profile.values.size(); ++i)
       add({.value = profile.values[i], .error = profile.errors[i]}, extent);
   }
-  io::Plot plot(figure_width, 300.0, label + " across the tube",
+  io::Plot plot(figure_width, 300.0, label + " across the flow",
                 {.label = "x (m)", .range = io::range_of(profiles.x)},
                 {.label = label, .range = io::range_of(extent)});
   for (const auto& [name, look] : legend) {

@@ -28,7 +28,7 @@ void mark_transient(double end, io::Plot& plot);
 /// `time` is as long as `series`.
 io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks);
 
-/// Profiles across the tube that share an axis, which is labelled `label`.
+/// Profiles across the flow that share an axis, which is labelled `label`.
 io::Svg draw_profiles(const io::Profiles& profiles, const std::vector<std::string>& names,
                       const std::string& label);
 

@@ -112,13 +112,18 @@ private:
     page().heading("The state at the end");
     draft_.add_figure(
         "state", figure.svg,
-        fmt::format(
-            "{} at t = {:.6g} s, coloured by their axial velocity, x to the right and y down. "
-            "The box is {:.4g} mm wide and {:.4g} mm long. Grey: wall grains. Red lines: "
-            "contacts, from centre to centre.{} The slowest "
-            "and the fastest hundredth of all grains may lie beyond the ends of the "
-            "colour bar and have their colours.",
-            shown, state.time, 1e3 * state.box.width, 1e3 * state.box.length, cut));
+        fmt::format("{} at t = {:.6g} s, coloured by their axial velocity, {}. "
+                    "The box is {:.4g} mm wide and {:.4g} mm long. Grey: wall grains. Red lines: "
+                    "contacts, from centre to centre.{} The slowest "
+                    "and the fastest hundredth of all grains may lie beyond the ends of the "
+                    "colour bar and have their colours.",
+                    shown, state.time, what_axes_mean(), 1e3 * state.box.width,
+                    1e3 * state.box.length, cut));
+  }
+
+  std::string what_axes_mean() const {
+    if (summary().braking_force.right) return "x to the right and y down";
+    return "x (the height above the bottom) to the right and y (down the slope) down";
   }
 
   /// The mean velocity has an error; of the others only what summary.json knows is marked.
@@ -154,7 +159,7 @@ private:
     const auto add = [&](const std::string& file, const std::string& label,
                          const std::vector<std::string>& names) {
       draft_.add_figure(file, draw_profiles(record_->run.profiles, names, label),
-                        fmt::format("{} in strips along the tube, means after the transient with "
+                        fmt::format("{} in strips along the flow, means after the transient with "
                                     "68 % error bars.",
                                     label));
     };

@@ -65,8 +65,11 @@ class Flows(CommandTest):
         self.assertRegex(result.stdout, r"(?m)^  braking by the walls  left [^,\n]* N, weight [^,\n]* N$")
         self.assert_done(self.riesel("report", "chute"))
         page = (self.home / "chute/report.html").read_text(encoding="utf-8")
-        self.assertIn("left wall", page)
-        self.assertNotIn("right wall", page)
+        for told in ("braking force of the bottom", "x (the height above the bottom) to the right", "across the flow",
+                     "along the bottom, which carries it in a steady state"):
+            self.assertIn(told, page)
+        for of_a_tube in ("left wall", "right wall", "across the tube", "along the tube"):
+            self.assertNotIn(of_a_tube, page)
 
     def test_a_shear_cell_is_judged_by_how_hot_it_is(self):
         out = self.run_of("cell", CELL)
