@@ -15,7 +15,7 @@ constexpr std::size_t largest_settings_text = 1'000'000;  ///< bytes
 /// The file verbatim. Throws SettingsError if it cannot be read, is a directory or is too large.
 std::string read_settings_text(const std::filesystem::path& file);
 
-/// With \n where lines end in \r\n.
+/// With a line feed alone where lines end in carriage return and line feed.
 std::string with_plain_line_ends(std::string_view text);
 
 /// The text as the YAML parser shall see it: without byte order mark, lines ending in \n. Throws
