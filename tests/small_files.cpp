@@ -41,6 +41,13 @@ State state_of_a_small_tube() {
   return simulation.state();
 }
 
+constexpr int small_rows = 3;
+
+TimeBlocks small_histograms() {
+  const std::size_t columns = HistogramBlocks().blocks().columns();
+  return {columns, small_rows, 4, std::vector(columns, 1.0)};
+}
+
 }  // namespace
 
 const std::vector<io::Column> small_columns = {{"time", "s", "t"}, {"velocity", "m/s", "v"}};
@@ -49,16 +56,16 @@ void write_small_checkpoint(const fs::path& path) {
   io::write_checkpoint(path, {.state = state_of_a_small_tube(),
                               .settings = "scenario: periodic_tube\n",
                               .source = "# mine\n",
-                              .rows = 2,
+                              .rows = small_rows,
                               .wall_seconds = 0.1,
-                              .profiles = TimeBlocks(1, 3, 2, {1.0, 2.0}),
-                              .histograms = HistogramBlocks().blocks()});
+                              .profiles = TimeBlocks(1, small_rows, 2, {1.0, 2.0}),
+                              .histograms = small_histograms()});
 }
 
 void write_small_run_file(const fs::path& path) {
   auto file = io::RunFile::create(path, {{"date", "today"}, {"settings", "a: 1"}, {"run", "1f"}},
                                   small_columns);
-  for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0});
+  for (int i = 0; i < small_rows; ++i) file.append(std::vector{0.1 * i, -1.0});
   file.write_final_state(state_of_a_small_tube());
   std::vector<TubeProfile> profiles;
   for (const char* name : {"area_fraction", "mean_axial_velocity", "temperature_x", "temperature_y",
