@@ -200,14 +200,14 @@ std::string flaw_of(const Checkpoint& checkpoint) {
   if (!(std::isfinite(checkpoint.wall_seconds) && checkpoint.wall_seconds >= 0.0)) {
     return "the time taken is negative";
   }
-  for (const TimeBlocks* blocks : {&checkpoint.profiles, &checkpoint.histograms})
+  for (const auto& [name, blocks] : {std::pair{"profiles", &checkpoint.profiles},
+                                     std::pair{"histograms", &checkpoint.histograms}}) {
     if (!std::ranges::all_of(blocks->sums(), [](double sum) { return std::isfinite(sum); }))
       return "a sum over a block of time is not finite";
-  for (const auto& [name, blocks] : {std::pair{"profiles", &checkpoint.profiles},
-                                     std::pair{"histograms", &checkpoint.histograms}})
     if (blocks->columns() > 0 && blocks->samples() != checkpoint.rows)
       return fmt::format("the {} have {} samples, and there are {} rows", name, blocks->samples(),
                          checkpoint.rows);
+  }
   if (checkpoint.state.walls.empty()) return "there are no walls";
   return riesel::flaw_of(checkpoint.state);
 }

@@ -85,7 +85,7 @@ void go_on_from(const WallMotion& before, const State& earlier, WallMotion& moti
 }
 
 bool alike(double a, double b) {
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = 1e-12;  // of settings that were converted, and of sines of angles
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
 }
 
@@ -124,11 +124,10 @@ State earlier_state(const io::Settings& settings, const State& empty) {
 
 void reject_other_swing_across(const io::Settings& settings, const State& earlier,
                                const State& state) {
-  constexpr double rounded = 1e-12;  // the sine of an angle
   for (std::size_t wall = 0; wall < state.walls.size(); ++wall)
     if (const double before = earlier.walls[wall].motion.amplitude_x,
         now = state.walls[wall].motion.amplitude_x;
-        std::abs(now - before) > rounded * std::abs(before))
+        !alike(now, before))
       settings.reject("wall.shake_amplitude",
                       fmt::format("swings the walls across by {:.6g} m, and the run to be "
                                   "continued by {:.6g} m",
