@@ -35,8 +35,8 @@ Flight flight_of(std::uint32_t slot, const State& state, const Courses& courses,
   // Whole steps lead by v s + fall s (s + 1) / 2.
   return {.x = courses.x(slot, now),
           .y = courses.y(slot, now),
-          .ux = box.metres_x(wrapped_sum(state.grains.ux[slot], fallen.x)) + 0.5 * fall_x,
-          .uy = box.metres_y(wrapped_sum(state.grains.uy[slot], fallen.y)) + 0.5 * fall_y,
+          .ux = box.metres_x(wrapped_sum(state.grains.u[slot].x, fallen.x)) + 0.5 * fall_x,
+          .uy = box.metres_y(wrapped_sum(state.grains.u[slot].y, fallen.y)) + 0.5 * fall_y,
           .fall_x = fall_x,
           .fall_y = fall_y};
 }

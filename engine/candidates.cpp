@@ -58,13 +58,13 @@ double largest_reach(const State& state) {
 /// the falling frame may wrap.
 Fixed middle_velocity(const Grains& grains) {
   Fixed least = 0, most = 0;
-  for (const Fixed uy : grains.uy) {
-    const Fixed from_first = wrapped_difference(uy, grains.uy.front());
+  for (const FixedVector& u : grains.u) {
+    const Fixed from_first = wrapped_difference(u.y, grains.u.front().y);
     least = std::min(least, from_first);
     most = std::max(most, from_first);
   }
   const Fixed middle = wrapped_sum(least, wrapped_difference(most, least) / 2);
-  return wrapped_sum(grains.uy.front(), middle);
+  return wrapped_sum(grains.u.front().y, middle);
 }
 
 Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
@@ -217,8 +217,8 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
   if (member_with(share) == 0) start_over(state, step);
   wait(share);
   for (std::size_t slot = share.front().begin; slot < share.back().end; ++slot) {
-    when_sorted_.x[slot] = upper_half(state.grains.x[slot]);
-    when_sorted_.y[slot] = upper_half(state.grains.y[slot]);
+    when_sorted_.x[slot] = upper_half(state.grains.position[slot].x);
+    when_sorted_.y[slot] = upper_half(state.grains.position[slot].y);
     new_slot_[cells_.old_slot(slot)] = static_cast<std::uint32_t>(slot);
   }
   wait(share);
@@ -294,7 +294,7 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
   mine.near_walls.clear();
   mine.way_past_walls = {};
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    const double x = state.box.metres_x(state.grains.x[i]);
+    const double x = state.box.metres_x(state.grains.position[i].x);
     if (std::abs(x - 0.5 * state.box.width) > 1.5 * state.box.width)
       mine.lost = first_of(mine.lost, LostGrain{sorted_at_, state.grains.id[i], false});
     for (std::size_t w = 0; w < state.walls.size(); ++w)
@@ -307,11 +307,11 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
 void Candidates::list_kicked(const Grains& grains, Slice& mine) {
   mine.kicked.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    if (grains.kick_x[i] != 0 || grains.kick_y[i] != 0 || grains.spin_kick_of(i) != 0)
+    if (grains.kick[i] != FixedVector{} || grains.spin_kick_of(i) != 0)
       mine.kicked.push_back(static_cast<std::uint32_t>(i));
 }
 
-Candidates::Displacement Candidates::common_motion(std::int64_t step) const {
+FixedVector Candidates::common_motion(std::int64_t step) const {
   const auto along = [&](Fixed drift, Fixed fall) {
     return wrapped_sum(wrapped_product(step - sorted_at_, drift),
                        wrapped_product(sum_of_steps(sorted_at_, step), fall));
@@ -345,7 +345,7 @@ void Candidates::measure_displacements(const PackedPositions& coarse, Slice& min
 void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t step) const {
   const Grains& g = state.grains;
   const double went = farthest(mine, step, [&](std::size_t slot) {
-    return CoarsePoint{upper_half(g.x[slot]), upper_half(g.y[slot])};
+    return CoarsePoint{upper_half(g.position[slot].x), upper_half(g.position[slot].y)};
   });
   mine.wandered += std::max(0.5 * skin_, went);
 }
@@ -359,9 +359,9 @@ void Candidates::measure_speeds(const State& state, Slice& mine) const {
   const Speedometer speed = speedometer(state.box);
   mine.fastest2 = 0.0;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    const double without = speed.squared(g.ux[i], g.uy[i]);
+    const double without = speed.squared(g.u[i].x, g.u[i].y);
     const double with =
-        speed.squared(wrapped_sum(g.ux[i], g.kick_x[i]), wrapped_sum(g.uy[i], g.kick_y[i]));
+        speed.squared(wrapped_sum(g.u[i].x, g.kick[i].x), wrapped_sum(g.u[i].y, g.kick[i].y));
     mine.fastest2 = std::max({mine.fastest2, without, with});
   }
 }

@@ -126,20 +126,17 @@ public:
   double skin() const { return skin_; }                       ///< m
   double range() const { return 2.0 * max_radius_ + skin_; }  ///< m, the least height of a row
   const CoarsePositions& when_sorted() const { return when_sorted_; }
-  struct Displacement {
-    Fixed x, y;  ///< quanta
-  };
-  const Displacement& drift() const { return drift_; }   ///< per step
+  const FixedVector& drift() const { return drift_; }    ///< per step
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
   /// m, no grain has been farther from where it was when the first were listed, relative to the
   /// drift that start_from() was given.
   double wandered() const;
   /// From when they were listed to `step`.
-  Displacement common_motion(std::int64_t step) const;
+  FixedVector common_motion(std::int64_t step) const;
 
   /// Tells speeds relative to the drift.
   struct Speedometer {
-    Displacement drift;
+    FixedVector drift;
     double metre_x, metre_y;  ///< m per quantum
 
     /// (m per step)^2, of a displacement per step (quanta).
@@ -183,7 +180,7 @@ private:
   static void list_kicked(const Grains& grains, Slice& mine);
   void measure_displacements(const PackedPositions& coarse, Slice& mine, std::int64_t step) const;
   CoarsePoint coarse_motion(std::int64_t step) const {
-    const Displacement common = common_motion(step);
+    const FixedVector common = common_motion(step);
     return {upper_half(common.x), upper_half(common.y)};
   }
   /// m^2, from where the grain was when sorted, relative to the common motion.
@@ -223,7 +220,7 @@ private:
   Fall fall_;                         // in a step
   std::int64_t steps_to_walls_ = 0;   // that the common fall takes for the room it has at walls
   std::optional<Fixed> given_drift_;  // along y, for all listings
-  Displacement drift_{};              // across the tube: at rest when the candidates were listed
+  FixedVector drift_{};               // across the tube: at rest when the candidates were listed
   std::int64_t sorted_at_ = 0, hold_until_ = 0;  // steps
 };
 

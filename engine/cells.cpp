@@ -30,9 +30,11 @@ void Cells::lay_out(const State& state, double range) {
   left_edge_ = 0;
   double extent = 0.0;
   if (grains.size() > 0) {  // a part of a tube may have none
-    const auto [leftmost, rightmost] = std::minmax_element(grains.x.begin(), grains.x.end());
-    left_edge_ = *leftmost;
-    extent = quanta_from_left(*rightmost);
+    const auto [leftmost, rightmost] =
+        std::minmax_element(grains.position.begin(), grains.position.end(),
+                            [](const FixedVector& a, const FixedVector& b) { return a.x < b.x; });
+    left_edge_ = leftmost->x;
+    extent = quanta_from_left(rightmost->x);
   }
   const double width = extent * state.box.quantum_x();
   // Cells may be larger than the range, and are where grains are few and small for the box: about
@@ -54,9 +56,9 @@ double Cells::quanta_from_left(Fixed x) const {
 
 std::uint32_t Cells::cell_at(const Grains& grains, std::size_t slot) const {
   const auto column =
-      static_cast<std::size_t>(quanta_from_left(grains.x[slot]) * columns_per_quantum_);
-  const auto row =
-      static_cast<std::size_t>(part_of_ring(grains.y[slot], static_cast<std::int64_t>(rows_)));
+      static_cast<std::size_t>(quanta_from_left(grains.position[slot].x) * columns_per_quantum_);
+  const auto row = static_cast<std::size_t>(
+      part_of_ring(grains.position[slot].y, static_cast<std::int64_t>(rows_)));
   return static_cast<std::uint32_t>(row * columns_ + std::min(column, columns_ - 1));
 }
 
@@ -79,15 +81,30 @@ void Cells::count() {
 }
 
 /// Its part of the new values each thread first puts aside, until nobody needs the old ones.
-template <class T>
-void Cells::permute(AlignedVector<T>& values, std::size_t member, TeamBarrier& team) {
-  const SlotRange mine = part_of(values.size(), member, team.members());
+/// number(value) is the number in a value that goes to its new place.
+template <class Values, class Number>
+void Cells::permute(Values& values, Number number, std::size_t member, TeamBarrier& team) {
+  using T = std::remove_reference_t<decltype(number(values[0]))>;
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
+  const SlotRange mine = part_of(values.size(), member, team.members());
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    scratch_[i] = std::bit_cast<Bits>(values[old_slot_[i]]);
+    scratch_[i] = std::bit_cast<Bits>(number(values[old_slot_[i]]));
   team.arrive_and_wait(member);
   for (std::size_t i = mine.begin; i < mine.end; ++i)
-    values[i] = std::bit_cast<T>(static_cast<Bits>(scratch_[i]));
+    number(values[i]) = std::bit_cast<T>(static_cast<Bits>(scratch_[i]));
+}
+
+template <class T>
+void Cells::permute(AlignedVector<T>& values, std::size_t member, TeamBarrier& team) {
+  permute(
+      values, [](T& value) -> T& { return value; }, member, team);
+}
+
+void Cells::permute(AlignedVector<FixedVector>& values, std::size_t member, TeamBarrier& team) {
+  permute(
+      values, [](FixedVector& value) -> Fixed& { return value.x; }, member, team);
+  permute(
+      values, [](FixedVector& value) -> Fixed& { return value.y; }, member, team);
 }
 
 }  // namespace riesel

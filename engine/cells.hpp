@@ -72,6 +72,9 @@ private:
   void count();
   template <class T>
   void permute(AlignedVector<T>& values, std::size_t member, TeamBarrier& team);
+  void permute(AlignedVector<FixedVector>& values, std::size_t member, TeamBarrier& team);
+  template <class Values, class Number>
+  void permute(Values& values, Number number, std::size_t member, TeamBarrier& team);
 
   std::size_t columns_ = 1, rows_ = 1;
   Fixed left_edge_ = 0;              // quanta of x

@@ -109,8 +109,8 @@ void CloseWatch::look_up(const Bodies& bodies) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Fixed stands = ~flies(c.place[1][i]);
     const std::int64_t first = c.place[0][i], second = c.place[1][i] & stands;
-    rest_x_[i] = wrapped_difference(bodies.x[second] & stands, bodies.x[first]);
-    rest_y_[i] = wrapped_difference(bodies.y[second] & stands, bodies.y[first]);
+    rest_x_[i] = wrapped_difference(bodies.position[second].x & stands, bodies.position[first].x);
+    rest_y_[i] = wrapped_difference(bodies.position[second].y & stands, bodies.position[first].y);
   }
 }
 

@@ -231,8 +231,8 @@ void follow_bodies(std::span<ContactTile> tiles, const ContactCounts& counts,
   const Bodies b = bodies;
   for_each_lane(tiles, 0, counts.all, [&](ContactTile& c, std::size_t i) {
     const std::int64_t first = c.body[0][i], second = c.body[1][i];
-    c.partner[4][i] = wrapped_difference(b.kick_x[second], b.kick_x[first]);
-    c.partner[5][i] = wrapped_difference(b.kick_y[second], b.kick_y[first]);
+    c.partner[4][i] = wrapped_difference(b.kick[second].x, b.kick[first].x);
+    c.partner[5][i] = wrapped_difference(b.kick[second].y, b.kick[first].y);
   });
   for_each_lane(tiles, counts.followed, counts.all, [&](ContactTile& c, std::size_t i) {
     const BodyMotion now = relative_motion(b, c.body[0][i], c.body[1][i]);

@@ -10,7 +10,8 @@ void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
   const CandidatePairs& inner = slice.inner.pairs();
   for (const std::uint32_t near : slice.hits.items()) {
     const std::uint32_t i = inner.first[near], j = inner.second[near];
-    if (!overlapping(wrapped_difference(g.x[j], g.x[i]), wrapped_difference(g.y[j], g.y[i]),
+    if (!overlapping(wrapped_difference(g.position[j].x, g.position[i].x),
+                     wrapped_difference(g.position[j].y, g.position[i].y),
                      g.radius[i] + g.radius[j], units))
       continue;
     const std::uint32_t p = slice.inner.candidate(near);
@@ -25,7 +26,7 @@ double begin_at_wall(Slice& slice, const State& state, std::uint32_t place,
                      const StepUnits& units) {
   constexpr double room_of_reach = 0.1;  // more lets it rest longer, and takes a longer look
   const NearWall& near = slice.near_walls[place];
-  const Fixed x = state.grains.x[near.slot], y = state.grains.y[near.slot];
+  const Fixed x = state.grains.position[near.slot].x, y = state.grains.position[near.slot].y;
   const double reach = reach_at_wall(state, near), farthest = (1.0 + room_of_reach) * reach;
   double closest2 = farthest * farthest;
   const auto look = [&](std::int64_t k, Fixed dx, Fixed dy) {
@@ -48,7 +49,7 @@ void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
     const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
     const double radius = state.grains.radius[near.slot];
     const double across =
-        wall.distance_across(state.box.metres_x(state.grains.x[near.slot]), radius)
+        wall.distance_across(state.box.metres_x(state.grains.position[near.slot].x), radius)
         - rounding * radius;
     near.clear_until = {.across = way.across + across, .any = 0.0};
     if (across <= 0.0)

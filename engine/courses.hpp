@@ -61,17 +61,17 @@ public:
 
   /// Where the grain is in `step` if it keeps to its course.
   Fixed x(std::uint32_t slot, std::int64_t step) const {
-    return wrapped_sum(grains_.x[slot], way(grains_.ux[slot], fall_.x, step));
+    return wrapped_sum(grains_.position[slot].x, way(grains_.u[slot].x, fall_.x, step));
   }
   Fixed y(std::uint32_t slot, std::int64_t step) const {
-    return wrapped_sum(grains_.y[slot], way(grains_.uy[slot], fall_.y, step));
+    return wrapped_sum(grains_.position[slot].y, way(grains_.u[slot].y, fall_.y, step));
   }
   /// Without kicks, which a grain that keeps to its course does not get.
   Motion motion(std::uint32_t slot, std::int64_t step) const {
     return {.x = x(slot, step),
             .y = y(slot, step),
-            .ux = grains_.ux[slot],
-            .uy = grains_.uy[slot],
+            .ux = grains_.u[slot].x,
+            .uy = grains_.u[slot].y,
             .kick_x = 0,
             .kick_y = 0,
             .spin = grains_.spin_of(slot),
@@ -80,20 +80,16 @@ public:
 
   /// From `step` on the grain is expected to go on like this, with no more kicks.
   void set(std::uint32_t slot, const Motion& m, std::int64_t step) {
-    grains_.x[slot] = wrapped_difference(m.x, way(m.ux, fall_.x, step));
-    grains_.y[slot] = wrapped_difference(m.y, way(m.uy, fall_.y, step));
-    grains_.ux[slot] = m.ux;
-    grains_.uy[slot] = m.uy;
+    grains_.position[slot] = {wrapped_difference(m.x, way(m.ux, fall_.x, step)),
+                              wrapped_difference(m.y, way(m.uy, fall_.y, step))};
+    grains_.u[slot] = {m.ux, m.uy};
     if (grains_.rotate()) grains_.spin[slot] = m.spin;
   }
   /// The grain is like this in the step that is about to become the origin.
   void put(std::uint32_t slot, const Motion& m) {
-    grains_.x[slot] = m.x;
-    grains_.y[slot] = m.y;
-    grains_.ux[slot] = m.ux;
-    grains_.uy[slot] = m.uy;
-    grains_.kick_x[slot] = m.kick_x;
-    grains_.kick_y[slot] = m.kick_y;
+    grains_.position[slot] = {m.x, m.y};
+    grains_.u[slot] = {m.ux, m.uy};
+    grains_.kick[slot] = {m.kick_x, m.kick_y};
     if (!grains_.rotate()) return;
     grains_.spin[slot] = m.spin;
     grains_.spin_kick[slot] = m.spin_kick;

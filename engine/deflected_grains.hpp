@@ -10,7 +10,6 @@
 #include "engine/fixed_point.hpp"
 #include "engine/lane_masks.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,8 +36,8 @@ public:
   bool in_use(Place place) const { return slots_[place] != no_slot; }
   std::uint32_t slot(Place place) const { return slots_[place]; }
   Motion motion(Place place) const;
-  Fixed x(std::int64_t place) const { return columns_[at_x][static_cast<std::size_t>(place)]; }
-  Fixed y(std::int64_t place) const { return columns_[at_y][static_cast<std::size_t>(place)]; }
+  Fixed x(std::int64_t place) const { return position_[static_cast<std::size_t>(place)].x; }
+  Fixed y(std::int64_t place) const { return position_[static_cast<std::size_t>(place)].y; }
   Bodies bodies() const;
   /// The number of contacts that the grain has.
   std::int32_t& contacts(Place place) { return contacts_[place]; }
@@ -48,8 +47,9 @@ public:
   void clear_kicks();
   void add_kick(std::int64_t place, const BodyKick& kick) {
     const auto at = static_cast<std::size_t>(place);
-    columns_[at_kick_x][at] = wrapped_sum(columns_[at_kick_x][at], kick.x);
-    columns_[at_kick_y][at] = wrapped_sum(columns_[at_kick_y][at], kick.y);
+    FixedVector& sum = kick_[at];
+    sum.x = wrapped_sum(sum.x, kick.x);
+    sum.y = wrapped_sum(sum.y, kick.y);
     if (kick.spin != 0) spin_kick_[at] = wrapped_sum(spin_kick_[at], kick.spin);
   }
 
@@ -61,36 +61,23 @@ public:
 
 private:
   static constexpr std::uint32_t no_slot = UINT32_MAX;
-  /// off_...: actual minus course. What is along y follows what is along x.
-  enum Column {
-    at_x,
-    at_y,
-    at_ux,
-    at_uy,
-    at_kick_x,
-    at_kick_y,
-    off_x,
-    off_y,
-    off_ux,
-    off_uy,
-    column_count
-  };
-  static constexpr std::size_t x_axis = 0, y_axis = 1;
-  struct Axis;  // pointers to the columns along one axis, for the loops
-  Axis along(std::size_t axis);
-
   using Strays = LaneMasks<std::uint64_t>;
 
+  template <class Visit>
+  void for_each_vector(Visit visit) {
+    for (auto* vectors : {&position_, &u_, &kick_, &off_, &off_u_}) visit(*vectors);
+  }
   bool rotate() const { return inertia_ > 0.0; }
   std::size_t padded_size() const { return Strays::padded(slots_.size()); }
 
   std::vector<std::uint32_t> slots_;
   std::vector<std::int32_t> contacts_;
-  std::array<AlignedVector<Fixed>, column_count> columns_;  // free places and padding: motionless
-  Strays strays_;                                           // of places
+  // By place; free places and padding are motionless. off_...: actual minus course.
+  AlignedVector<FixedVector> position_, u_, kick_, off_, off_u_;
+  Strays strays_;  // of places
   std::vector<Place> free_, straying_;
   const double inertia_;
-  AlignedVector<Fixed> spin_, spin_kick_;  // as columns_; empty if grains do not rotate
+  AlignedVector<Fixed> spin_, spin_kick_;  // likewise; empty if grains do not rotate
 };
 
 }  // namespace riesel

@@ -32,7 +32,8 @@ struct Occupied {
 /// The cells in which there are grains: of a single one, as in an impact, few.
 std::vector<Occupied> occupied_cells(const Grains& grains) {
   std::vector<std::int64_t> counts(cells);
-  for (const Fixed y : grains.y) ++counts[static_cast<std::uint64_t>(y) >> (64 - cell_bits)];
+  for (const FixedVector& at : grains.position)
+    ++counts[static_cast<std::uint64_t>(at.y) >> (64 - cell_bits)];
   std::vector<Occupied> occupied;
   for (std::size_t cell = 0; cell < cells; ++cell)
     if (counts[cell] > 0) occupied.push_back({cell, static_cast<double>(counts[cell])});

@@ -80,7 +80,7 @@ private:
 
 /// The motion of bodies, by place in these arrays; as in Grains.
 struct Bodies {
-  const Fixed *x, *y, *ux, *uy, *kick_x, *kick_y;
+  const FixedVector *position, *u, *kick;
   const Fixed *spin, *spin_kick;  ///< null where they do not rotate
   double inertia;
 
@@ -93,12 +93,9 @@ struct BodyKick {
 };
 
 inline Bodies bodies(const Grains& g) {
-  return {.x = g.x.data(),
-          .y = g.y.data(),
-          .ux = g.ux.data(),
-          .uy = g.uy.data(),
-          .kick_x = g.kick_x.data(),
-          .kick_y = g.kick_y.data(),
+  return {.position = g.position.data(),
+          .u = g.u.data(),
+          .kick = g.kick.data(),
           .spin = g.spin.data(),
           .spin_kick = g.spin_kick.data(),
           .inertia = g.inertia};
@@ -107,23 +104,23 @@ inline Bodies bodies(const Grains& g) {
 /// Of body j as seen from body i.
 [[gnu::always_inline]] inline BodyMotion relative_motion(const Bodies& b, std::int64_t i,
                                                          std::int64_t j) {
-  return {.x = wrapped_difference(b.x[j], b.x[i]),
-          .y = wrapped_difference(b.y[j], b.y[i]),
-          .ux = wrapped_difference(b.ux[j], b.ux[i]),
-          .uy = wrapped_difference(b.uy[j], b.uy[i]),
-          .kick_x = wrapped_difference(b.kick_x[j], b.kick_x[i]),
-          .kick_y = wrapped_difference(b.kick_y[j], b.kick_y[i])};
+  return {.x = wrapped_difference(b.position[j].x, b.position[i].x),
+          .y = wrapped_difference(b.position[j].y, b.position[i].y),
+          .ux = wrapped_difference(b.u[j].x, b.u[i].x),
+          .uy = wrapped_difference(b.u[j].y, b.u[i].y),
+          .kick_x = wrapped_difference(b.kick[j].x, b.kick[i].x),
+          .kick_y = wrapped_difference(b.kick[j].y, b.kick[i].y)};
 }
 
 /// Of a wall grain as seen from body i.
 [[gnu::always_inline]] inline BodyMotion
 relative_motion(const Bodies& b, std::int64_t i, const BodyMotion& wall, const StepUnits& units) {
-  return {.x = wrapped_difference(wall.x, b.x[i]),
-          .y = wrapped_difference(wall.y, b.y[i]),
-          .ux = wrapped_difference(wall.ux, wrapped_sum(b.ux[i], units.fallen.x)),
-          .uy = wrapped_difference(wall.uy, wrapped_sum(b.uy[i], units.fallen.y)),
-          .kick_x = wrapped_difference(wall.kick_x, wrapped_sum(b.kick_x[i], units.fall.x)),
-          .kick_y = wrapped_difference(wall.kick_y, wrapped_sum(b.kick_y[i], units.fall.y))};
+  return {.x = wrapped_difference(wall.x, b.position[i].x),
+          .y = wrapped_difference(wall.y, b.position[i].y),
+          .ux = wrapped_difference(wall.ux, wrapped_sum(b.u[i].x, units.fallen.x)),
+          .uy = wrapped_difference(wall.uy, wrapped_sum(b.u[i].y, units.fallen.y)),
+          .kick_x = wrapped_difference(wall.kick_x, wrapped_sum(b.kick[i].x, units.fall.x)),
+          .kick_y = wrapped_difference(wall.kick_y, wrapped_sum(b.kick[i].y, units.fall.y))};
 }
 
 /// What of two bodies does not change, for their relative motion.

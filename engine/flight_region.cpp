@@ -70,7 +70,7 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
   border_.list_border();
   const Grains& g = airspace_.state.grains;
   for (const std::uint32_t slot : slice_.kicked) {
-    const BodyKick by{g.kick_x[slot], g.kick_y[slot], g.spin_kick_of(slot)};
+    const BodyKick by{g.kick[slot].x, g.kick[slot].y, g.spin_kick_of(slot)};
     deflected_.add_kick(deflect(slot, step), by);
   }
   give_up(slice_.kicked);  // from now on kicks are where the deflected grains are
@@ -160,7 +160,7 @@ void FlightRegion::fetch() const {
   const auto own = [&](const auto& column) { return std::span(column).subspan(begin, count); };
   const Grains& g = airspace_.state.grains;
   const CoarsePositions& then = airspace_.candidates.when_sorted();
-  for (const auto* column : {&g.x, &g.y, &g.ux, &g.uy}) riesel::fetch(own(*column));
+  for (const auto* column : {&g.position, &g.u}) riesel::fetch(own(*column));
   for (const auto* column : {&then.x, &then.y}) riesel::fetch(own(*column));
   riesel::fetch(own(g.radius));
   riesel::fetch(own(airspace_.courses.places()));

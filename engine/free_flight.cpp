@@ -32,16 +32,12 @@ constexpr double few_steps = 4.0;
 
 /// Arrays by slot.
 struct Paths {
-  const Fixed *x, *y, *ux, *uy;
+  const FixedVector *position, *u;
   const double* radius;
 };
 
 Paths paths_of(const Grains& g) {
-  return {.x = g.x.data(),
-          .y = g.y.data(),
-          .ux = g.ux.data(),
-          .uy = g.uy.data(),
-          .radius = g.radius.data()};
+  return {.position = g.position.data(), .u = g.u.data(), .radius = g.radius.data()};
 }
 
 struct Metres {
@@ -83,10 +79,12 @@ struct SieveLoop {
 #pragma omp simd
     for (std::size_t k = 0; k < count; ++k) {
       const std::int64_t i = first[k], j = second[k];
-      const double x = Numbers::real(wrapped_difference(c.x[j], c.x[i])) * h.metre_x;
-      const double y = Numbers::real(wrapped_difference(c.y[j], c.y[i])) * h.metre_y;
-      const double ux = Numbers::real(wrapped_difference(c.ux[j], c.ux[i])) * h.metre_x;
-      const double uy = Numbers::real(wrapped_difference(c.uy[j], c.uy[i])) * h.metre_y;
+      const double x =
+          Numbers::real(wrapped_difference(c.position[j].x, c.position[i].x)) * h.metre_x;
+      const double y =
+          Numbers::real(wrapped_difference(c.position[j].y, c.position[i].y)) * h.metre_y;
+      const double ux = Numbers::real(wrapped_difference(c.u[j].x, c.u[i].x)) * h.metre_x;
+      const double uy = Numbers::real(wrapped_difference(c.u[j].y, c.u[i].y)) * h.metre_y;
       const double reach = (c.radius[i] + c.radius[j]) * generous + most_strays * h.tolerance;
       // The square of the distance after s steps is reach^2 + apart - 2 closing s + speed2 s^2.
       const double apart = x * x + y * y - reach * reach;
@@ -107,10 +105,12 @@ void gather(const Slice& slice, std::span<const std::uint32_t> which, const Stat
   const std::int64_t steps = step - courses.origin();
   for (std::size_t k = 0; k < which.size(); ++k) {
     const std::uint32_t i = slice.pairs.first[which[k]], j = slice.pairs.second[which[k]];
-    const Fixed ux = wrapped_difference(c.ux[j], c.ux[i]);
-    const Fixed uy = wrapped_difference(c.uy[j], c.uy[i]);
-    to.x[k] = wrapped_sum(wrapped_difference(c.x[j], c.x[i]), wrapped_product(steps, ux));
-    to.y[k] = wrapped_sum(wrapped_difference(c.y[j], c.y[i]), wrapped_product(steps, uy));
+    const Fixed ux = wrapped_difference(c.u[j].x, c.u[i].x);
+    const Fixed uy = wrapped_difference(c.u[j].y, c.u[i].y);
+    to.x[k] = wrapped_sum(wrapped_difference(c.position[j].x, c.position[i].x),
+                          wrapped_product(steps, ux));
+    to.y[k] = wrapped_sum(wrapped_difference(c.position[j].y, c.position[i].y),
+                          wrapped_product(steps, uy));
     to.ux[k] = ux;
     to.uy[k] = uy;
     to.reach[k] = (c.radius[i] + c.radius[j]) * generous;

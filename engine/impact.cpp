@@ -65,7 +65,7 @@ std::int64_t steps_between_looks(const ImpactSetup& setup, const Impact& impact)
 bool gone(const ImpactSetup& setup, const State& state, const Grain& grain) {
   if (!state.contacts.empty()) return false;
   if (!setup.single_wall_grain()) return grain.x > setup.reach() && grain.vx > 0.0;
-  const double y = state.box.metres_y(state.grains.y[0]);  // relative to the wall grain
+  const double y = state.box.metres_y(state.grains.position[0].y);  // relative to the wall grain
   return grain.x * grain.vx + y * grain.vy > 0.0;
 }
 

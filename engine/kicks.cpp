@@ -17,7 +17,7 @@ bool concerns(const Slice& giver, const Slice& mine) {
 /// The grains of a slice, who collect what contacts give them. What each kick needs stands here
 /// instead of where it comes from, so that it can stay in registers.
 struct Receiver {
-  Fixed *kick_x, *kick_y, *ux, *uy;
+  FixedVector *kick, *u;
   Fixed *spin_kick, *spin;  // null where grains do not rotate, and no kick has a spin
   std::size_t begin, size;  // slots
   Candidates::Speedometer speed;
@@ -26,18 +26,18 @@ struct Receiver {
 
   static void add(Fixed& sum, Fixed more) { sum = wrapped_sum(sum, more); }
 
-  [[gnu::always_inline]] void receive(std::uint32_t slot, const BodyKick& kick) {
+  [[gnu::always_inline]] void receive(std::uint32_t slot, const BodyKick& by) {
     if (slot - begin >= size) return;
     *kicked++ = slot;
-    add(kick_x[slot], kick.x);
-    add(kick_y[slot], kick.y);
-    add(ux[slot], kick.x);
-    add(uy[slot], kick.y);
-    if (kick.spin != 0) {
-      add(spin_kick[slot], kick.spin);
-      add(spin[slot], kick.spin);
+    add(kick[slot].x, by.x);
+    add(kick[slot].y, by.y);
+    add(u[slot].x, by.x);
+    add(u[slot].y, by.y);
+    if (by.spin != 0) {
+      add(spin_kick[slot], by.spin);
+      add(spin[slot], by.spin);
     }
-    fastest2 = std::max(fastest2, speed.squared(ux[slot], uy[slot]));
+    fastest2 = std::max(fastest2, speed.squared(u[slot].x, u[slot].y));
   }
 };
 
@@ -45,8 +45,8 @@ struct Receiver {
 template <class Change>
 void change_velocities(Grains& g, const Slice& mine, Change change) {
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    g.ux[i] = change(g.ux[i], g.kick_x[i]);
-    g.uy[i] = change(g.uy[i], g.kick_y[i]);
+    g.u[i].x = change(g.u[i].x, g.kick[i].x);
+    g.u[i].y = change(g.u[i].y, g.kick[i].y);
   }
   if (!g.rotate()) return;
   for (std::size_t i = mine.begin; i < mine.end; ++i) g.spin[i] = change(g.spin[i], g.spin_kick[i]);
@@ -78,16 +78,14 @@ void give_away_kicks(Slice& mine, std::size_t others) {
 void receive_kicks(State& state, const Candidates& candidates, std::span<const Slice> givers,
                    Slice& mine) {
   Grains& g = state.grains;
-  for (const std::uint32_t slot : mine.kicked) g.kick_x[slot] = g.kick_y[slot] = 0;
+  for (const std::uint32_t slot : mine.kicked) g.kick[slot] = {};
   if (g.rotate())
     for (const std::uint32_t slot : mine.kicked) g.spin_kick[slot] = 0;
   std::size_t most = 2 * mine.pair_contacts.size() + mine.wall_contacts.size();
   for (const Slice& giver : givers) most += concerns(giver, mine) ? giver.given_away.size() : 0;
   mine.kicked.resize(most);
-  Receiver receiver{.kick_x = g.kick_x.data(),
-                    .kick_y = g.kick_y.data(),
-                    .ux = g.ux.data(),
-                    .uy = g.uy.data(),
+  Receiver receiver{.kick = g.kick.data(),
+                    .u = g.u.data(),
                     .spin_kick = g.spin_kick.data(),
                     .spin = g.spin.data(),
                     .begin = mine.begin,

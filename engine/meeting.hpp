@@ -108,7 +108,7 @@ inline BodyMotion wall_point(const Meeting& m, const Bodies& b, std::int64_t fir
                              const StepUnits& units) {
   BodyMotion point = units.walls[static_cast<std::size_t>(m.name.wall)];
   point.x = wrapped_sum(m.line, point.x);
-  point.y = m.level ? b.y[first] : wrapped_sum(m.y, point.y);
+  point.y = m.level ? b.position[first].y : wrapped_sum(m.y, point.y);
   return point;
 }
 

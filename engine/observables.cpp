@@ -116,7 +116,7 @@ double stored_energy(const State& state) {
 double half_of_kicks(const State& state) {
   ExactSum sum;
   for (std::size_t i = 0; i < state.grains.size(); ++i)
-    sum.add(0.5 * state.grains.mass[i] * state.box.metres_y(state.grains.kick_y[i])
+    sum.add(0.5 * state.grains.mass[i] * state.box.metres_y(state.grains.kick[i].y)
             / state.time_step);
   return sum.value();
 }

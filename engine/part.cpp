@@ -26,7 +26,7 @@ void Part::choose(const Grains& all, const Extent& extent) {
   places_of_copies_.clear();
   distances_.clear();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::uint64_t distance = extent.distance(all.y[i]);
+    const std::uint64_t distance = extent.distance(all.position[i].y);
     const auto place = static_cast<std::uint32_t>(i);
     if (distance == 0) {
       places_.push_back(place);

@@ -113,7 +113,8 @@ void Parts::sort() {
 void Parts::share_out() {
   constexpr int bits = 12;
   std::array<std::size_t, std::size_t{1} << bits> count{};  // of grains, along the ring
-  for (const Fixed y : state_.grains.y) ++count[static_cast<std::uint64_t>(y) >> (64 - bits)];
+  for (const FixedVector& at : state_.grains.position)
+    ++count[static_cast<std::uint64_t>(at.y) >> (64 - bits)];
   const double grains_per_weight = static_cast<double>(state_.grains.size())
                                    / std::accumulate(weights_.begin(), weights_.end(), 0.0);
   double wanted = 0.0;

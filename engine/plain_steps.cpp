@@ -15,17 +15,17 @@ namespace {
 /// Some grains next to each other.
 struct Movers {
   Fall fallen;
-  const Fixed *ux, *uy;
-  Fixed *x, *y;
+  const FixedVector* u;
+  FixedVector* position;
   PackedPoint* coarse;
 
   [[gnu::always_inline]] void move(std::size_t begin, std::size_t end) const {
 #pragma omp simd
     for (std::size_t i = begin; i < end; ++i) {
-      const Fixed now_x = wrapped_sum(x[i], wrapped_sum(ux[i], fallen.x));
-      const Fixed now_y = wrapped_sum(y[i], wrapped_sum(uy[i], fallen.y));
-      x[i] = now_x;
-      y[i] = now_y;
+      const Fixed now_x = wrapped_sum(position[i].x, wrapped_sum(u[i].x, fallen.x));
+      const Fixed now_y = wrapped_sum(position[i].y, wrapped_sum(u[i].y, fallen.y));
+      position[i].x = now_x;
+      position[i].y = now_y;
       coarse[i].set(now_x, now_y);
     }
   }
@@ -90,8 +90,7 @@ void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   const bool beside_others = candidates_.team().members() > 1 && member.share.size() == 1;
   const std::size_t turn = beside_others ? count / 2 : count;
   const std::size_t first = mine.begin;
-  fly(count, turn,
-      {fallen, &g.ux[first], &g.uy[first], &g.x[first], &g.y[first], &coarse_.points[first]});
+  fly(count, turn, {fallen, &g.u[first], &g.position[first], &coarse_.points[first]});
   Candidates::count_motion(mine);
   member.profile.done(Profile::Phase::fly);
 }

@@ -24,7 +24,7 @@ std::vector<PresentForce> present_forces(const State& state, const ContactModel&
         model.normal, model.slip);
   };
   const auto x = [&](std::int32_t id) {
-    return state.box.metres_x(state.grains.x[slots[static_cast<std::size_t>(id)]]);
+    return state.box.metres_x(state.grains.position[slots[static_cast<std::size_t>(id)]].x);
   };
   std::vector<PresentForce> forces;
   forces.reserve(state.contacts.size());

@@ -10,8 +10,10 @@ namespace riesel {
 namespace {
 
 void add(Hash& hash, const Grains& g, std::size_t slot) {
-  for (const auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})
-    hash.add((*component)[slot]);
+  for (const auto* vectors : {&g.position, &g.u, &g.kick}) {
+    hash.add((*vectors)[slot].x);
+    hash.add((*vectors)[slot].y);
+  }
   hash.add(g.radius[slot]);
   hash.add(g.mass[slot]);
   if (!g.rotate()) return;
@@ -104,11 +106,11 @@ void add_grain(State& state, const Grain& grain) {
   Grains& g = state.grains;
   const std::size_t i = g.size();
   g.resize(i + 1);
-  g.x[i] = state.box.fixed_x(grain.x);
-  g.y[i] = state.box.fixed_y(grain.y);
+  g.position[i].x = state.box.fixed_x(grain.x);
+  g.position[i].y = state.box.fixed_y(grain.y);
   const Fall fall = fall_per_step(state);
-  g.ux[i] = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x()) - fall.x / 2;
-  g.uy[i] = nearest_fixed(grain.vy * state.time_step / state.box.quantum_y()) - fall.y / 2;
+  g.u[i].x = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x()) - fall.x / 2;
+  g.u[i].y = nearest_fixed(grain.vy * state.time_step / state.box.quantum_y()) - fall.y / 2;
   g.radius[i] = grain.radius;
   g.mass[i] = grain.mass;
   g.id[i] = static_cast<std::int32_t>(i);

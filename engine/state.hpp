@@ -35,16 +35,16 @@ namespace riesel {
 /// size-1, or some of these in a part of a system (Part); radius and mass are positive. Grains that
 /// do not rotate have no arrays of spin.
 struct Grains {
-  AlignedVector<Fixed> x, y;            ///< position, quanta of the box's axes
-  AlignedVector<Fixed> ux, uy;          ///< U: displacement per step in the falling frame, quanta
-  AlignedVector<Fixed> kick_x, kick_y;  ///< K: contact acceleration of this step times dt^2, quanta
+  AlignedVector<FixedVector> position;  ///< quanta of the box's axes
+  AlignedVector<FixedVector> u;         ///< U: displacement per step in the falling frame, quanta
+  AlignedVector<FixedVector> kick;      ///< K: contact acceleration of this step times dt^2, quanta
   AlignedVector<double> radius;         ///< m
   AlignedVector<double> mass;           ///< kg
   AlignedVector<std::int32_t> id;
   AlignedVector<Fixed> spin, spin_kick;  ///< S and J: positive from x towards y, quanta of angle
   double inertia = 0.0;  ///< moment of inertia over m r^2, the same for all; 0: no rotation
 
-  std::size_t size() const { return x.size(); }
+  std::size_t size() const { return position.size(); }
   bool rotate() const { return inertia > 0.0; }
   Fixed spin_of(std::size_t slot) const { return rotate() ? spin[slot] : 0; }
   Fixed spin_kick_of(std::size_t slot) const { return rotate() ? spin_kick[slot] : 0; }
@@ -54,7 +54,7 @@ struct Grains {
 /// Calls visit(array) for each array of the grains (const or not) that they have.
 template <class AnyGrains, class Visit>
 void for_each_array_of(AnyGrains& g, Visit visit) {
-  for (auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y}) visit(*array);
+  for (auto* array : {&g.position, &g.u, &g.kick}) visit(*array);
   visit(g.radius);
   visit(g.mass);
   visit(g.id);
@@ -120,10 +120,10 @@ public:
   Grain operator[](std::size_t slot) const {
     const Grains& g = *grains_;
     return {
-        .x = box_.metres_x(g.x[slot]),
-        .y = box_.place_y(g.y[slot]),
-        .vx = velocity(g.ux[slot], fallen_.x, g.kick_x[slot], fall_.x) * to_vx_,
-        .vy = velocity(g.uy[slot], fallen_.y, g.kick_y[slot], fall_.y) * to_vy_,
+        .x = box_.metres_x(g.position[slot].x),
+        .y = box_.place_y(g.position[slot].y),
+        .vx = velocity(g.u[slot].x, fallen_.x, g.kick[slot].x, fall_.x) * to_vx_,
+        .vy = velocity(g.u[slot].y, fallen_.y, g.kick[slot].y, fall_.y) * to_vy_,
         .radius = g.radius[slot],
         .mass = g.mass[slot],
         .spin =

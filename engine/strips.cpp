@@ -97,7 +97,7 @@ void add_areas(std::vector<Sums>& sums, const Strips& strips, const State& state
   for (std::size_t begin = 0; begin < state.grains.size(); begin += at_a_time) {
     const std::size_t count = std::min(at_a_time, state.grains.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
-      g.x[i] = state.box.metres_x(state.grains.x[begin + i]);
+      g.x[i] = state.box.metres_x(state.grains.position[begin + i].x);
       g.radius[i] = state.grains.radius[begin + i];
       g.line[i] = static_cast<double>(strips.at(g.x[i] - g.radius[i]) + 1) * strips.width;
     }

@@ -39,17 +39,22 @@ void write(Hdf5Group group, const Grains& grains, const Box& box) {
   group.set_attribute("quantum_x", box.quantum_x());
   group.set_attribute("quantum_y", box.quantum_y());
   const auto slots = slots_by_id(grains);
-  for_each_array(grains, [&](const char* name, const char* unit, const auto& array) {
-    using T = typename std::remove_cvref_t<decltype(array)>::value_type;
+  for_each_array(grains, [&](const char* name, const char* unit, const auto& array, auto number) {
+    using T = std::remove_cvref_t<decltype(number(array[0]))>;
     std::vector<T> ordered(array.size());
-    for (std::size_t i = 0; i < array.size(); ++i) ordered[i] = array[slots[i]];
+    for (std::size_t i = 0; i < array.size(); ++i) ordered[i] = number(array[slots[i]]);
     write_column<T>(group, name, unit, ordered);
   });
 }
 
 void read_grains(const StoredGroup& group, Grains& grains) {
-  for_each_array(
-      grains, [&](const char* name, const char*, auto& array) { read_column(group, name, array); });
+  for_each_array(grains, [&](const char* name, const char*, auto& array, auto number) {
+    std::vector<std::remove_cvref_t<decltype(number(array[0]))>> column;
+    read_column(group, name, column);
+    if (array.empty()) array.resize(column.size());
+    if (array.size() != column.size()) refuse_size(name);
+    for (std::size_t i = 0; i < column.size(); ++i) number(array[i]) = column[i];
+  });
 }
 
 template <Hdf5Number T>

@@ -14,9 +14,7 @@ void write_column(Hdf5Group& group, const std::string& name, const std::string& 
 void read_column(const StoredGroup& group, const std::string& name, std::vector<ExactSum>& sums) {
   const auto data = group.data(name);
   const auto shape = data.shape();
-  if (shape.columns != 2) {
-    throw Hdf5Error("cannot read the data set " + name + ": its size is impossible");
-  }
+  if (shape.columns != 2) refuse_size(name);
   std::vector<std::int64_t> halves(2 * shape.rows);
   data.read(std::span(halves));
   sums.clear();

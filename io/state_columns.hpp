@@ -26,15 +26,18 @@ Hdf5Data write_column(Hdf5Group& group, const std::string& name, const std::stri
   return data;
 }
 
+/// Throws Hdf5Error.
+[[noreturn]] inline void refuse_size(const std::string& name) {
+  throw Hdf5Error("cannot read the data set " + name + ": its size is impossible");
+}
+
 /// Reads what write_column() wrote, into a vector. Throws Hdf5Error.
 template <class Vector>
 void read_column(const StoredGroup& group, const std::string& name, Vector& values) {
   using T = typename Vector::value_type;
   const auto data = group.data(name);
   const auto shape = data.shape();
-  if (shape.columns != 1) {
-    throw Hdf5Error("cannot read the data set " + name + ": its size is impossible");
-  }
+  if (shape.columns != 1) refuse_size(name);
   values.resize(shape.rows);
   data.read(std::span<T>(values));
 }

@@ -13,22 +13,26 @@
 
 namespace riesel::io {
 
-/// Calls visit(name, unit, array) for each array of the grains (const or not). Those of spins come
-/// last, and are empty where the grains do not rotate.
+/// Calls visit(name, unit, array, number) for each array of the grains (const or not), or part of
+/// one: number(element) is the number that stands in the file. Those of spins come last, and are
+/// empty where the grains do not rotate.
 template <class AnyGrains, class Visit>
 void for_each_array(AnyGrains& grains, Visit visit) {
-  auto& [x, y, ux, uy, kick_x, kick_y, radius, mass, id, spin, spin_kick, inertia] = grains;
-  visit("x", "quantum_x", x);
-  visit("y", "quantum_y", y);
-  visit("ux", "quantum_x / step", ux);
-  visit("uy", "quantum_y / step", uy);
-  visit("kick_x", "quantum_x / step^2", kick_x);
-  visit("kick_y", "quantum_y / step^2", kick_y);
-  visit("radius", "m", radius);
-  visit("mass", "kg", mass);
-  visit("id", "1", id);
-  visit("spin", "2 pi / 2^64 / step", spin);
-  visit("spin_kick", "2 pi / 2^64 / step^2", spin_kick);
+  auto& [position, u, kick, radius, mass, id, spin, spin_kick, inertia] = grains;
+  const auto all = [](auto& element) -> auto& { return element; };
+  const auto along_x = [](auto& element) -> auto& { return element.x; };
+  const auto along_y = [](auto& element) -> auto& { return element.y; };
+  visit("x", "quantum_x", position, along_x);
+  visit("y", "quantum_y", position, along_y);
+  visit("ux", "quantum_x / step", u, along_x);
+  visit("uy", "quantum_y / step", u, along_y);
+  visit("kick_x", "quantum_x / step^2", kick, along_x);
+  visit("kick_y", "quantum_y / step^2", kick, along_y);
+  visit("radius", "m", radius, all);
+  visit("mass", "kg", mass, all);
+  visit("id", "1", id, all);
+  visit("spin", "2 pi / 2^64 / step", spin, all);
+  visit("spin_kick", "2 pi / 2^64 / step^2", spin_kick, all);
 }
 
 /// Calls visit(name, unit, member) for each member of a contact; member(contact) is the member.

@@ -142,8 +142,8 @@ std::vector<Grain> half_a_step_before(const State& earlier, double time_step) {
   std::vector<Grain> result;
   for (std::size_t i = 0; i < earlier.grains.size(); ++i) {
     Grain grain = grains[i];
-    grain.vx -= half_step * real(earlier.grains.kick_x[i]) * units.velocity_x;
-    grain.vy -= half_step * real(earlier.grains.kick_y[i]) * units.velocity_y;
+    grain.vx -= half_step * real(earlier.grains.kick[i].x) * units.velocity_x;
+    grain.vy -= half_step * real(earlier.grains.kick[i].y) * units.velocity_y;
     grain.spin -= half_step * real(earlier.grains.spin_kick_of(i)) * units.spin;
     result.push_back(grain);
   }
@@ -159,12 +159,10 @@ void take_over(const State& earlier, const ContactModel& model, State& state) {
   for (std::size_t i = 0; i < earlier.grains.size(); ++i) {
     add_grain(state, grains[i]);
     Grains& g = state.grains;
-    g.x[i] = earlier.grains.x[i];
-    g.y[i] = earlier.grains.y[i];
-    g.kick_x[i] = rescaled(earlier.grains.kick_x[i]);
-    g.kick_y[i] = rescaled(earlier.grains.kick_y[i]);
-    g.ux[i] -= g.kick_x[i] / 2;
-    g.uy[i] -= g.kick_y[i] / 2;
+    g.position[i] = earlier.grains.position[i];
+    g.kick[i] = {rescaled(earlier.grains.kick[i].x), rescaled(earlier.grains.kick[i].y)};
+    g.u[i].x -= g.kick[i].x / 2;
+    g.u[i].y -= g.kick[i].y / 2;
     if (!g.rotate()) continue;
     g.spin_kick[i] = rescaled(earlier.grains.spin_kick[i]);
     g.spin[i] -= g.spin_kick[i] / 2;

@@ -32,7 +32,8 @@ struct PairProblem {
 /// Arrays of `count` elements; count is a multiple of 8, and what is beyond the contacts has zero
 /// reach.
 struct ContactProblem {
-  const std::int64_t *first, *second;
+  const std::int64_t *first,
+      *second;  // twice the place in Bodies, whose arrays have x and y in turn
   const double *reach, *reduced_mass, *per_mass_first, *per_mass_second;
   double *end, *overlap, *max_overlap, *elastic_energy, *slip_path, *normal_loss, *friction_loss;
   double *friction_x, *friction_y;  // on the first grain
@@ -115,17 +116,20 @@ auto larger(Reals a, Reals b) {
 template <class Lanes>
 auto step_lanes(const ContactProblem& c, std::size_t i) {
   const auto all = [](double value) { return Lanes::all(value); };
-  const auto difference = [&](const Fixed* of) {
-    return real_of<Lanes>(Lanes::gather(of, c.second + i) - Lanes::gather(of, c.first + i));
+  const auto difference = [&](const Fixed& of_body_0) {
+    return real_of<Lanes>(Lanes::gather(&of_body_0, c.second + i)
+                          - Lanes::gather(&of_body_0, c.first + i));
   };
+  const FixedVector &position = *c.bodies.position, &displacement = *c.bodies.u,
+                    &kick_before = *c.bodies.kick;
   const StepUnits& u = c.units;
   const auto dt = all(u.dt), half = all(0.5);
-  const auto half_vx = difference(c.bodies.ux) * all(u.velocity_x);
-  const auto half_vy = difference(c.bodies.uy) * all(u.velocity_y);
-  const auto x = difference(c.bodies.x) * all(u.metre_x);
-  const auto y = difference(c.bodies.y) * all(u.metre_y);
-  const auto vx = half_vx + difference(c.bodies.kick_x) * all(0.5 * u.velocity_x);
-  const auto vy = half_vy + difference(c.bodies.kick_y) * all(0.5 * u.velocity_y);
+  const auto half_vx = difference(displacement.x) * all(u.velocity_x);
+  const auto half_vy = difference(displacement.y) * all(u.velocity_y);
+  const auto x = difference(position.x) * all(u.metre_x);
+  const auto y = difference(position.y) * all(u.metre_y);
+  const auto vx = half_vx + difference(kick_before.x) * all(0.5 * u.velocity_x);
+  const auto vy = half_vy + difference(kick_before.y) * all(0.5 * u.velocity_y);
   const auto reach = Lanes::load(c.reach + i), mass = Lanes::load(c.reduced_mass + i);
 
   const auto distance2 = x * x + y * y;

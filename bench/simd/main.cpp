@@ -75,8 +75,7 @@ void print_table(const std::string& title, double items, const std::vector<Conte
 /// The contacts stay as they are, however often they are stepped.
 State at_rest(State state) {
   Grains& g = state.grains;
-  for (auto* motion : {&g.ux, &g.uy, &g.kick_x, &g.kick_y})
-    std::fill(motion->begin(), motion->end(), 0);
+  for (auto* motion : {&g.u, &g.kick}) std::fill(motion->begin(), motion->end(), FixedVector{});
   return state;
 }
 

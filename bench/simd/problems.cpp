@@ -79,8 +79,8 @@ ContactColumns::ContactColumns(Original& engine)
     const LiveContacts& live = engine.slice().pair_contacts;
     const Meeting& meeting = live.meeting(i);
     const double a = meeting.mass_first, b = meeting.mass_second;
-    body_[0][i] = live.first(i);
-    body_[1][i] = live.second(i);
+    body_[0][i] = 2 * live.first(i);
+    body_[1][i] = 2 * live.second(i);
     const std::array constants = {meeting.reach(), a * b / (a + b), 1.0 / a, 1.0 / b};
     for (std::size_t m = 0; m < constants.size(); ++m) constants_[m][i] = constants[m];
     const auto life = life_of(live, i);

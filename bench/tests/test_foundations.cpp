@@ -106,7 +106,7 @@ TEST_CASE("the traffic of grains that are far from each other is that of flying 
   state.walls.clear();
   state.box.length = 1.0;
   for (std::size_t i = 0; i < state.grains.size(); ++i)
-    state.grains.y[i] = state.box.fixed_y(0.02 * static_cast<double>(i));
+    state.grains.position[i].y = state.box.fixed_y(0.02 * static_cast<double>(i));
   // 8 + 16 + 8 for each axis, and both coarse coordinates once more.
   CHECK(plain_traffic(state) == 2 * 32 + 8);
 }

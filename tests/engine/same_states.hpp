@@ -55,11 +55,10 @@ inline bool same(const std::optional<Contact>& a, const std::optional<Contact>& 
 /// Every bit that a state holds, whether it is in the hash or not.
 inline bool same(const State& a, const State& b) {
   const Grains g = ordered_by_id(a.grains), h = ordered_by_id(b.grains);
-  return a.step == b.step && g.x == h.x && g.y == h.y && g.ux == h.ux && g.uy == h.uy
-         && g.kick_x == h.kick_x && g.kick_y == h.kick_y && g.radius == h.radius && g.mass == h.mass
-         && g.spin == h.spin && g.spin_kick == h.spin_kick && g.inertia == h.inertia
-         && same(a.contacts, b.contacts) && same(a.open_visits, b.open_visits)
-         && all_of(a.tally.grains) == all_of(b.tally.grains)
+  return a.step == b.step && g.position == h.position && g.u == h.u && g.kick == h.kick
+         && g.radius == h.radius && g.mass == h.mass && g.spin == h.spin
+         && g.spin_kick == h.spin_kick && g.inertia == h.inertia && same(a.contacts, b.contacts)
+         && same(a.open_visits, b.open_visits) && all_of(a.tally.grains) == all_of(b.tally.grains)
          && all_of(a.tally.walls) == all_of(b.tally.walls)
          && same(a.tally.grains.deepest, b.tally.grains.deepest)
          && same(a.tally.walls.deepest, b.tally.walls.deepest)

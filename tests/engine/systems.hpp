@@ -163,8 +163,7 @@ inline State shuffled(State state, std::uint64_t seed) {
   for (auto i = static_cast<std::int64_t>(g.size()) - 1; i > 0; --i) {
     const auto a = static_cast<std::size_t>(i);
     const auto b = static_cast<std::size_t>(dice.below(i + 1));
-    for (auto* component : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y})
-      std::swap((*component)[a], (*component)[b]);
+    for (auto* vectors : {&g.position, &g.u, &g.kick}) std::swap((*vectors)[a], (*vectors)[b]);
     std::swap(g.radius[a], g.radius[b]);
     std::swap(g.mass[a], g.mass[b]);
     std::swap(g.id[a], g.id[b]);
@@ -206,8 +205,8 @@ inline std::array<Fixed, 2> integer_momentum(const State& state) {
   const Grains& g = state.grains;
   std::array<Fixed, 2> sum{};
   for (std::size_t i = 0; i < g.size(); ++i) {
-    sum[0] = wrapped_sum(sum[0], wrapped_sum(g.ux[i], g.kick_x[i]));
-    sum[1] = wrapped_sum(sum[1], wrapped_sum(g.uy[i], g.kick_y[i]));
+    sum[0] = wrapped_sum(sum[0], wrapped_sum(g.u[i].x, g.kick[i].x));
+    sum[1] = wrapped_sum(sum[1], wrapped_sum(g.u[i].y, g.kick[i].y));
   }
   return sum;
 }

@@ -280,7 +280,7 @@ TEST_CASE("a long advance by flights that now go askew and now do not comes to t
 
 TEST_CASE("slices do each step together where grains are too fast for more") {
   State state = long_tube(0.1);
-  state.grains.ux[7] =
+  state.grains.u[7].x =
       state.box.fixed_x(0.2 * Candidates::plain_stepping.skin_per_diameter * diameter);
   CHECK(steps_ready(state, 10) == 1);
 }
@@ -346,10 +346,10 @@ TEST_CASE("a force that is not finite is told of in the step in which it was fou
   State start = long_tube(0.0);
   Grains& g = start.grains;
   const Fixed step = start.box.fixed_x(5e-4 * diameter);
-  g.x[1] = wrapped_difference(g.x[0], wrapped_product(3, step));
-  g.ux[1] = wrapped_sum(g.ux[0], step);
-  g.y[1] = g.y[0];
-  g.uy[1] = g.uy[0];
+  g.position[1].x = wrapped_difference(g.position[0].x, wrapped_product(3, step));
+  g.u[1].x = wrapped_sum(g.u[0].x, step);
+  g.position[1].y = g.position[0].y;
+  g.u[1].y = g.u[0].y;
   const Askew how = GENERATE(Askew{}, small_slices);
   CHECK_THAT(failure_of([&] { askew(start, weak, 100, 1, how); }),
              Contains("grain 0 and grain 1 is not finite") && Contains("(step 3)"));

@@ -90,7 +90,7 @@ TEST_CASE("a contact with a wall that is not near is refused") {
 
 TEST_CASE("a grain that leaves through a missing wall is reported lost") {
   State state = two_grains();
-  state.grains.ux[1] = state.box.fixed_x(20.0 * state.time_step);  // 20 m/s
+  state.grains.u[1].x = state.box.fixed_x(20.0 * state.time_step);  // 20 m/s
   // From 6 mm it takes 0.7 ms to x = 2 width; it may go unnoticed for half a skin.
   CHECK(failure(state, 690) == "no failure");
   CHECK_THAT(failure(state, 720), Contains("grain 1") && Contains("left"));
@@ -98,7 +98,7 @@ TEST_CASE("a grain that leaves through a missing wall is reported lost") {
 
 TEST_CASE("a grain that leaves to the left is reported lost") {
   State state = two_grains();
-  state.grains.ux[0] = state.box.fixed_x(-20.0 * state.time_step);
+  state.grains.u[0].x = state.box.fixed_x(-20.0 * state.time_step);
   CHECK_THAT(failure(state, 700), Contains("grain 0") && Contains("left"));
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("the state of a run that failed has nothing in it that is no number") 
   CHECK(std::isfinite(contact.friction_x));
   CHECK(std::isfinite(contact.end));
   CHECK(std::isfinite(observe(end).energies.residual));
-  CHECK(end.grains.kick_x == state.grains.kick_x);
+  CHECK(end.grains.kick == state.grains.kick);
 }
 
 TEST_CASE("a failed run stays failed") {

@@ -29,10 +29,10 @@ TEST_CASE("a falling grain is where G n^2 / 2 says, to the quantum, after a mill
   const State end = advanced(start, paper_model(), million);
   const Fixed g = fall_per_step(start).y;
   // Half of an odd G is cut off in the first velocity: one half quantum per step.
-  const Fixed exact = wrapped_sum(wrapped_product(million, start.grains.uy[0]),
+  const Fixed exact = wrapped_sum(wrapped_product(million, start.grains.u[0].y),
                                   wrapped_product(g, million * (million + 1) / 2));
-  CHECK(end.grains.y[0] == exact);
-  CHECK(end.grains.uy[0] == start.grains.uy[0]);
+  CHECK(end.grains.position[0].y == exact);
+  CHECK(end.grains.u[0].y == start.grains.u[0].y);
 }
 
 TEST_CASE("a falling grain follows g t^2 / 2 to the quantum of gravity") {
@@ -69,8 +69,8 @@ TEST_CASE("a fast grain crosses the seam many times") {
   State state = empty_box(10e-3, 5e-3);
   add_grain(state, grain(5e-3, 1e-3, 0.0, 50.0));
   const State end = advanced(state, paper_model(), 100'000);  // 5 m: a thousand periods
-  CHECK(end.grains.y[0]
-        == wrapped_sum(state.grains.y[0], wrapped_product(100'000, state.grains.uy[0])));
+  CHECK(end.grains.position[0].y
+        == wrapped_sum(state.grains.position[0].y, wrapped_product(100'000, state.grains.u[0].y)));
   // The velocity was rounded to a quantum per step: 1e5 half quanta.
   CHECK(std::abs(std::remainder(grain_at(end, 0).y - (1e-3 + 5.0), 5e-3)) < 1e-15);
   CHECK(grain_at(end, 0).vy == Approx(50.0).epsilon(1e-14));

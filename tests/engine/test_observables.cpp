@@ -64,7 +64,7 @@ TEST_CASE("a start has its kinetic energy and nothing else") {
 
 TEST_CASE("a falling pair gains what gravity does") {
   State state = pair_of_grains(10.0);
-  state.grains.ux = {0, 0};
+  for (FixedVector& u : state.grains.u) u.x = 0;
   const State end = advanced(state, paper_model(), 100'000);  // 0.1 s
   const Energies e = observe(end).energies;
   const double t = 0.1, g = 10.0;
@@ -75,7 +75,7 @@ TEST_CASE("a falling pair gains what gravity does") {
 TEST_CASE("a pair falling at an angle gains what gravity does") {
   State state = pair_of_grains(10.0);
   state.gravity.x = -0.5;
-  state.grains.ux = {0, 0};
+  for (FixedVector& u : state.grains.u) u.x = 0;
   const State end = advanced(state, paper_model(), 50'000);  // 0.05 s
   const Energies e = observe(end).energies;
   const double t = 0.05, along = 10.0 * (7e-6 * t + 0.5 * 3e-6 * 10.0 * t * t);

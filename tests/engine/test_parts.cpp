@@ -220,8 +220,10 @@ TEST_CASE("no grain wanders farther than the candidates tell") {
   const auto before = slots_by_id(start.grains), after = slots_by_id(state.grains);
   double farthest = 0.0;
   for (std::size_t id = 0; id < before.size(); ++id) {
-    const Fixed x = wrapped_difference(state.grains.x[after[id]], start.grains.x[before[id]]);
-    const Fixed y = wrapped_difference(state.grains.y[after[id]], start.grains.y[before[id]]);
+    const Fixed x =
+        wrapped_difference(state.grains.position[after[id]].x, start.grains.position[before[id]].x);
+    const Fixed y =
+        wrapped_difference(state.grains.position[after[id]].y, start.grains.position[before[id]].y);
     farthest = std::max(farthest, std::hypot(state.box.metres_x(x),
                                              state.box.metres_y(wrapped_difference(y, way))));
   }
@@ -232,7 +234,7 @@ TEST_CASE("no grain wanders farther than the candidates tell") {
 
 TEST_CASE("parts fail as the whole does") {
   State start = long_tube();
-  start.grains.ux[17] = start.box.fixed_x(0.5 * start.box.width);  // in each step
+  start.grains.u[17].x = start.box.fixed_x(0.5 * start.box.width);  // in each step
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
   Simulation simulation(start, paper_model(), 2, stepping, {}, Sharing::apart);
   const std::string words = failure_of([&] { simulation.advance(200); });

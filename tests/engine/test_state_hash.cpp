@@ -38,12 +38,12 @@ TEST_CASE("the hash does not depend on the order of the slots") {
 }
 
 TEST_CASE("the hash notices every part of the motion") {
-  CHECK(noticed([](State& s) { ++s.grains.x[3]; }));
-  CHECK(noticed([](State& s) { ++s.grains.y[3]; }));
-  CHECK(noticed([](State& s) { ++s.grains.ux[3]; }));
-  CHECK(noticed([](State& s) { ++s.grains.uy[3]; }));
-  CHECK(noticed([](State& s) { ++s.grains.kick_x[3]; }));
-  CHECK(noticed([](State& s) { ++s.grains.kick_y[3]; }));
+  CHECK(noticed([](State& s) { ++s.grains.position[3].x; }));
+  CHECK(noticed([](State& s) { ++s.grains.position[3].y; }));
+  CHECK(noticed([](State& s) { ++s.grains.u[3].x; }));
+  CHECK(noticed([](State& s) { ++s.grains.u[3].y; }));
+  CHECK(noticed([](State& s) { ++s.grains.kick[3].x; }));
+  CHECK(noticed([](State& s) { ++s.grains.kick[3].y; }));
   CHECK(noticed([](State& s) { s.grains.radius[3] *= 1.0 + 1e-15; }));
   CHECK(noticed([](State& s) { s.grains.mass[3] *= 1.0 + 1e-15; }));
   CHECK(noticed([](State& s) { std::swap(s.grains.id[3], s.grains.id[4]); }));

@@ -233,7 +233,8 @@ TEST_CASE("damping and friction are in the forces") {
   // relative to each other: F_S = mu F_N against it.
   State state = touching(5e-3, 10e-3, 2.0 * radius - overlap, 0.0, 0.1);
   const Fixed sideways = nearest_fixed(0.5 * state.time_step / state.box.quantum_y());
-  state.grains.uy = {sideways, -sideways};
+  state.grains.u[0].y = sideways;
+  state.grains.u[1].y = -sideways;
   const auto forces = present_forces(state, paper_model());
   REQUIRE(forces.size() == 1);
   const double normal = stiffness * overlap + damping * 0.5 * mass * 0.1;
@@ -272,8 +273,8 @@ TEST_CASE("the forces of a moment are those that the step has given") {
     std::size_t slot = 0;
     while (state.grains.id[slot] != grain) ++slot;
     const double to_force = state.grains.mass[slot] / (state.time_step * state.time_step);
-    const double kick_x = state.box.metres_x(state.grains.kick_x[slot]);
-    const double kick_y = state.box.metres_y(state.grains.kick_y[slot]);
+    const double kick_x = state.box.metres_x(state.grains.kick[slot].x);
+    const double kick_y = state.box.metres_y(state.grains.kick[slot].y);
     CHECK(forces[i].fx == Approx(kick_x * to_force).epsilon(1e-9));
     CHECK(forces[i].fy == Approx(kick_y * to_force).epsilon(1e-9));
     ++compared;

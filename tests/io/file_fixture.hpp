@@ -152,20 +152,20 @@ inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
   grains.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto k = static_cast<std::uint64_t>(i + 1) * 0x9e3779b97f4a7c15U;
-    grains.x[i] = static_cast<riesel::Fixed>(k);
-    grains.y[i] = static_cast<riesel::Fixed>(k * k);
-    grains.ux[i] = static_cast<riesel::Fixed>(k * 3);
-    grains.uy[i] = static_cast<riesel::Fixed>(k * 5);
-    grains.kick_x[i] = static_cast<riesel::Fixed>(k * 7);
-    grains.kick_y[i] = static_cast<riesel::Fixed>(k * 11);
+    grains.position[i].x = static_cast<riesel::Fixed>(k);
+    grains.position[i].y = static_cast<riesel::Fixed>(k * k);
+    grains.u[i].x = static_cast<riesel::Fixed>(k * 3);
+    grains.u[i].y = static_cast<riesel::Fixed>(k * 5);
+    grains.kick[i].x = static_cast<riesel::Fixed>(k * 7);
+    grains.kick[i].y = static_cast<riesel::Fixed>(k * 11);
     if (grains.rotate()) grains.spin[i] = static_cast<riesel::Fixed>(k * 13);
     if (grains.rotate()) grains.spin_kick[i] = static_cast<riesel::Fixed>(k * 17);
     grains.radius[i] = 5e-4 + 1e-6 / (3.0 + static_cast<double>(i));
     grains.mass[i] = 1e-6 / (7.0 + static_cast<double>(i));
     grains.id[i] = static_cast<std::int32_t>(i);
   }
-  grains.x[0] = grains.kick_x[1] = least;
-  grains.y[1] = grains.uy[0] = most;
+  grains.position[0].x = grains.kick[1].x = least;
+  grains.position[1].y = grains.u[0].y = most;
   grains.radius[2] = denormal;
   grains.mass[3] = std::numeric_limits<double>::max();
   state.contacts = {contact({riesel::no_wall, 0, 3}, 0.1), contact({riesel::no_wall, 1, 2}, -0.0),
@@ -181,13 +181,7 @@ inline riesel::State special_state(std::size_t n = 4, double inertia = 0.0) {
 
 /// The same state with the grains stored the other way round.
 inline riesel::State reversed(riesel::State state) {
-  auto& g = state.grains;
-  for (auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y, &g.spin, &g.spin_kick}) {
-    std::reverse(array->begin(), array->end());
-  }
-  std::reverse(g.radius.begin(), g.radius.end());
-  std::reverse(g.mass.begin(), g.mass.end());
-  std::reverse(g.id.begin(), g.id.end());
+  for_each_array_of(state.grains, [](auto& array) { std::reverse(array.begin(), array.end()); });
   return state;
 }
 
@@ -266,8 +260,11 @@ inline std::string bits_of(const riesel::State& state) {
     bits.add(wall.motion.start);
   }
   const auto& g = state.grains;
-  for (const auto* array : {&g.x, &g.y, &g.ux, &g.uy, &g.kick_x, &g.kick_y, &g.spin, &g.spin_kick})
-    bits.add_all(*array);
+  for (const auto* vectors : {&g.position, &g.u, &g.kick}) {
+    bits.add(vectors->size());
+    for (const auto& v : *vectors) bits.add_all(std::array{v.x, v.y});
+  }
+  for (const auto* array : {&g.spin, &g.spin_kick}) bits.add_all(*array);
   bits.add(g.inertia);
   bits.add_all(g.radius);
   bits.add_all(g.mass);

@@ -171,7 +171,8 @@ TEST_CASE("Behind the seal, data sets have checksums for any reader of HDF5") {
   const auto checkpoint = special_checkpoint();
   write_checkpoint(path, checkpoint);
   auto bytes = contents(path);
-  const auto& x = checkpoint.state.grains.x;
+  std::vector<riesel::Fixed> x;
+  for (const auto& at : checkpoint.state.grains.position) x.push_back(at.x);
   const auto place = bytes.find({reinterpret_cast<const char*>(x.data()), x.size() * sizeof x[0]});
   REQUIRE(place != std::string::npos);
   bytes[place] = static_cast<char>(bytes[place] ^ 1);
@@ -321,7 +322,7 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "the mass of grain 2 is not positive");
   CHECK(refusal([](auto& c) { c.state.grains.id[2] = 1; }) == "two grains have the id 1");
   CHECK(refusal([](auto& c) { c.state.grains.id[2] = 4; }) == "the id 4 is out of range");
-  CHECK(refusal([](auto& c) { c.state.grains.kick_x.pop_back(); })
+  CHECK(refusal([](auto& c) { c.state.grains.kick.pop_back(); })
         == "not all grains have all values");
   CHECK(refusal([](auto& c) { c.state.grains.spin.push_back(1); })
         == "not all grains have all values");

@@ -24,7 +24,7 @@ Kicks kicks_of_a_head_on_contact(Attraction attraction) {
   Kicks kicks;
   while (simulation.state().tally.walls.ended == 0) {
     simulation.advance(1);
-    const Fixed kick = simulation.state().grains.kick_x[0];
+    const Fixed kick = simulation.state().grains.kick[0].x;
     kicks.strongest_pull = std::max(kicks.strongest_pull, -kick);
     kicks.strongest_push = std::max(kicks.strongest_push, kick);
   }

@@ -79,8 +79,8 @@ std::array<double, 2> momentum(const State& state) {
   const double to_vy = state.box.quantum_y() / state.time_step;
   ExactSum x, y;
   for (std::size_t i = 0; i < g.size(); ++i) {
-    x.add(g.mass[i] * static_cast<double>(wrapped_sum(g.ux[i], g.kick_x[i])) * to_vx);
-    y.add(g.mass[i] * static_cast<double>(wrapped_sum(g.uy[i], g.kick_y[i])) * to_vy);
+    x.add(g.mass[i] * static_cast<double>(wrapped_sum(g.u[i].x, g.kick[i].x)) * to_vx);
+    y.add(g.mass[i] * static_cast<double>(wrapped_sum(g.u[i].y, g.kick[i].y)) * to_vy);
   }
   return {x.value(), y.value()};
 }
@@ -246,7 +246,7 @@ TEST_CASE("the work of gravity is the weight times the way of the centre of mass
     simulation.advance(1);
     const Grains now = ordered_by_id(simulation.state().grains);
     for (std::size_t g = 0; g < now.size(); ++g)
-      way += start.box.metres_y(wrapped_difference(now.y[g], before.y[g]));
+      way += start.box.metres_y(wrapped_difference(now.position[g].y, before.position[g].y));
     before = now;
   }
   const double work = observe(simulation.state()).energies.gravity_work;

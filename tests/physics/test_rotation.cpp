@@ -33,10 +33,10 @@ double angular_momentum(const State& state) {
   const Grains& g = state.grains;
   double sum = 0.0;
   for (std::size_t i = 0; i < g.size(); ++i) {
-    const double x = state.box.metres_x(g.x[i]) - 20e-3;
-    const double y = state.box.place_y(g.y[i]) - 20e-3;
-    const double vx = state.box.metres_x(wrapped_sum(g.ux[i], g.kick_x[i])) / state.time_step;
-    const double vy = state.box.metres_y(wrapped_sum(g.uy[i], g.kick_y[i])) / state.time_step;
+    const double x = state.box.metres_x(g.position[i].x) - 20e-3;
+    const double y = state.box.place_y(g.position[i].y) - 20e-3;
+    const double vx = state.box.metres_x(wrapped_sum(g.u[i].x, g.kick[i].x)) / state.time_step;
+    const double vy = state.box.metres_y(wrapped_sum(g.u[i].y, g.kick[i].y)) / state.time_step;
     const double spin = static_cast<double>(wrapped_sum(g.spin[i], g.spin_kick[i]))
                         * quantum_of_angle / state.time_step;
     sum += g.mass[i] * (x * vy - y * vx + g.inertia * g.radius[i] * g.radius[i] * spin);

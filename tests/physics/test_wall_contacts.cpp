@@ -38,9 +38,10 @@ Graze graze(const ContactModel& model, double speed_ratio, double steps) {
     const State& now = simulation.state();
     if (now.contacts.empty()) continue;
     result.contact = now.contacts.front();
-    const double x = now.box.metres_x(now.grains.x[0]), y = now.box.metres_y(now.grains.y[0]);
+    const double x = now.box.metres_x(now.grains.position[0].x),
+                 y = now.box.metres_y(now.grains.position[0].y);
     const double outward =
-        x * now.box.metres_x(now.grains.kick_x[0]) + y * now.box.metres_y(now.grains.kick_y[0]);
+        x * now.box.metres_x(now.grains.kick[0].x) + y * now.box.metres_y(now.grains.kick[0].y);
     if (outward < 0.0) result.pulling += now.time_step;
   }
   result.t_col = collision_time(model.normal, mass, result.contact.entry_rate);

@@ -99,7 +99,7 @@ double momentum_along(const State& state) {
   const double velocity = state.box.quantum_y() / state.time_step;
   double sum = 0.0;
   for (std::size_t i = 0; i < g.size(); ++i)
-    sum += g.mass[i] * velocity * real(wrapped_sum(g.uy[i], g.kick_y[i]));
+    sum += g.mass[i] * velocity * real(wrapped_sum(g.u[i].y, g.kick[i].y));
   return sum;
 }
 
@@ -121,8 +121,8 @@ Outcome outcome(const SetUp& set_up, int threads, Stepping stepping) {
 
 /// One that the plain run has not found yet.
 bool has_lost_grain(const State& state) {
-  return std::ranges::any_of(state.grains.x, [&](Fixed x) {
-    return std::abs(state.box.metres_x(x) - 0.5 * state.box.width) > 1.5 * state.box.width;
+  return std::ranges::any_of(state.grains.position, [&](const FixedVector& at) {
+    return std::abs(state.box.metres_x(at.x) - 0.5 * state.box.width) > 1.5 * state.box.width;
   });
 }
 

@@ -85,8 +85,8 @@ double largest_distance(const State& a, const State& b) {
   const Grains one = ordered_by_id(a.grains), other = ordered_by_id(b.grains);
   double largest = 0.0;
   for (std::size_t i = 0; i < one.size(); ++i) {
-    const double x = a.box.metres_x(wrapped_difference(one.x[i], other.x[i]));
-    const double y = a.box.metres_y(wrapped_difference(one.y[i], other.y[i]));
+    const double x = a.box.metres_x(wrapped_difference(one.position[i].x, other.position[i].x));
+    const double y = a.box.metres_y(wrapped_difference(one.position[i].y, other.position[i].y));
     largest = std::max(largest, std::hypot(x, y));
   }
   return largest;
@@ -225,7 +225,7 @@ TEST_CASE("Velocities half a step before a continued start are those that it hol
   const double metres_per_second = continued.box.quantum_x() / continued.time_step;
   double largest_change = 0.0, largest_change_of_spin = 0.0;
   for (std::size_t i = 0; i < half.size(); ++i) {
-    CHECK_THAT(real(continued.grains.ux[i]) * metres_per_second, WithinAbs(half[i].vx, 1e-12));
+    CHECK_THAT(real(continued.grains.u[i].x) * metres_per_second, WithinAbs(half[i].vx, 1e-12));
     largest_change = std::max(largest_change, std::abs(half[i].vx - grain_at(continued, i).vx));
     if (!rolls) continue;
     CHECK_THAT(real(continued.grains.spin[i]) * quantum_of_angle / continued.time_step,
@@ -303,7 +303,8 @@ TEST_CASE(
     const Grains after = ordered_by_id(simulation.state().grains);
     for (std::size_t i = 0; i < after.size(); ++i)
       mass_times_way +=
-          after.mass[i] * start.box.metres_y(wrapped_difference(after.y[i], before.y[i]));
+          after.mass[i]
+          * start.box.metres_y(wrapped_difference(after.position[i].y, before.position[i].y));
   }
   const double work = observe(simulation.state()).energies.gravity_work;
   CHECK(work == Approx(start.gravity.y * mass_times_way).epsilon(1e-9));

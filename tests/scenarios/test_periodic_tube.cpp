@@ -107,8 +107,10 @@ TEST_CASE("a seed decides about sizes, places and velocities") {
   std::size_t same_radius = 0, same_velocity = 0, same_place = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (a.grains.radius[i] == b.grains.radius[i]) ++same_radius;
-    if (a.grains.ux[i] == b.grains.ux[i]) ++same_velocity;
-    if (a.grains.x[i] == b.grains.x[i] && a.grains.y[i] == b.grains.y[i]) ++same_place;
+    if (a.grains.u[i].x == b.grains.u[i].x) ++same_velocity;
+    if (a.grains.position[i].x == b.grains.position[i].x
+        && a.grains.position[i].y == b.grains.position[i].y)
+      ++same_place;
   }
   CHECK(same_radius == 0);
   CHECK(same_velocity == 0);

@@ -41,8 +41,7 @@ TEST_CASE("grains find their places between walls that stand and move only after
     Overrides moved = shaken(dense);
     moved.push_back(std::string("wall.shake_angle=") + angle);
     const State still = tube(dense).state, state = tube(moved).state;
-    CHECK(state.grains.x == still.grains.x);
-    CHECK(state.grains.y == still.grains.y);
+    CHECK(state.grains.position == still.grains.position);
   }
 }
 
