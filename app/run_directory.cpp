@@ -81,8 +81,12 @@ void RunDirectory::go_on(const io::Settings& settings) const {
   fs::rename(summary, io::previous_generation(summary), error);
   if (error && error != std::errc::no_such_file_or_directory)
     throw io::system_failure(summary, "cannot be set aside", error.value());
-  fs::remove(file(report_name), error);  // likewise; what cannot be removed is no result
   write_settings(settings);
+}
+
+void RunDirectory::drop_report() const {
+  std::error_code ignored;  // what cannot be removed is no result
+  fs::remove(file(report_name), ignored);
 }
 
 void RunDirectory::write_summary(const std::string& text) const {

@@ -31,8 +31,10 @@ public:
   /// The directory of a run that is to go on. Nothing in it is changed.
   static RunDirectory reopen(const std::filesystem::path& path);
   /// Nothing is in the way of the run: its settings may have changed, and it has no result now but
-  /// summary.json.previous, and no report.
+  /// summary.json.previous.
   void go_on(const io::Settings& settings) const;
+  /// The report is that of the run before it went on.
+  void drop_report() const;
   /// The result. Throws io::FileError.
   void write_summary(const std::string& text) const;
 

@@ -92,6 +92,8 @@ public:
   int run() {
     start_ = last_checkpoint_ = Clock::now();
     if (past_.rows > 0) files_.directory().go_on(settings_);
+    if (past_.rows > 0 && (!is_over() || past_.had_other_settings))
+      files_.directory().drop_report();
     tell_beginning();
     try {
       if (files_.rows() == 0) begin();

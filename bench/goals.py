@@ -182,9 +182,25 @@ def parse():
     return parser.parse_args()
 
 
+def tell_shares_of_the_best_bandwidth(results):
+    """Of all measured sets that hold what a step moves: up to 0.8.2 it was that of the smallest, slower in some hours."""
+    for row in results["rows"].values():
+        if row.get("bandwidth_share") is not None:
+            moved = row["bytes_per_particle_step"] * row["grains"]
+            best = max(b["bytes_per_second"] for b in results["bandwidth"]
+                       if b["threads"] == row["threads"] and b["working_set"] >= moved)
+            row["bandwidth_share"] = row["bytes_per_particle_step"] * row["per_second"]["median"] / best
+
+
 def counts(results):
-    agreements = [one["agree"] for case in results.get("cases", []) for one in case.get("agreements", {}).values()]
+    cases = results.get("cases", [])
+    agreements = [one["agree"] for case in cases for one in case.get("agreements", {}).values()]
+    agreements += [case["agreement"]["agree"] for case in cases if "agreement" in case]  # of one code, as it once was
     return all(agreements) and not (results.get("quick") or results["build"]["changed"] or results.get("disagreements"))
+
+
+def is_beside_lammps(results):
+    return any(variant == "lammps 1" for _, _, variant in results["rows"])
 
 
 def main():
@@ -195,10 +211,13 @@ def main():
         if not counts(results):
             print(f"{path}: left out", file=sys.stderr)
         elif results["date"] >= options.since:
+            if not results.get("complete", True):
+                print(f"{path}: was not finished", file=sys.stderr)
+            tell_shares_of_the_best_bandwidth(results)
             machines.setdefault(results["machine"]["name"], []).append(results)
     tables = []
     for machine, files in machines.items():
-        suites, peers = [sum(results["format"] == source for results in files) for source in (SUITE, PEERS)]
+        suites, peers = sum(results["format"] == SUITE for results in files), sum(map(is_beside_lammps, files))
         tables.append(f"{machine}: {suites} results of the suite, {peers} beside LAMMPS\n\n{table(files)}")
     if not tables:
         raise BadInput("no result that counts")

@@ -5,6 +5,7 @@
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <utility>
@@ -150,11 +151,13 @@ std::filesystem::path usual_place(const Results& results, const std::filesystem:
 
 std::optional<double> bandwidth_for(const std::vector<Bandwidth>& measured, int threads,
                                     double bytes) {
+  // First by what of `bytes` the set holds, then by speed.
+  const auto merit = [&](const Bandwidth& b) {
+    return std::pair(std::min(static_cast<double>(b.working_set), bytes), b.bytes_per_second());
+  };
   const Bandwidth* best = nullptr;
-  for (const Bandwidth& b : measured) {
-    if (b.threads != threads) continue;
-    if (best == nullptr || static_cast<double>(best->working_set) < bytes) best = &b;
-  }
+  for (const Bandwidth& b : measured)
+    if (b.threads == threads && (best == nullptr || merit(*best) < merit(b))) best = &b;
   return best == nullptr ? std::nullopt : std::optional(best->bytes_per_second());
 }
 

@@ -59,8 +59,8 @@ nlohmann::ordered_json to_json(const Results& results);
 /// "-part", and a number if that is there already.
 std::filesystem::path usual_place(const Results& results, const std::filesystem::path& folder);
 
-/// B/s by `threads` threads over the smallest measured working set that holds `bytes`, or the
-/// largest.
+/// B/s by `threads` threads over the fastest measured working set that holds `bytes`, or over the
+/// largest if none does.
 std::optional<double> bandwidth_for(const std::vector<Bandwidth>& measured, int threads,
                                     double bytes);
 

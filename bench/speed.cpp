@@ -10,6 +10,7 @@
 #include "bench/ensemble.hpp"
 #include "bench/other_rows.hpp"
 #include "io/durable_file.hpp"
+#include "io/settings_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -65,6 +66,13 @@ bool fits(const Flow& flow, const Machine& machine) {
     fmt::print(stderr, "{} {}: left out, as it takes some {:.0f} GiB of memory\n", flow.one.name,
                flow.size.name, needed / 0x1p30);
   return enough;
+}
+
+/// Cases that are no flows of many grains.
+std::vector<std::string> other_cases() {
+  std::vector<std::string> names = {"checkpoint", "start_up", "ensemble"};
+  for (const ImpactCase& one : impact_cases()) names.push_back(one.name);
+  return names;
 }
 
 /// What the command line asks for, and cannot be done.
@@ -125,6 +133,9 @@ int run_suite(const Options& options) {
   reject_missing_sizes(options);
   const StartStates states(options.cache);
   const std::vector<Flow> flows = chosen_flows(options, this_machine());
+  if (flows.empty()
+      && std::ranges::none_of(other_cases(), [&](auto& name) { return options.wants_case(name); }))
+    throw Mistake("nothing that is asked for fits into the memory");
   make_all_states(options, flows, states);
   Results results{.machine = this_machine(), .quick = options.quick, .part = options.part()};
   measure_bandwidths(options, results);
@@ -151,10 +162,16 @@ void list_cases() {
   fmt::print("checkpoint\nstart_up\nensemble\n");
 }
 
-std::vector<std::string> known_cases() {
-  std::vector<std::string> names = {"checkpoint", "start_up", "ensemble"};
-  for (const ImpactCase& one : impact_cases()) names.push_back(one.name);
+/// Of many grains.
+std::vector<std::string> known_flows() {
+  std::vector<std::string> names;
   for (const FlowCase& one : flow_cases()) names.push_back(one.name);
+  return names;
+}
+
+std::vector<std::string> known_cases() {
+  std::vector<std::string> names = other_cases();
+  for (const std::string& flow : known_flows()) names.push_back(flow);
   return names;
 }
 
@@ -199,7 +216,7 @@ public:
 
 private:
   void add_case_and_size(CLI::App& command) {
-    command.add_option("case", case_)->required()->check(CLI::IsMember(known_cases()));
+    command.add_option("case", case_)->required()->check(CLI::IsMember(known_flows()));
     command.add_option("size", size_)->required()->check(CLI::IsMember(known_sizes()));
   }
 
@@ -223,8 +240,10 @@ private:
         ->transform(CLI::CheckedTransformer(steppings()));
     command.add_option("--sharing", advance_.variant.sharing, "How threads share the steps")
         ->transform(CLI::CheckedTransformer(sharings()));
-    command.add_option("--threads", advance_.variant.threads, "0: as many as pay");
-    command.add_option("--warm-up", advance_.warm_up, "Steps before those that are timed");
+    command.add_option("--threads", advance_.variant.threads, "0: as many as pay")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--warm-up", advance_.warm_up, "Steps before those that are timed")
+        ->check(CLI::NonNegativeNumber);
     command.add_option("--steps", advance_.steps)->check(CLI::PositiveNumber);
     command.callback([this] {
       command_ = [this] {
@@ -238,7 +257,7 @@ private:
     CLI::App& command =
         *program_.add_subcommand("start-up", "From settings to the first step done");
     add_case_and_size(command);
-    command.add_option("--threads", threads_, "0: as many as pay");
+    command.add_option("--threads", threads_, "0: as many as pay")->check(CLI::NonNegativeNumber);
     command.callback([this] {
       command_ = [this] {
         start_up(case_, size_, threads_);
@@ -279,6 +298,9 @@ int main(int argc, char** argv) {
       return command_line.program().exit(error) == 0 ? 0 : 2;
     }
     return command_line.command()();
+  } catch (const io::SettingsError& mistake) {
+    fmt::print(stderr, "speed: {}\n", mistake.what());
+    return 2;
   } catch (const Mistake& mistake) {
     fmt::print(stderr, "speed: {}\n", mistake.what());
     return 2;

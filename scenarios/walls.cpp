@@ -84,7 +84,7 @@ io::SettingsTable wall_settings() {
        .fallback = "1.2 mm",
        .range = io::positive(),
        .doc = "Distance between the centres of neighbouring wall grains; adjusted so that a whole "
-              "number of them fits the length.",
+              "number of them fits the length ('riesel check' tells what comes out).",
        .only_when = corrugated},
       {.key = amplitude_key,
        .unit = "m",

@@ -91,7 +91,10 @@ def write_data(state, density, path):
 def read_answer(text):
     """What the log of a run says of its last steps."""
     # One row of numbers at the beginning of each run, one at its end: step, mean v_x, mean v_y, energy, contacts.
-    last = [row.split() for row in text.splitlines() if re.fullmatch(r"\s*\d+(\s+[-+.e\d]+){4}\s*", row)][-1]
+    rows = [row.split() for row in text.splitlines() if re.fullmatch(r"\s*\d+(\s+[-+.e\d]+){4}\s*", row)]
+    if not rows:
+        raise RuntimeError("lammps: told no mean velocities that are numbers")
+    last = rows[-1]
     return {"seconds": float(re.findall(r"^Loop time of (\S+)", text, re.MULTILINE)[-1]),
             "too_late": sum(map(int, re.findall(r"^Dangerous builds = (\d+)", text, re.MULTILINE))),
             "state": {"mean_vx": float(last[1]), "mean_vy": float(last[2]), "kinetic_energy": float(last[3]),

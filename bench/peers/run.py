@@ -185,7 +185,7 @@ def race(riesel, peers, law, starts, seconds):
     best = {peer.name: tuned(peer, start, steps_at(0.5 * peer.about, peer.least_steps)) for peer in peers}
     agreements |= agreements_with(lambda peer: best[peer.name][0], 2)
     fastest = max(LEAST_SPEED, *(speed for _, speed in best.values()))
-    contenders = ways_of_riesel(riesel, law, start, steps_at(fastest))
+    contenders = ways_of_riesel(riesel, law, start, steps_at(fastest, max(peer.least_steps for peer in peers)))
     for peer in peers:
         settings, speed = best[peer.name]
         for cores in CORES:
@@ -287,7 +287,8 @@ def main():
     out = options.out or usual_place(origin, part=bool(options.peer or options.case or options.size))
     results = {"format": PEERS, "format_version": FORMAT_VERSION,
                "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
-               **origin, "peers": {peer.name: peer.version for peer in peers}, "cases": []}
+               **origin, "peers": {peer.name: peer.version for peer in peers}, "complete": False,
+               "cases": []}
     print(f"riesel {origin['build']['commit'][:7]}, {', '.join(f'{peer.name} {peer.version}' for peer in peers)}\n"
           f"{origin['machine']['cpu']}, {origin['machine']['cores']} cores, load {origin['machine']['load_average'][0]:.2f}")
     keep(results, out)  # where that cannot be done is told now
@@ -297,6 +298,8 @@ def main():
                 if sharing := [peer for peer in peers if peer.law == law]:
                     results["cases"].append(compare_case(riesel, sharing, law, case, size, options))
                     keep(results, out)
+    results["complete"] = True
+    keep(results, out)
     print(f"\nkept in {out}")
     return 0 if all(one["agree"] for case in results["cases"] for one in case["agreements"].values()) else 1
 

@@ -76,7 +76,12 @@ class Goals(unittest.TestCase):
         found = self.table(suite(row("start_up", "1M", "threads 1", [3.1])))
         self.assertEqual(found["start-up in 3 s at most", "start-up"], ["", "", "", "3.1"])
         found = self.table(suite(row("tube_slow", "1.4k", "plain 1", [1.0]), row("tube_slow", "1M", "plain 1", [2.4],
-                                 bytes_per_grain=251.0, bandwidth_share=0.6)))
+                                 bytes_per_grain=251.0, bandwidth_share=0.7, bytes_per_particle_step=60.0,
+                                     grains=2, threads=1),
+                                 bandwidth=[{"threads": 1, "working_set": 100, "bytes_per_second": 9999.0},
+                                            {"threads": 1, "working_set": 120, "bytes_per_second": 3571.0},
+                                            {"threads": 1, "working_set": 900, "bytes_per_second": 4166.0},
+                                            {"threads": 2, "working_set": 900, "bytes_per_second": 9999.0}]))
         self.assertEqual(found["cost 2.5 times that of 1.4 k at most, plain", "slow tube"], ["", "", "", "**2.40**"])
         self.assertEqual(found["250 bytes per grain at most, plain", "slow tube"], ["", "", "", "251"])
         self.assertEqual(found["plain takes 60 % of the bandwidth, one thread", "slow tube"], ["", "", "", "**60**"])
@@ -99,6 +104,15 @@ class Goals(unittest.TestCase):
         found = self.table(suite(good), suite(bad, quick=True), suite(bad, build={"changed": True}),
                            suite(bad, disagreements=["plain 1 and windows 1 differ"]))
         self.assertEqual(found["start-up in 3 s at most", "start-up"], ["", "", "", "**2.0**"])
+
+    def test_other_motion_than_lammps_does_not_count(self):
+        def one(seconds, **more):
+            results = beside_lammps(row("tube_slow", "10k", "riesel plain 1", [1.0]), row("tube_slow", "10k", "lammps 1", [seconds]))
+            results["cases"][0] |= more
+            return results
+        for more in ({"agreements": {"lammps 1": {"agree": True}, "lammps 2": {"agree": False}}}, {"agreement": {"agree": False}}):
+            found = self.table(one(5.0), one(50.0, **more))
+            self.assertEqual(found["plain 3 times LAMMPS, one core", "slow tube"], ["", "**5.0**", "", ""])
 
     def test_each_machine_has_a_table(self):
         files = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from numbers import Real
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
@@ -17,10 +17,18 @@ class _ValueAndError(NamedTuple):
 
 class Estimate(_ValueAndError):
     """A mean with its 68 % error bar; NaN where it is not known. Sums and differences are those of
-    independent means; plain numbers, also as factors, are exact."""
+    independent means; plain numbers, also as factors, are exact. There are no products of two, as
+    means of one run depend on each other."""
 
     __slots__ = ()
     __array_ufunc__ = None  # so that numbers of numpy on the left leave it to what stands here
+
+    def __array__(self, *_: object, **__: object) -> NoReturn:
+        raise TypeError("estimates make no array, which would take error bars for values: give "
+                        "[estimate.value for estimate in estimates]")
+
+    def __format__(self, form: str) -> str:
+        return f"{self.value:{form}} +- {self.error:{form}}" if form else str(self)
 
     def __str__(self) -> str:
         """Two digits of the error, and the value as far: "1.534 +- 0.050"."""
@@ -60,6 +68,14 @@ class Estimate(_ValueAndError):
 
     def __rmul__(self, other: object) -> Estimate:
         return self * other
+
+    def __truediv__(self, other: object) -> Estimate:
+        if isinstance(other, Real):
+            return Estimate(self.value / float(other), self.error / abs(float(other)))
+        return NotImplemented
+
+    def __neg__(self) -> Estimate:
+        return -1.0 * self
 
 
 def mean_of(values: Sequence[float]) -> Estimate:

@@ -211,7 +211,7 @@ class Run:
         # Of impacts and columns of beads there are none, nor of a flow that has just begun.
         return "let the run come to its end, or start it again if it was stopped"
 
-    _written_at_the_end = "it is written when a flow has come to its end"
+    _written_at_the_end = "only flows have them, when they have come to their end"
 
 
 def _known(value: float | None) -> float:

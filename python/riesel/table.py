@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -24,6 +25,10 @@ class Table(Mapping[str, NDArray[Any]]):
         self.doc = doc
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        """Raises KeyError, with the names that are most like it."""
+        if name not in self._columns:
+            alike = difflib.get_close_matches(str(name), self._columns) or sorted(self._columns)
+            raise KeyError(f"{name}: there is no such column; there is {', '.join(alike)}")
         return self._columns[name]
 
     def __iter__(self) -> Iterator[str]:

@@ -96,9 +96,13 @@ class Resume(CommandTest):
 
     def test_a_finished_run_stays_as_it_is(self):
         out = self.run_small_tube("out")
+        self.riesel("report", out)
         as_it_was = self.copy(out, "copy")
         self.resume_to_end(out)
         self.assert_same_result(as_it_was, out)
+        self.assertTrue((out / "report.html").exists())
+        self.resume_to_end(out, "--set", "run.duration=6 ms")
+        self.assertFalse((out / "report.html").exists())
 
     def test_the_checkpoint_file_stands_for_its_directory(self):
         long = self.run_small_tube("long")

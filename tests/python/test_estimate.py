@@ -43,20 +43,30 @@ class Arithmetic(unittest.TestCase):
                     (self.three + number, (3.0, 3.0)), (number + self.three, (3.0, 3.0)),
                     (self.three - number, (-1.0, 3.0)), (number - self.three, (1.0, 3.0)),
                     (self.three * number, (2.0, 6.0)), (number * self.three, (2.0, 6.0)),
-                    (-1.0 * number * self.three, (-2.0, 6.0))):
+                    (-1.0 * number * self.three, (-2.0, 6.0)), (self.three / number, (0.5, 1.5)),
+                    (-self.three / (-1.0 * number), (0.5, 1.5))):
                 self.assertIsInstance(result, riesel.Estimate)
                 self.assertEqual(result, expected)
 
     def test_nothing_else(self):
         for other in ((1.0, 2.0), "1", None, np.ones(2), 1j):
-            for operation in ("__add__", "__sub__", "__mul__"):
+            for operation in ("__add__", "__sub__", "__mul__", "__truediv__"):
                 self.assertIs(getattr(self.three, operation)(other), NotImplemented)
             for operation in (lambda: other + self.three, lambda: other - self.three,
                               lambda: other * self.three):
                 with self.assertRaises(TypeError):
                     operation()
-        with self.assertRaises(TypeError):
-            self.three * self.four
+        for operation in (lambda: self.three * self.four, lambda: 1.0 / self.three):
+            with self.assertRaises(TypeError):
+                operation()
+
+    def test_no_function_of_numpy_takes_error_bars_for_values(self):
+        for function in (np.mean, np.std, np.array):
+            with self.assertRaisesRegex(TypeError, "estimate.value for estimate"):
+                function([self.three, self.four])
+
+    def test_a_form_is_that_of_both_numbers(self):
+        self.assertEqual(f"{self.three:.3f}, {self.three}", "1.000 +- 3.000, 1.0 +- 3.0")
 
 
 class Mean(unittest.TestCase):

@@ -301,7 +301,7 @@ class NotThere(CommandTest):
         self.assertGreater(len(run.series["time"]), 1)
         with self.assertRaisesRegex(riesel.NotThere, "summary.json.*riesel resume"):
             run.summary
-        with self.assertRaisesRegex(riesel.NotThere, "come to its end"):
+        with self.assertRaisesRegex(riesel.NotThere, "come to their end"):
             run.profiles
         with self.assertRaisesRegex(riesel.NotThere, "only impact scenarios and bead_column"):
             run.curve
