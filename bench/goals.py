@@ -199,6 +199,16 @@ def counts(results):
     return all(agreements) and not (results.get("quick") or results["build"]["changed"] or results.get("disagreements"))
 
 
+def counting(paths, formats):
+    """(path, results) of the files whose results count; the others are told."""
+    for path in paths:
+        results = load(path, formats)
+        if counts(results):
+            yield path, results
+        else:
+            print(f"{path}: left out", file=sys.stderr)
+
+
 def is_beside_lammps(results):
     return any(variant == "lammps 1" for _, _, variant in results["rows"])
 
@@ -206,11 +216,8 @@ def is_beside_lammps(results):
 def main():
     options = parse()
     machines = {}
-    for path in options.files:
-        results = load(path, (SUITE, PEERS))
-        if not counts(results):
-            print(f"{path}: left out", file=sys.stderr)
-        elif results["date"] >= options.since:
+    for path, results in counting(options.files, (SUITE, PEERS)):
+        if results["date"] >= options.since:
             if not results.get("complete", True):
                 print(f"{path}: was not finished", file=sys.stderr)
             tell_shares_of_the_best_bandwidth(results)

@@ -14,8 +14,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from compare import PEERS, BadInput, load, paired_ratio  # noqa: E402
-from goals import SIZES, STATES, counts  # noqa: E402
+from compare import PEERS, BadInput, paired_ratio  # noqa: E402
+from goals import SIZES, STATES, counting  # noqa: E402
 from peer import riesel_name  # noqa: E402
 
 CODES = ("lammps", "liggghts", "yade")
@@ -56,13 +56,7 @@ def main():
     parser.add_argument("files", metavar="FILE.json", nargs="+")
     parser.add_argument("--cores", type=int, choices=(1, 2), default=1)
     options = parser.parse_args()
-    cases = []
-    for path in options.files:
-        results = load(path, (PEERS,))
-        if counts(results):
-            cases += results["cases"]
-        else:
-            print(f"{path}: left out", file=sys.stderr)
+    cases = [case for _, results in counting(options.files, (PEERS,)) for case in results["cases"]]
     print(table(cases, options.cores))
 
 

@@ -114,6 +114,26 @@ class Goals(unittest.TestCase):
             found = self.table(one(5.0), one(50.0, **more))
             self.assertEqual(found["plain 3 times LAMMPS, one core", "slow tube"], ["", "**5.0**", "", ""])
 
+    def test_tables_beside_other_codes_leave_the_same_out(self):
+        results = beside_lammps()
+        results["cases"] = [{"case": "tube_slow", "size": "10k", "grains": 10, "agreement": {"agree": False},
+                             "rows": [row("tube_slow", "10k", variant, [1.0])
+                                      for variant in ("lammps 1", "riesel plain 1", "riesel windows 1")]}]
+        file = self.folder / "peers.json"
+        for agree in (False, True):
+            results["cases"][0]["agreement"]["agree"] = agree
+            file.write_text(json.dumps(results), encoding="utf-8")
+            done = subprocess.run([sys.executable, "-B", BENCH / "peers" / "table.py", file], check=True, text=True,
+                                  capture_output=True)
+            self.assertEqual((f"{file}: left out" in done.stderr, "| slow tube |" in done.stdout), (not agree, agree))
+
+    def test_what_was_not_finished_is_told(self):
+        file = self.folder / "peers.json"
+        file.write_text(json.dumps(beside_lammps() | {"complete": False}), encoding="utf-8")
+        done = goals(file)
+        self.assertIn(f"{file}: was not finished", done.stderr)
+        self.assertIn("0 beside LAMMPS", done.stdout)
+
     def test_each_machine_has_a_table(self):
         files = []
         for name, seconds in (("here", 2.0), ("there", 9.0)):

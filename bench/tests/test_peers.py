@@ -5,6 +5,7 @@ import contextlib
 import io
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -164,6 +165,10 @@ class Answers(unittest.TestCase):
         self.assertEqual(answer["too_late"], 3)
         self.assertEqual(answer["state"], {"mean_vx": -3e-05, "mean_vy": 0.97, "kinetic_energy": 0.001,
                                            "contacts_of_grains": 158})
+
+    def test_lammps_that_tells_no_numbers(self):
+        with self.assertRaisesRegex(RuntimeError, "that are numbers"):
+            read_answer(re.sub(r"(?m)^( *\d+ +)\S+", r"\1nan", ANSWER))
 
     def test_yade_that_fails_with_status_0(self):
         with programs("yade", says="NameError: name 'O' is not defined"):
