@@ -23,27 +23,27 @@ constexpr double forever = std::numeric_limits<double>::infinity();
 
 /// A grain on its course, now; s steps lead by u s + fall s^2 / 2.
 struct Flight {
-  Fixed x, y;             // quanta
+  FixedVector position;   // quanta
   double ux, uy;          // m per step
   double fall_x, fall_y;  // m per step^2
 };
 
 Flight flight_of(std::uint32_t slot, const State& state, const Courses& courses, std::int64_t now) {
   const Box& box = state.box;
-  const Fall fall = courses.fall(), fallen = fall.times(now);
+  const FixedVector fall = courses.fall();
+  const FixedVector u = wrapped_sum(state.grains.u[slot], wrapped_product(now, fall));
   const double fall_x = box.metres_x(fall.x), fall_y = box.metres_y(fall.y);
   // Whole steps lead by v s + fall s (s + 1) / 2.
-  return {.x = courses.x(slot, now),
-          .y = courses.y(slot, now),
-          .ux = box.metres_x(wrapped_sum(state.grains.u[slot].x, fallen.x)) + 0.5 * fall_x,
-          .uy = box.metres_y(wrapped_sum(state.grains.u[slot].y, fallen.y)) + 0.5 * fall_y,
+  return {.position = courses.position(slot, now),
+          .ux = box.metres_x(u.x) + 0.5 * fall_x,
+          .uy = box.metres_y(u.y) + 0.5 * fall_y,
           .fall_x = fall_x,
           .fall_y = fall_y};
 }
 
 /// Of its way across the tube to where the wall can be.
 double steps_across(const Flight& f, const WallLattice& wall, const Box& box, double reach) {
-  const double x = box.metres_x(f.x) - wall.line;
+  const double x = box.metres_x(f.position.x) - wall.line;
   const double gap = std::abs(x) - reach - std::abs(wall.motion.amplitude_x);
   const double to_wall = x > 0.0 ? -1.0 : 1.0;
   return gap > 0.0 ? steps_to_go(gap, to_wall * f.ux, to_wall * f.fall_x) : 0.0;
@@ -54,10 +54,10 @@ double steps_to_nearest(const Flight& f, const WallLattice& wall, double reach, 
                         std::int64_t now) {
   const Box& box = state.box;
   const WallMotion& motion = wall.motion;
-  const WallShift shift =
-      motion.is_ever_away() ? motion.shift(box, state.time_step, now) : WallShift{0, 0};
-  const double x = box.metres_x(f.x) - wall.line - box.metres_x(shift.x);
-  const Fixed y = wrapped_difference(f.y, shift.y);
+  const FixedVector shift =
+      motion.is_ever_away() ? motion.shift(box, state.time_step, now) : FixedVector{0, 0};
+  const double x = box.metres_x(f.position.x) - wall.line - box.metres_x(shift.x);
+  const Fixed y = wrapped_difference(f.position.y, shift.y);
   double nearest2 = forever;
   for_each_wall_grain_within(wall, box, y, 0.0, [&](std::int64_t, Fixed there) {
     const double dy = box.metres_y(wrapped_difference(there, y));

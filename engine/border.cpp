@@ -83,7 +83,8 @@ void Border::announce_motion(const DeflectedGrains& deflected, std::int64_t step
   }
 }
 
-Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const {
+Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step,
+                              const FixedVector& fallen) const {
   for (const std::size_t i : after_) {
     const Announcement& other = announcements_[i];
     const std::size_t place = rank_in(other.border, slot);
@@ -92,8 +93,7 @@ Motion Border::foreign_motion(std::uint32_t slot, std::int64_t step, const Fall&
     Motion m = other.motions[place];
     if (announced_ == step) return m;
     m.take_up_kick();
-    m.x = wrapped_sum(m.x, wrapped_sum(m.ux, fallen.x));
-    m.y = wrapped_sum(m.y, wrapped_sum(m.uy, fallen.y));
+    m.position = wrapped_sum(m.position, wrapped_sum(m.u, fallen));
     return m;
   }
   return courses_.motion(slot, step);

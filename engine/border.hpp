@@ -86,7 +86,7 @@ public:
   void announce_motion(const DeflectedGrains& deflected, std::int64_t step);
   /// Of a foreign grain in `step`, that of the announcements or the next; `fallen` is the fall in
   /// this step.
-  Motion foreign_motion(std::uint32_t slot, std::int64_t step, const Fall& fallen) const;
+  Motion foreign_motion(std::uint32_t slot, std::int64_t step, const FixedVector& fallen) const;
 
   Announcement& mine() { return announcements_[index_]; }
   const Announcement& mine() const { return announcements_[index_]; }

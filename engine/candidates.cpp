@@ -136,19 +136,18 @@ void Candidates::compare_inner_lists(std::span<Slice> share) const {
 double Candidates::fastest() const { return std::sqrt(largest(slices_, &Slice::fastest2)); }
 
 void Candidates::count_way_past_walls(Slice& mine, const StepUnits& units) const {
-  const auto size = [&](Fixed x, Fixed y) { return std::sqrt(squared_distance(x, y, units)); };
+  const auto size = [&](const FixedVector& way) { return std::sqrt(squared_length(way, units)); };
   double of_walls = 0.0;
   if (units.walls_move)
-    for (const BodyMotion& wall : units.walls)
-      of_walls = std::max(of_walls, size(wall.ux, wall.uy));
-  const Fixed x = wrapped_sum(drift_.x, units.fallen.x), y = wrapped_sum(drift_.y, units.fallen.y);
+    for (const BodyMotion& wall : units.walls) of_walls = std::max(of_walls, size(wall.u));
+  const FixedVector common = wrapped_sum(drift_, units.fallen);
   const double own = std::sqrt(mine.fastest2);
   const auto add = [](double& way, double more) {
     constexpr double up = 1.0 + 0x1p-51;  // so that a sum of many small ways is never too small
     way = (way + more) * up;
   };
-  add(mine.way_past_walls.across, own + size(x, 0));
-  add(mine.way_past_walls.any, own + size(x, y) + of_walls);
+  add(mine.way_past_walls.across, own + size({common.x, 0}));
+  add(mine.way_past_walls.any, own + size(common) + of_walls);
 }
 
 Candidates::Lead Candidates::lead(std::int64_t wanted) const {
@@ -251,7 +250,7 @@ void Candidates::start_over(const State& state, std::int64_t step) {
       });
   sorted_at_ = step;
   hold_until_ = step + steps_to_walls_;
-  drift_.x = wrapped_difference(0, fall_.times(step).x);
+  drift_.x = wrapped_difference(0, wrapped_product(step, fall_.x));
   drift_.y = given_drift_ ? *given_drift_ : middle_velocity(grains);  // a part may have no grains
 }
 
@@ -312,11 +311,8 @@ void Candidates::list_kicked(const Grains& grains, Slice& mine) {
 }
 
 FixedVector Candidates::common_motion(std::int64_t step) const {
-  const auto along = [&](Fixed drift, Fixed fall) {
-    return wrapped_sum(wrapped_product(step - sorted_at_, drift),
-                       wrapped_product(sum_of_steps(sorted_at_, step), fall));
-  };
-  return {along(drift_.x, fall_.x), along(drift_.y, fall_.y)};
+  return wrapped_sum(wrapped_product(step - sorted_at_, drift_),
+                     wrapped_product(sum_of_steps(sorted_at_, step), fall_));
 }
 
 /// m, rounded up.
@@ -359,9 +355,8 @@ void Candidates::measure_speeds(const State& state, Slice& mine) const {
   const Speedometer speed = speedometer(state.box);
   mine.fastest2 = 0.0;
   for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    const double without = speed.squared(g.u[i].x, g.u[i].y);
-    const double with =
-        speed.squared(wrapped_sum(g.u[i].x, g.kick[i].x), wrapped_sum(g.u[i].y, g.kick[i].y));
+    const double without = speed.squared(g.u[i]);
+    const double with = speed.squared(wrapped_sum(g.u[i], g.kick[i]));
     mine.fastest2 = std::max({mine.fastest2, without, with});
   }
 }

@@ -140,9 +140,10 @@ public:
     double metre_x, metre_y;  ///< m per quantum
 
     /// (m per step)^2, of a displacement per step (quanta).
-    double squared(Fixed ux, Fixed uy) const {
-      const double vx = real(wrapped_difference(ux, drift.x)) * metre_x;
-      const double vy = real(wrapped_difference(uy, drift.y)) * metre_y;
+    double squared(const FixedVector& u) const {
+      const FixedVector relative = wrapped_difference(u, drift);
+      const double vx = real(relative.x) * metre_x;
+      const double vy = real(relative.y) * metre_y;
       return vx * vx + vy * vy;
     }
   };
@@ -217,7 +218,7 @@ private:
   bool slices_are_thick_ = false;
   std::vector<std::uint32_t> new_slot_;  // by slots before the last sorting
 
-  Fall fall_;                         // in a step
+  FixedVector fall_;                  // in a step
   std::int64_t steps_to_walls_ = 0;   // that the common fall takes for the room it has at walls
   std::optional<Fixed> given_drift_;  // along y, for all listings
   FixedVector drift_{};               // across the tube: at rest when the candidates were listed

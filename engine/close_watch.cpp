@@ -16,7 +16,7 @@ struct Watched {
 
 /// What they are looked at with.
 struct Sight {
-  Fall fallen;
+  FixedVector fallen;
   double metre_x, metre_y;
 };
 
@@ -80,10 +80,10 @@ void CloseWatch::add(std::uint32_t pair, std::uint32_t first, std::uint32_t seco
   columns_.place[0][i] = courses_.place(first);
   columns_.place[1][i] = courses_.place(second);
   const Motion on_course = courses_.deflected(second) ? Motion{} : courses_.motion(second, step);
-  columns_.x[i] = on_course.x;
-  columns_.y[i] = on_course.y;
-  columns_.ux[i] = on_course.ux;
-  columns_.uy[i] = on_course.uy;
+  columns_.x[i] = on_course.position.x;
+  columns_.y[i] = on_course.position.y;
+  columns_.ux[i] = on_course.u.x;
+  columns_.uy[i] = on_course.u.y;
   columns_.reach2[i] = reach * reach;
   columns_.far2[i] = far * far;
 }

@@ -14,23 +14,20 @@ namespace {
 /// same for both, and integers add up to the bits that a look at both grains would give. What is
 /// new are the last kicks, of all contacts of the two.
 [[gnu::always_inline]] inline BodyMotion next_motion(ContactTile& c, std::size_t i) {
-  const Fixed kick_x = c.partner[4][i], kick_y = c.partner[5][i];
-  const Fixed ux = wrapped_sum(c.partner[2][i], kick_x);
-  const Fixed uy = wrapped_sum(c.partner[3][i], kick_y);
-  const Fixed x = wrapped_sum(c.partner[0][i], ux), y = wrapped_sum(c.partner[1][i], uy);
-  c.partner[0][i] = x;
-  c.partner[1][i] = y;
-  c.partner[2][i] = ux;
-  c.partner[3][i] = uy;
-  return {.x = x, .y = y, .ux = ux, .uy = uy, .kick_x = kick_x, .kick_y = kick_y};
+  const FixedVector kick = c.partner.kick.at(i);
+  const FixedVector u = wrapped_sum(c.partner.u.at(i), kick);
+  const FixedVector position = wrapped_sum(c.partner.position.at(i), u);
+  c.partner.position.set(i, position);
+  c.partner.u.set(i, u);
+  return {.position = position, .u = u, .kick = kick};
 }
 
 [[gnu::always_inline]] inline BodyMotion
 motion_of_wall(ContactTile& c, std::size_t i, const Bodies& bodies, const StepUnits& units) {
-  return relative_motion(bodies, c.body[0][i],
-                         {c.partner[0][i], c.partner[1][i], c.partner[2][i], c.partner[3][i],
-                          c.partner[4][i], c.partner[5][i]},
-                         units);
+  return relative_motion(
+      bodies, c.body[0][i],
+      {.position = c.partner.position.at(i), .u = c.partner.u.at(i), .kick = c.partner.kick.at(i)},
+      units);
 }
 
 [[gnu::always_inline]] inline ReducedPair reduced_pair(const ContactTile& c, std::size_t i) {
@@ -149,14 +146,12 @@ template <class Numbers, Partner partner>
   const double fx = touching ? t.fx : 0.0, fy = touching ? t.fy : 0.0;
   const double x = fx * (c.per_mass[0][i] * u.kick_x);
   const double y = fy * (c.per_mass[0][i] * u.kick_y);
-  c.kick[0][0][i] = Numbers::whole(x);
-  c.kick[0][1][i] = Numbers::whole(y);
+  c.kick[0].set(i, {Numbers::whole(x), Numbers::whole(y)});
   double size = std::abs(x) + std::abs(y);
   if constexpr (partner == Partner::grain) {
     const double other_x = -fx * (c.per_mass[1][i] * u.kick_x);
     const double other_y = -fy * (c.per_mass[1][i] * u.kick_y);
-    c.kick[1][0][i] = Numbers::whole(other_x);
-    c.kick[1][1][i] = Numbers::whole(other_y);
+    c.kick[1].set(i, {Numbers::whole(other_x), Numbers::whole(other_y)});
     size += std::abs(other_x) + std::abs(other_y);
   }
   return size;
@@ -231,15 +226,12 @@ void follow_bodies(std::span<ContactTile> tiles, const ContactCounts& counts,
   const Bodies b = bodies;
   for_each_lane(tiles, 0, counts.all, [&](ContactTile& c, std::size_t i) {
     const std::int64_t first = c.body[0][i], second = c.body[1][i];
-    c.partner[4][i] = wrapped_difference(b.kick[second].x, b.kick[first].x);
-    c.partner[5][i] = wrapped_difference(b.kick[second].y, b.kick[first].y);
+    c.partner.kick.set(i, wrapped_difference(b.kick[second], b.kick[first]));
   });
   for_each_lane(tiles, counts.followed, counts.all, [&](ContactTile& c, std::size_t i) {
     const BodyMotion now = relative_motion(b, c.body[0][i], c.body[1][i]);
-    c.partner[0][i] = wrapped_difference(now.x, now.ux);
-    c.partner[1][i] = wrapped_difference(now.y, now.uy);
-    c.partner[2][i] = wrapped_difference(now.ux, now.kick_x);
-    c.partner[3][i] = wrapped_difference(now.uy, now.kick_y);
+    c.partner.position.set(i, wrapped_difference(now.position, now.u));
+    c.partner.u.set(i, wrapped_difference(now.u, now.kick));
   });
 }
 

@@ -10,9 +10,8 @@ void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
   const CandidatePairs& inner = slice.inner.pairs();
   for (const std::uint32_t near : slice.hits.items()) {
     const std::uint32_t i = inner.first[near], j = inner.second[near];
-    if (!overlapping(wrapped_difference(g.position[j].x, g.position[i].x),
-                     wrapped_difference(g.position[j].y, g.position[i].y),
-                     g.radius[i] + g.radius[j], units))
+    if (!overlapping(wrapped_difference(g.position[j], g.position[i]), g.radius[i] + g.radius[j],
+                     units))
       continue;
     const std::uint32_t p = slice.inner.candidate(near);
     begin_contact(slice, slice.pair_contacts, meeting_of_grains(g, i, j, p));
@@ -26,16 +25,16 @@ double begin_at_wall(Slice& slice, const State& state, std::uint32_t place,
                      const StepUnits& units) {
   constexpr double room_of_reach = 0.1;  // more lets it rest longer, and takes a longer look
   const NearWall& near = slice.near_walls[place];
-  const Fixed x = state.grains.position[near.slot].x, y = state.grains.position[near.slot].y;
   const double reach = reach_at_wall(state, near), farthest = (1.0 + room_of_reach) * reach;
   double closest2 = farthest * farthest;
-  const auto look = [&](std::int64_t k, Fixed dx, Fixed dy) {
-    if (overlapping(dx, dy, reach, units))
+  const auto look = [&](std::int64_t k, const FixedVector& from_grain) {
+    if (overlapping(from_grain, reach, units))
       begin_contact(slice, slice.wall_contacts, meeting_at_wall(slice, state, place, k));
     else
-      closest2 = std::min(closest2, squared_distance(dx, dy, units));
+      closest2 = std::min(closest2, squared_length(from_grain, units));
   };
-  for_each_free_wall_grain(state, near, x, y, units, farthest - reach, look);
+  for_each_free_wall_grain(state, near, state.grains.position[near.slot], units, farthest - reach,
+                           look);
   return (closest2 - reach * reach) / (farthest + reach);  // at most the distance less the reach
 }
 
@@ -114,8 +113,8 @@ void count_work_of_walls(Slice& slice, const StepUnits& units) {
     if (!slice.counts(m.name)) continue;
     const BodyMotion& wall = units.walls[static_cast<std::size_t>(m.name.wall)];
     const BodyKick kick = contacts.kick_of_first(i);
-    const double x = work_along(kick.x, wall.ux, wall.kick_x, units.velocity_x);
-    const double y = work_along(kick.y, wall.uy, wall.kick_y, units.velocity_y);
+    const double x = work_along(kick.by.x, wall.u.x, wall.kick.x, units.velocity_x);
+    const double y = work_along(kick.by.y, wall.u.y, wall.kick.y, units.velocity_y);
     slice.tally.impulses.work.add(m.mass_first * (x + y));
   }
 }

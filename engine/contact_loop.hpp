@@ -28,19 +28,20 @@ inline double reach_at_wall(const State& state, const NearWall& near) {
   return state.grains.radius[near.slot] + state.walls[static_cast<std::size_t>(near.wall)].radius;
 }
 
-/// Calls visit(k, dx, dy) for the wall grains that `near`, at (x, y), has within `room` (m), and a
-/// few more, but for those that it is in contact with; they are at (dx, dy) from it.
+/// Calls visit(k, from_grain) for the wall grains that `near`, which is at `place`, has within
+/// `room` (m), and a few more, but for those that it is in contact with; `from_grain` leads to
+/// them.
 template <class Visit>
-void for_each_free_wall_grain(const State& state, const NearWall& near, Fixed x, Fixed y,
+void for_each_free_wall_grain(const State& state, const NearWall& near, const FixedVector& place,
                               const StepUnits& units, double room, Visit visit) {
   const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
   const BodyMotion& moved = units.walls[static_cast<std::size_t>(near.wall)];
-  const Fixed line = wrapped_sum(state.box.fixed_x(wall.line), moved.x);
-  const Fixed from_line = wrapped_difference(line, x);
-  const Fixed back = wrapped_difference(y, moved.y);
+  const Fixed line = state.box.fixed_x(wall.line);
+  const FixedVector back = wrapped_difference(place, moved.position);
   const double within = reach_at_wall(state, near) + room;
-  for_each_wall_grain_within(wall, state.box, back, within, [&](std::int64_t k, Fixed there) {
-    if ((near.partners & wall.bit_of(k)) == 0) visit(k, from_line, wrapped_difference(there, back));
+  for_each_wall_grain_within(wall, state.box, back.y, within, [&](std::int64_t k, Fixed there) {
+    if ((near.partners & wall.bit_of(k)) == 0)
+      visit(k, wrapped_difference(FixedVector{line, there}, back));
   });
 }
 

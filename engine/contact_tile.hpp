@@ -21,20 +21,36 @@ struct alignas(cache_line) ContactTile {
   template <class T>
   using Row = std::array<T, lanes>;
 
+  /// A vector in each lane, quanta.
+  struct Vectors {
+    Row<Fixed> x, y;
+
+    FixedVector at(std::size_t lane) const { return {x[lane], y[lane]}; }
+    void set(std::size_t lane, const FixedVector& v) {
+      x[lane] = v.x;
+      y[lane] = v.y;
+    }
+  };
+
+  /// As a BodyMotion.
+  struct Motions {
+    Vectors position, u, kick;
+  };
+
   /// The life of a contact: the members of Contact that follow its name, all of them doubles.
   static constexpr std::size_t life_begin = offsetof(Contact, begin);
   static constexpr std::size_t life_members = (sizeof(Contact) - life_begin) / sizeof(double);
   static_assert(life_begin + life_members * sizeof(double) == sizeof(Contact));
 
   std::array<Row<std::int64_t>, 2> body;  ///< places of first and second in Bodies
-  /// Members of a BodyMotion: of the point of a wall, or of the second grain as seen from the
-  /// first, which kicks alone change from step to step.
-  std::array<Row<Fixed>, 6> partner;
+  /// Of the point of a wall, or of the second grain as seen from the first, which kicks alone
+  /// change from step to step.
+  Motions partner;
   Row<double> reach, reduced_mass;              ///< m, kg
   std::array<Row<double>, 2> per_mass, radius;  ///< 1/kg and m, of first and second
   std::array<Row<double>, life_members> life;
-  std::array<std::array<Row<Fixed>, 2>, 2> kick;  ///< [body][axis], of the last step
-  std::array<Row<Fixed>, 2> spin_kick;            ///< [body]
+  std::array<Vectors, 2> kick;          ///< of first and second, in the last step
+  std::array<Row<Fixed>, 2> spin_kick;  ///< likewise
 };
 
 /// The row of a tile's `life` that holds this member of Contact.

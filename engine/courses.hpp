@@ -23,12 +23,12 @@ namespace riesel {
 
 /// Position, displacement per step and kick of one grain, in quanta; as in Grains.
 struct Motion {
-  Fixed x, y, ux, uy, kick_x, kick_y, spin, spin_kick;
+  FixedVector position, u, kick;
+  Fixed spin, spin_kick;
 
   /// As the next step does first.
   void take_up_kick() {
-    ux = wrapped_sum(ux, kick_x);
-    uy = wrapped_sum(uy, kick_y);
+    u = wrapped_sum(u, kick);
     spin = wrapped_sum(spin, spin_kick);
   }
 };
@@ -57,39 +57,32 @@ public:
   }
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
   std::int64_t origin() const { return origin_; }        ///< step
-  const Fall& fall() const { return fall_; }             ///< in a step
+  const FixedVector& fall() const { return fall_; }      ///< in a step
 
   /// Where the grain is in `step` if it keeps to its course.
-  Fixed x(std::uint32_t slot, std::int64_t step) const {
-    return wrapped_sum(grains_.position[slot].x, way(grains_.u[slot].x, fall_.x, step));
-  }
-  Fixed y(std::uint32_t slot, std::int64_t step) const {
-    return wrapped_sum(grains_.position[slot].y, way(grains_.u[slot].y, fall_.y, step));
+  FixedVector position(std::uint32_t slot, std::int64_t step) const {
+    return wrapped_sum(grains_.position[slot], way(grains_.u[slot], step));
   }
   /// Without kicks, which a grain that keeps to its course does not get.
   Motion motion(std::uint32_t slot, std::int64_t step) const {
-    return {.x = x(slot, step),
-            .y = y(slot, step),
-            .ux = grains_.u[slot].x,
-            .uy = grains_.u[slot].y,
-            .kick_x = 0,
-            .kick_y = 0,
+    return {.position = position(slot, step),
+            .u = grains_.u[slot],
+            .kick = {},
             .spin = grains_.spin_of(slot),
             .spin_kick = 0};
   }
 
   /// From `step` on the grain is expected to go on like this, with no more kicks.
   void set(std::uint32_t slot, const Motion& m, std::int64_t step) {
-    grains_.position[slot] = {wrapped_difference(m.x, way(m.ux, fall_.x, step)),
-                              wrapped_difference(m.y, way(m.uy, fall_.y, step))};
-    grains_.u[slot] = {m.ux, m.uy};
+    grains_.position[slot] = wrapped_difference(m.position, way(m.u, step));
+    grains_.u[slot] = m.u;
     if (grains_.rotate()) grains_.spin[slot] = m.spin;
   }
   /// The grain is like this in the step that is about to become the origin.
   void put(std::uint32_t slot, const Motion& m) {
-    grains_.position[slot] = {m.x, m.y};
-    grains_.u[slot] = {m.ux, m.uy};
-    grains_.kick[slot] = {m.kick_x, m.kick_y};
+    grains_.position[slot] = m.position;
+    grains_.u[slot] = m.u;
+    grains_.kick[slot] = m.kick;
     if (!grains_.rotate()) return;
     grains_.spin[slot] = m.spin;
     grains_.spin_kick[slot] = m.spin_kick;
@@ -102,14 +95,14 @@ public:
   void set_place(std::uint32_t slot, std::int32_t place) { place_[slot] = place; }
 
 private:
-  /// Along one axis, from the origin to `step`.
-  Fixed way(Fixed u, Fixed fall, std::int64_t step) const {
+  /// From the origin to `step`.
+  FixedVector way(const FixedVector& u, std::int64_t step) const {
     return wrapped_sum(wrapped_product(step - origin_, u),
-                       wrapped_product(sum_of_steps(origin_, step), fall));
+                       wrapped_product(sum_of_steps(origin_, step), fall_));
   }
 
   Grains& grains_;
-  const Fall fall_;
+  const FixedVector fall_;
   std::int64_t sorted_at_ = 0, origin_ = 0;  // steps
   AlignedVector<std::int32_t> place_;
 };

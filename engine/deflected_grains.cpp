@@ -10,11 +10,13 @@ namespace riesel {
 
 namespace {
 
+// The loops below go along each axis by itself: of whole vectors GCC makes no vector loops.
+
 /// `count` is a multiple of `lanes`.
 template <std::size_t lanes>
 RIESEL_VECTOR_KERNEL void move_lanes(std::size_t count, FixedVector* position, FixedVector* u,
-                                     const FixedVector* kick, const Fall& fallen) {
-  const Fall f = fallen;  // what others refer to may change with each store
+                                     const FixedVector* kick, const FixedVector& fallen) {
+  const FixedVector f = fallen;  // what others refer to may change with each store
   for (std::size_t block = 0; block < count; block += lanes) {
 #pragma omp simd
     for (std::size_t i = block; i < block + lanes; ++i) {
@@ -75,9 +77,9 @@ DeflectedGrains::Place DeflectedGrains::take(std::uint32_t slot, const Motion& m
 }
 
 void DeflectedGrains::put(Place place, const Motion& motion) {
-  position_[place] = {motion.x, motion.y};
-  u_[place] = {motion.ux, motion.uy};
-  kick_[place] = {motion.kick_x, motion.kick_y};
+  position_[place] = motion.position;
+  u_[place] = motion.u;
+  kick_[place] = motion.kick;
   set_course(place);
   if (!rotate()) return;
   spin_[place] = motion.spin;
@@ -99,12 +101,9 @@ void DeflectedGrains::clear() {
 }
 
 Motion DeflectedGrains::motion(Place place) const {
-  return {.x = position_[place].x,
-          .y = position_[place].y,
-          .ux = u_[place].x,
-          .uy = u_[place].y,
-          .kick_x = kick_[place].x,
-          .kick_y = kick_[place].y,
+  return {.position = position_[place],
+          .u = u_[place],
+          .kick = kick_[place],
           .spin = rotate() ? spin_[place] : 0,
           .spin_kick = rotate() ? spin_kick_[place] : 0};
 }
@@ -118,7 +117,7 @@ Bodies DeflectedGrains::bodies() const {
           .inertia = inertia_};
 }
 
-void DeflectedGrains::move(const Fall& fallen) {
+void DeflectedGrains::move(const FixedVector& fallen) {
   move_lanes<Strays::lanes>(padded_size(), position_.data(), u_.data(), kick_.data(), fallen);
   for (std::size_t i = 0; i < spin_.size(); ++i) spin_[i] = wrapped_sum(spin_[i], spin_kick_[i]);
 }

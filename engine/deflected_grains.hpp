@@ -36,20 +36,19 @@ public:
   bool in_use(Place place) const { return slots_[place] != no_slot; }
   std::uint32_t slot(Place place) const { return slots_[place]; }
   Motion motion(Place place) const;
-  Fixed x(std::int64_t place) const { return position_[static_cast<std::size_t>(place)].x; }
-  Fixed y(std::int64_t place) const { return position_[static_cast<std::size_t>(place)].y; }
+  const FixedVector& position(std::int64_t place) const {
+    return position_[static_cast<std::size_t>(place)];
+  }
   Bodies bodies() const;
   /// The number of contacts that the grain has.
   std::int32_t& contacts(Place place) { return contacts_[place]; }
 
   /// From one step to the next: velocities take up the kicks. `fallen` is the fall in this step.
-  void move(const Fall& fallen);
+  void move(const FixedVector& fallen);
   void clear_kicks();
   void add_kick(std::int64_t place, const BodyKick& kick) {
     const auto at = static_cast<std::size_t>(place);
-    FixedVector& sum = kick_[at];
-    sum.x = wrapped_sum(sum.x, kick.x);
-    sum.y = wrapped_sum(sum.y, kick.y);
+    kick_[at] = wrapped_sum(kick_[at], kick.by);
     if (kick.spin != 0) spin_kick_[at] = wrapped_sum(spin_kick_[at], kick.spin);
   }
 

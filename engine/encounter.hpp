@@ -13,7 +13,7 @@ namespace riesel {
 /// Position and motion of a body in a step, in quanta: `u` is the displacement in the step, `kick`
 /// what the next one has more.
 struct BodyMotion {
-  Fixed x, y, ux, uy, kick_x, kick_y;
+  FixedVector position, u, kick;
 };
 
 /// The numbers of the current step: those that turn quanta into SI units and back, and the walls.
@@ -40,22 +40,22 @@ struct StepUnits {
   void move_to(std::int64_t new_step) {
     step = static_cast<double>(new_step);
     time = step * dt;
-    fallen = fall.times(new_step);
+    fallen = wrapped_product(new_step, fall);
     if (walls_move) move_walls_to(new_step);
   }
 
   Box box;
   double dt;                      ///< s
-  Fall fall;                      ///< in a step
+  FixedVector fall;               ///< in a step
   double metre_x, metre_y;        ///< m per quantum
   double velocity_x, velocity_y;  ///< m/s per quantum per step
   double kick_x, kick_y;          ///< quanta per step^2 over m/s^2
   double spin;                    ///< rad/s per quantum of angle per step
   double spin_kick;               ///< quanta per step^2 over rad/s^2
 
-  double step;  ///< steps done
-  double time;  ///< s
-  Fall fallen;  ///< so far
+  double step;         ///< steps done
+  double time;         ///< s
+  FixedVector fallen;  ///< so far
 
   bool walls_move = false;
   std::array<WallMotion, WallImpulses::most_walls> motion{};
@@ -65,15 +65,10 @@ private:
   void move_walls_to(std::int64_t n) {
     for (std::size_t wall = 0; wall < walls.size(); ++wall) {
       const auto shift = [&](std::int64_t at) { return motion[wall].shift(box, dt, at); };
-      const WallShift before = shift(n - 1), now = shift(n), after = shift(n + 1);
-      const Fixed ux = wrapped_difference(now.x, before.x);
-      const Fixed uy = wrapped_difference(now.y, before.y);
-      walls[wall] = {.x = now.x,
-                     .y = now.y,
-                     .ux = ux,
-                     .uy = uy,
-                     .kick_x = wrapped_difference(wrapped_difference(after.x, now.x), ux),
-                     .kick_y = wrapped_difference(wrapped_difference(after.y, now.y), uy)};
+      const FixedVector now = shift(n), u = wrapped_difference(now, shift(n - 1));
+      walls[wall] = {.position = now,
+                     .u = u,
+                     .kick = wrapped_difference(wrapped_difference(shift(n + 1), now), u)};
     }
   }
 };
@@ -89,7 +84,8 @@ struct Bodies {
 
 /// What the contacts of a step add to the displacement and to the turn per step of a body, quanta.
 struct BodyKick {
-  Fixed x, y, spin;
+  FixedVector by;
+  Fixed spin;
 };
 
 inline Bodies bodies(const Grains& g) {
@@ -104,23 +100,17 @@ inline Bodies bodies(const Grains& g) {
 /// Of body j as seen from body i.
 [[gnu::always_inline]] inline BodyMotion relative_motion(const Bodies& b, std::int64_t i,
                                                          std::int64_t j) {
-  return {.x = wrapped_difference(b.position[j].x, b.position[i].x),
-          .y = wrapped_difference(b.position[j].y, b.position[i].y),
-          .ux = wrapped_difference(b.u[j].x, b.u[i].x),
-          .uy = wrapped_difference(b.u[j].y, b.u[i].y),
-          .kick_x = wrapped_difference(b.kick[j].x, b.kick[i].x),
-          .kick_y = wrapped_difference(b.kick[j].y, b.kick[i].y)};
+  return {.position = wrapped_difference(b.position[j], b.position[i]),
+          .u = wrapped_difference(b.u[j], b.u[i]),
+          .kick = wrapped_difference(b.kick[j], b.kick[i])};
 }
 
 /// Of a wall grain as seen from body i.
 [[gnu::always_inline]] inline BodyMotion
 relative_motion(const Bodies& b, std::int64_t i, const BodyMotion& wall, const StepUnits& units) {
-  return {.x = wrapped_difference(wall.x, b.position[i].x),
-          .y = wrapped_difference(wall.y, b.position[i].y),
-          .ux = wrapped_difference(wall.ux, wrapped_sum(b.u[i].x, units.fallen.x)),
-          .uy = wrapped_difference(wall.uy, wrapped_sum(b.u[i].y, units.fallen.y)),
-          .kick_x = wrapped_difference(wall.kick_x, wrapped_sum(b.kick[i].x, units.fall.x)),
-          .kick_y = wrapped_difference(wall.kick_y, wrapped_sum(b.kick[i].y, units.fall.y))};
+  return {.position = wrapped_difference(wall.position, b.position[i]),
+          .u = wrapped_difference(wall.u, wrapped_sum(b.u[i], units.fallen)),
+          .kick = wrapped_difference(wall.kick, wrapped_sum(b.kick[i], units.fall))};
 }
 
 /// What of two bodies does not change, for their relative motion.
@@ -134,12 +124,12 @@ struct ReducedPair {
 template <class Numbers = ByConversion>
 [[gnu::always_inline]] inline Encounter encounter(const BodyMotion& m, const ReducedPair& pair,
                                                   const StepUnits& units) {
-  const double half_vx = Numbers::real(m.ux) * units.velocity_x;
-  const double half_vy = Numbers::real(m.uy) * units.velocity_y;
-  return {.x = Numbers::real(m.x) * units.metre_x,
-          .y = Numbers::real(m.y) * units.metre_y,
-          .vx = half_vx + Numbers::real(m.kick_x) * (0.5 * units.velocity_x),
-          .vy = half_vy + Numbers::real(m.kick_y) * (0.5 * units.velocity_y),
+  const double half_vx = Numbers::real(m.u.x) * units.velocity_x;
+  const double half_vy = Numbers::real(m.u.y) * units.velocity_y;
+  return {.x = Numbers::real(m.position.x) * units.metre_x,
+          .y = Numbers::real(m.position.y) * units.metre_y,
+          .vx = half_vx + Numbers::real(m.kick.x) * (0.5 * units.velocity_x),
+          .vy = half_vy + Numbers::real(m.kick.y) * (0.5 * units.velocity_y),
           .half_vx = half_vx,
           .half_vy = half_vy,
           .reach = pair.reach,
@@ -188,18 +178,18 @@ struct BodyPair {
           .rolling_arm = rolling_friction * rolling_radius};
 }
 
-/// m^2, of a body at (x, y) from another.
-[[gnu::always_inline]] inline double squared_distance(Fixed x, Fixed y, const StepUnits& units) {
-  const double dx = real(x) * units.metre_x;
-  const double dy = real(y) * units.metre_y;
+/// m^2
+[[gnu::always_inline]] inline double squared_length(const FixedVector& v, const StepUnits& units) {
+  const double dx = real(v.x) * units.metre_x;
+  const double dy = real(v.y) * units.metre_y;
   return dx * dx + dy * dy;
 }
 
-/// Whether two bodies, the second at (x, y) from the first, touch: the one test that decides about
-/// the beginning and the end of a contact.
-[[gnu::always_inline]] inline bool overlapping(Fixed x, Fixed y, double reach,
+/// Whether two bodies that are `apart` touch: the one test that decides about the beginning and the
+/// end of a contact.
+[[gnu::always_inline]] inline bool overlapping(const FixedVector& apart, double reach,
                                                const StepUnits& units) {
-  return squared_distance(x, y, units) < reach * reach;
+  return squared_length(apart, units) < reach * reach;
 }
 
 }  // namespace riesel

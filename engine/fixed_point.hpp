@@ -47,6 +47,18 @@ constexpr Fixed wrapped_product(Fixed a, Fixed b) {
   return static_cast<Fixed>(static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b));
 }
 
+constexpr FixedVector wrapped_sum(FixedVector a, FixedVector b) {
+  return {wrapped_sum(a.x, b.x), wrapped_sum(a.y, b.y)};
+}
+
+constexpr FixedVector wrapped_difference(FixedVector a, FixedVector b) {
+  return {wrapped_difference(a.x, b.x), wrapped_difference(a.y, b.y)};
+}
+
+constexpr FixedVector wrapped_product(Fixed a, FixedVector b) {
+  return {wrapped_product(a, b.x), wrapped_product(a, b.y)};
+}
+
 /// The upper half of a coordinate: what the search for neighbours looks at.
 constexpr std::int32_t upper_half(Fixed a) { return static_cast<std::int32_t>(a >> 32); }
 

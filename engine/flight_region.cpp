@@ -70,7 +70,7 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
   border_.list_border();
   const Grains& g = airspace_.state.grains;
   for (const std::uint32_t slot : slice_.kicked) {
-    const BodyKick by{g.kick[slot].x, g.kick[slot].y, g.spin_kick_of(slot)};
+    const BodyKick by{g.kick[slot], g.spin_kick_of(slot)};
     deflected_.add_kick(deflect(slot, step), by);
   }
   give_up(slice_.kicked);  // from now on kicks are where the deflected grains are
@@ -185,16 +185,10 @@ void FlightRegion::need_candidates_until(std::int64_t step) {
   border_.mine().strays.clear();
 }
 
-inline FlightRegion::Position FlightRegion::position(std::uint32_t slot, std::int64_t step) const {
+inline FixedVector FlightRegion::position(std::uint32_t slot, std::int64_t step) const {
   const Courses& courses = airspace_.courses;
   const std::int32_t place = courses.place(slot);
-  return place == Courses::flying ? Position{courses.x(slot, step), courses.y(slot, step)}
-                                  : Position{deflected_.x(place), deflected_.y(place)};
-}
-
-FlightRegion::Position FlightRegion::foreign_position(std::uint32_t slot, std::int64_t step) const {
-  const Motion m = border_.foreign_motion(slot, step, units_.fallen);
-  return {m.x, m.y};
+  return place == Courses::flying ? courses.position(slot, step) : deflected_.position(place);
 }
 
 /// Looks at the candidates that are due: which contacts begin?
@@ -207,14 +201,14 @@ void FlightRegion::keep_appointments(std::int64_t step) {
 void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
   const Grains& g = airspace_.state.grains;
   const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
-  const Position a = position(i, step);
-  const Position b = border_.owns(j) ? position(j, step) : foreign_position(j, step);
-  const Fixed x = wrapped_difference(b.x, a.x), y = wrapped_difference(b.y, a.y);
+  const FixedVector there =
+      border_.owns(j) ? position(j, step) : border_.foreign_motion(j, step, units_.fallen).position;
+  const FixedVector apart = wrapped_difference(there, position(i, step));
   const double reach = g.radius[i] + g.radius[j];
-  if (!overlapping(x, y, reach, units_)) {
+  if (!overlapping(apart, reach, units_)) {
     const int strays = strays_of_pair(slice_, airspace_.courses, pair);
     // So close together there is nothing to be foreseen.
-    if (strays > 0 && overlapping(x, y, reach + strays * leeway_.tolerance, units_))
+    if (strays > 0 && overlapping(apart, reach + strays * leeway_.tolerance, units_))
       look_again(pair, step, reach, strays);
     else
       appointments_.reconsider_pair(pair);
@@ -241,14 +235,14 @@ void FlightRegion::look_again(std::uint32_t pair, std::int64_t step, double reac
 void FlightRegion::look_at_near_wall(std::uint32_t near_wall, std::int64_t step) {
   const State& state = airspace_.state;
   const NearWall& near = slice_.near_walls[near_wall];
-  const Position at = position(near.slot, step);
   const double reach = reach_at_wall(state, near);
-  for_each_free_wall_grain(
-      state, near, at.x, at.y, units_, 0.0, [&](std::int64_t k, Fixed dx, Fixed dy) {
-        if (!overlapping(dx, dy, reach, units_)) return;
-        begin_contact(slice_, slice_.wall_contacts, meeting_at_wall(slice_, state, near_wall, k));
-        take_up(slice_.wall_contacts, slice_.wall_contacts.size() - 1, step);
-      });
+  for_each_free_wall_grain(state, near, position(near.slot, step), units_, 0.0,
+                           [&](std::int64_t k, const FixedVector& from_grain) {
+                             if (!overlapping(from_grain, reach, units_)) return;
+                             begin_contact(slice_, slice_.wall_contacts,
+                                           meeting_at_wall(slice_, state, near_wall, k));
+                             take_up(slice_.wall_contacts, slice_.wall_contacts.size() - 1, step);
+                           });
   appointments_.reconsider_near_wall(near_wall);
 }
 
@@ -276,7 +270,7 @@ void FlightRegion::step_contacts(std::int64_t step) {
   for (const DeflectedGrains::Place guest : guests_) {
     const Motion m = deflected_.motion(guest);
     border_.mine().deeds.push_back(
-        {.slot = deflected_.slot(guest), .kick = {m.kick_x, m.kick_y, m.spin_kick}, .contacts = 0});
+        {.slot = deflected_.slot(guest), .kick = {m.kick, m.spin_kick}, .contacts = 0});
   }
 }
 

@@ -128,11 +128,7 @@ private:
   bool at_border(DeflectedGrains::Place place) const {
     return border_.is_at_border(deflected_.slot(place));
   }
-  struct Position {
-    Fixed x, y;
-  };
-  Position position(std::uint32_t slot, std::int64_t step) const;
-  Position foreign_position(std::uint32_t slot, std::int64_t step) const;
+  FixedVector position(std::uint32_t slot, std::int64_t step) const;
 
   Airspace& airspace_;
   Slice& slice_;

@@ -37,12 +37,11 @@ void FlightRegion::look_around(const Stray& stray, SlotRange among, std::int64_t
   if (step < stray.step) return;
   const Courses& courses = airspace_.courses;
   const Grains& g = airspace_.state.grains;
-  const Fixed x = courses.x(stray.slot, step), y = courses.y(stray.slot, step);
+  const FixedVector there = courses.position(stray.slot, step);
   for (auto slot = static_cast<std::uint32_t>(among.begin); slot < among.end; ++slot) {
     const double reach = g.radius[stray.slot] + g.radius[slot] + 2.0 * leeway_.tolerance;
     if (slot != stray.slot
-        && overlapping(wrapped_difference(courses.x(slot, step), x),
-                       wrapped_difference(courses.y(slot, step), y), reach, units_)
+        && overlapping(wrapped_difference(courses.position(slot, step), there), reach, units_)
         && !slice_.pairs.has(stray.slot, slot))
       lose(stray, step);
   }
@@ -51,7 +50,7 @@ void FlightRegion::look_around(const Stray& stray, SlotRange among, std::int64_t
 void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
   if (step < stray.step) return;
   const State& state = airspace_.state;
-  const double x = state.box.metres_x(airspace_.courses.x(stray.slot, step));
+  const double x = state.box.metres_x(airspace_.courses.position(stray.slot, step).x);
   const double radius = state.grains.radius[stray.slot];
   for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall)
     if (!slice_.has_near(stray.slot, wall)

@@ -79,12 +79,11 @@ struct SieveLoop {
 #pragma omp simd
     for (std::size_t k = 0; k < count; ++k) {
       const std::int64_t i = first[k], j = second[k];
-      const double x =
-          Numbers::real(wrapped_difference(c.position[j].x, c.position[i].x)) * h.metre_x;
-      const double y =
-          Numbers::real(wrapped_difference(c.position[j].y, c.position[i].y)) * h.metre_y;
-      const double ux = Numbers::real(wrapped_difference(c.u[j].x, c.u[i].x)) * h.metre_x;
-      const double uy = Numbers::real(wrapped_difference(c.u[j].y, c.u[i].y)) * h.metre_y;
+      const FixedVector apart_by = wrapped_difference(c.position[j], c.position[i]);
+      const FixedVector u = wrapped_difference(c.u[j], c.u[i]);
+      const double x = Numbers::real(apart_by.x) * h.metre_x;
+      const double y = Numbers::real(apart_by.y) * h.metre_y;
+      const double ux = Numbers::real(u.x) * h.metre_x, uy = Numbers::real(u.y) * h.metre_y;
       const double reach = (c.radius[i] + c.radius[j]) * generous + most_strays * h.tolerance;
       // The square of the distance after s steps is reach^2 + apart - 2 closing s + speed2 s^2.
       const double apart = x * x + y * y - reach * reach;
@@ -105,14 +104,13 @@ void gather(const Slice& slice, std::span<const std::uint32_t> which, const Stat
   const std::int64_t steps = step - courses.origin();
   for (std::size_t k = 0; k < which.size(); ++k) {
     const std::uint32_t i = slice.pairs.first[which[k]], j = slice.pairs.second[which[k]];
-    const Fixed ux = wrapped_difference(c.u[j].x, c.u[i].x);
-    const Fixed uy = wrapped_difference(c.u[j].y, c.u[i].y);
-    to.x[k] = wrapped_sum(wrapped_difference(c.position[j].x, c.position[i].x),
-                          wrapped_product(steps, ux));
-    to.y[k] = wrapped_sum(wrapped_difference(c.position[j].y, c.position[i].y),
-                          wrapped_product(steps, uy));
-    to.ux[k] = ux;
-    to.uy[k] = uy;
+    const FixedVector u = wrapped_difference(c.u[j], c.u[i]);
+    const FixedVector apart =
+        wrapped_sum(wrapped_difference(c.position[j], c.position[i]), wrapped_product(steps, u));
+    to.x[k] = apart.x;
+    to.y[k] = apart.y;
+    to.ux[k] = u.x;
+    to.uy[k] = u.y;
     to.reach[k] = (c.radius[i] + c.radius[j]) * generous;
     to.strays[k] = strays_of_pair(slice, courses, which[k]);
   }

@@ -24,30 +24,28 @@ struct Receiver {
   double fastest2;        // as in the slice
   std::uint32_t* kicked;  // where the next one is listed
 
-  static void add(Fixed& sum, Fixed more) { sum = wrapped_sum(sum, more); }
+  template <class Quanta>
+  static void add(Quanta& sum, const Quanta& more) {
+    sum = wrapped_sum(sum, more);
+  }
 
   [[gnu::always_inline]] void receive(std::uint32_t slot, const BodyKick& by) {
     if (slot - begin >= size) return;
     *kicked++ = slot;
-    add(kick[slot].x, by.x);
-    add(kick[slot].y, by.y);
-    add(u[slot].x, by.x);
-    add(u[slot].y, by.y);
+    add(kick[slot], by.by);
+    add(u[slot], by.by);
     if (by.spin != 0) {
       add(spin_kick[slot], by.spin);
       add(spin[slot], by.spin);
     }
-    fastest2 = std::max(fastest2, speed.squared(u[slot].x, u[slot].y));
+    fastest2 = std::max(fastest2, speed.squared(u[slot]));
   }
 };
 
-/// Along each axis, and for the spin.
+/// And spins.
 template <class Change>
 void change_velocities(Grains& g, const Slice& mine, Change change) {
-  for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    g.u[i].x = change(g.u[i].x, g.kick[i].x);
-    g.u[i].y = change(g.u[i].y, g.kick[i].y);
-  }
+  for (std::size_t i = mine.begin; i < mine.end; ++i) g.u[i] = change(g.u[i], g.kick[i]);
   if (!g.rotate()) return;
   for (std::size_t i = mine.begin; i < mine.end; ++i) g.spin[i] = change(g.spin[i], g.spin_kick[i]);
 }
@@ -55,11 +53,12 @@ void change_velocities(Grains& g, const Slice& mine, Change change) {
 }  // namespace
 
 void take_up_kicks(Grains& grains, const Slice& mine) {
-  change_velocities(grains, mine, wrapped_sum);
+  change_velocities(grains, mine, [](const auto& u, const auto& by) { return wrapped_sum(u, by); });
 }
 
 void give_back_kicks(Grains& grains, const Slice& mine) {
-  change_velocities(grains, mine, wrapped_difference);
+  change_velocities(grains, mine,
+                    [](const auto& u, const auto& by) { return wrapped_difference(u, by); });
 }
 
 void give_away_kicks(Slice& mine, std::size_t others) {

@@ -47,8 +47,7 @@ Contact LiveContacts::contact(std::size_t i) const {
 /// are none.
 void LiveContacts::make_harmless(std::size_t i) {
   ContactTile& t = tile(i);
-  for (auto& kicks : t.kick)
-    for (auto& along_axis : kicks) along_axis[lane(i)] = 0;
+  for (auto& kicks : t.kick) kicks.set(lane(i), {});
   for (auto& kicks : t.spin_kick) kicks[lane(i)] = 0;
   for (auto& member : t.life)
     if (!std::isfinite(member[lane(i)])) member[lane(i)] = 0.0;
@@ -58,9 +57,10 @@ void LiveContacts::make_harmless(std::size_t i) {
 void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
   for (std::size_t i = 0; i < size(); ++i) {
     const BodyMotion point = wall_point(meetings_[i], bodies, first(i), units);
-    const auto members = std::bit_cast<std::array<Fixed, 6>>(point);
-    for (std::size_t member = 0; member < members.size(); ++member)
-      tile(i).partner[member][lane(i)] = members[member];
+    ContactTile::Motions& points = tile(i).partner;
+    points.position.set(lane(i), point.position);
+    points.u.set(lane(i), point.u);
+    points.kick.set(lane(i), point.kick);
   }
 }
 
@@ -87,8 +87,7 @@ void LiveContacts::add(const Meeting& meeting, const Contact& contact) {
   ContactTile& t = tile(i);
   const std::size_t l = lane(i);
   move(i, meeting.first, meeting.second);
-  t.partner[0][l] = meeting.line;
-  t.partner[1][l] = meeting.y;
+  t.partner.position.set(l, {meeting.line, meeting.y});
   t.reach[l] = meeting.reach();
   t.reduced_mass[l] = meeting.reduced_mass();
   const BodyPair bodies = meeting.bodies();

@@ -79,8 +79,7 @@ private:
   static std::size_t lane(std::size_t i) { return i % ContactTile::lanes; }
   template <bool turning = true>
   static BodyKick kick_of(const ContactTile& tile, std::size_t body, std::size_t lane) {
-    const auto& kick = tile.kick[body];
-    return {kick[0][lane], kick[1][lane], turning ? tile.spin_kick[body][lane] : 0};
+    return {tile.kick[body].at(lane), turning ? tile.spin_kick[body][lane] : 0};
   }
   template <bool turning, class Give>
   void give_kicks(Give give) const {

@@ -107,8 +107,8 @@ inline Meeting meeting_of(const ContactName& name, const State& state, ContactSl
 inline BodyMotion wall_point(const Meeting& m, const Bodies& b, std::int64_t first,
                              const StepUnits& units) {
   BodyMotion point = units.walls[static_cast<std::size_t>(m.name.wall)];
-  point.x = wrapped_sum(m.line, point.x);
-  point.y = m.level ? b.position[first].y : wrapped_sum(m.y, point.y);
+  point.position = wrapped_sum(FixedVector{m.line, m.y}, point.position);
+  if (m.level) point.position.y = b.position[first].y;
   return point;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Some grains next to each other.
 struct Movers {
-  Fall fallen;
+  FixedVector fallen;
   const FixedVector* u;
   FixedVector* position;
   PackedPoint* coarse;
@@ -22,11 +22,10 @@ struct Movers {
   [[gnu::always_inline]] void move(std::size_t begin, std::size_t end) const {
 #pragma omp simd
     for (std::size_t i = begin; i < end; ++i) {
-      const Fixed now_x = wrapped_sum(position[i].x, wrapped_sum(u[i].x, fallen.x));
-      const Fixed now_y = wrapped_sum(position[i].y, wrapped_sum(u[i].y, fallen.y));
-      position[i].x = now_x;
-      position[i].y = now_y;
-      coarse[i].set(now_x, now_y);
+      const FixedVector now = wrapped_sum(position[i], wrapped_sum(u[i], fallen));
+      position[i].x = now.x;
+      position[i].y = now.y;
+      coarse[i].set(now.x, now.y);
     }
   }
 };
@@ -83,7 +82,7 @@ void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   Grains& g = state_.grains;
   const std::size_t count = mine.end - mine.begin;
   if (count == 0) return member.profile.done(Profile::Phase::fly);  // there is no first grain
-  const Fall fallen = member.units.fall.times(step);
+  const FixedVector fallen = wrapped_product(step, member.units.fall);
   // Processors fetch up to some thousand bytes of what comes next in the direction of a loop:
   // beyond the end of a share these are lines to which another thread is writing. So it goes
   // inwards there.

@@ -38,7 +38,7 @@ void SkinGuard::start_over(SlotRange slots, double room) {
   const Grains& g = state_.grains;
   const auto speed = candidates_.speedometer(state_.box);
   for (std::size_t slot = slots.begin; slot < slots.end; ++slot)
-    fastest2_ = std::max(fastest2_, speed.squared(g.u[slot].x, g.u[slot].y));
+    fastest2_ = std::max(fastest2_, speed.squared(g.u[slot]));
   const std::int64_t steps = Forecast::whole_steps(room_ / std::sqrt(fastest2_));
   hold_until_ = std::min(candidates_.hold_until(), courses_.sorted_at() + steps - 1);
 }
@@ -46,21 +46,18 @@ void SkinGuard::start_over(SlotRange slots, double room) {
 /// From where it was listed, coarsely, relative to the common motion.
 SkinGuard::Metres SkinGuard::displacement(std::uint32_t slot, const Motion& course,
                                           std::int64_t now) const {
-  const auto common = candidates_.common_motion(now);
   const CoarsePositions& then = candidates_.when_sorted();
-  const auto from_there = [](Fixed position, std::int32_t listed, Fixed common_way) {
-    return wrapped_difference(wrapped_difference(position, from_upper(listed)), common_way);
-  };
-  return {state_.box.metres_x(from_there(course.x, then.x[slot], common.x)),
-          state_.box.metres_y(from_there(course.y, then.y[slot], common.y))};
+  const FixedVector listed{from_upper(then.x[slot]), from_upper(then.y[slot])};
+  const FixedVector way = wrapped_difference(wrapped_difference(course.position, listed),
+                                             candidates_.common_motion(now));
+  return {state_.box.metres_x(way.x), state_.box.metres_y(way.y)};
 }
 
 std::int64_t SkinGuard::note_course(std::uint32_t slot, const Motion& course, std::int64_t now) {
   const auto [x, y] = displacement(slot, course, now);
   const Box& box = state_.box;
-  const auto& drift = candidates_.drift();
-  const double ux = box.metres_x(wrapped_difference(course.ux, drift.x));
-  const double uy = box.metres_y(wrapped_difference(course.uy, drift.y));
+  const FixedVector u = wrapped_difference(course.u, candidates_.drift());
+  const double ux = box.metres_x(u.x), uy = box.metres_y(u.y);
 
   fastest2_ = std::max(fastest2_, ux * ux + uy * uy);
   const std::int64_t hold_until = now + steps_within(room_, x, y, ux, uy);

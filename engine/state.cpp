@@ -96,7 +96,7 @@ void Grains::resize(std::size_t n) {
   for_each_array_of(*this, [&](auto& array) { array.resize(n); });
 }
 
-Fall fall_per_step(const State& state) {
+FixedVector fall_per_step(const State& state) {
   const double dt = state.time_step;
   return {nearest_fixed(state.gravity.x * dt * dt / state.box.quantum_x()),
           nearest_fixed(state.gravity.y * dt * dt / state.box.quantum_y())};
@@ -108,7 +108,7 @@ void add_grain(State& state, const Grain& grain) {
   g.resize(i + 1);
   g.position[i].x = state.box.fixed_x(grain.x);
   g.position[i].y = state.box.fixed_y(grain.y);
-  const Fall fall = fall_per_step(state);
+  const FixedVector fall = fall_per_step(state);
   g.u[i].x = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x()) - fall.x / 2;
   g.u[i].y = nearest_fixed(grain.vy * state.time_step / state.box.quantum_y()) - fall.y / 2;
   g.radius[i] = grain.radius;
@@ -121,7 +121,7 @@ GrainView::GrainView(const State& state)
     : grains_(&state.grains),
       box_(state.box),
       fall_(fall_per_step(state)),
-      fallen_(fall_.times(state.step)),
+      fallen_(wrapped_product(state.step, fall_)),
       to_vx_(state.box.quantum_x() / state.time_step),
       to_vy_(state.box.quantum_y() / state.time_step),
       to_spin_(quantum_of_angle / state.time_step) {}

@@ -89,15 +89,9 @@ struct State {
   double time() const { return static_cast<double>(step) * time_step; }  ///< s
 };
 
-/// What free fall adds to a displacement per step, in quanta.
-struct Fall {
-  Fixed x, y;
-
-  Fall times(std::int64_t n) const { return {wrapped_product(x, n), wrapped_product(y, n)}; }
-};
-
-/// In one step, gravity times dt^2: the G of the formulae above.
-Fall fall_per_step(const State& state);
+/// What free fall adds to a displacement per step in each step, in quanta: gravity times dt^2, the
+/// G of the formulae above.
+FixedVector fall_per_step(const State& state);
 
 /// One grain in SI units, to put grains in and to look at them.
 struct Grain {
@@ -141,9 +135,9 @@ private:
 
   const Grains* grains_;
   Box box_;
-  Fall fall_, fallen_;    // per step, and so far
-  double to_vx_, to_vy_;  // m/s per quantum per step
-  double to_spin_;        // rad/s per quantum per step
+  FixedVector fall_, fallen_;  // per step, and so far
+  double to_vx_, to_vy_;       // m/s per quantum per step
+  double to_spin_;             // rad/s per quantum per step
 };
 
 /// The slots of the grains by their ids; 0 for ids that no grain has.

@@ -18,9 +18,6 @@ namespace riesel {
 struct WallWay {
   double x, y;  ///< m
 };
-struct WallShift {
-  Fixed x, y;  ///< quanta
-};
 
 /// How a wall moves: along y by start + velocity t, and to and fro by amplitude sin(phase + 2 pi
 /// frequency t).
@@ -55,8 +52,9 @@ struct WallMotion {
     return std::isfinite(phase_at(time_step)) && std::abs(amplitude_x) + step < 0.499 * box.width
            && std::abs(amplitude_y) + step < 0.499 * box.length;
   }
-  /// At `step`. What is done at constant velocity is an equal number of quanta in each step.
-  WallShift shift(const Box& box, double time_step, std::int64_t step) const {
+  /// Quanta, likewise, at `step`. What is done at constant velocity is an equal number of quanta in
+  /// each step.
+  FixedVector shift(const Box& box, double time_step, std::int64_t step) const {
     const Fixed per_step = nearest_fixed(velocity * time_step / box.quantum_y());
     const Fixed steady = wrapped_sum(start, wrapped_product(step, per_step));
     if (!oscillates()) return {0, steady};

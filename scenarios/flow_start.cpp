@@ -113,7 +113,7 @@ void reject_strong_gravity(const io::Settings& settings, std::size_t grains, con
 void reject_rounded_gravity(const io::Settings& settings, const State& state) {
   constexpr double tolerated = 1e-3;  // of gravity
   const Box& box = state.box;
-  const Fall fall = fall_per_step(state);
+  const FixedVector fall = fall_per_step(state);
   const double per_step2 = 1.0 / (state.time_step * state.time_step);
   const double error = std::hypot(box.metres_x(fall.x) * per_step2 - state.gravity.x,
                                   box.metres_y(fall.y) * per_step2 - state.gravity.y);

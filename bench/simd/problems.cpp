@@ -123,8 +123,8 @@ bool ContactColumns::agrees(Original& engine) const {
     const auto life = life_of(live, i);
     for (std::size_t m = 0; m < life.size(); ++m) same = same && life_[m][i] == life[m];
     const BodyKick first = live.kick_of_first(i), second = live.kick_of_second(i);
-    same = same && kick_[0][i] == first.x && kick_[1][i] == first.y && kick_[2][i] == second.x
-           && kick_[3][i] == second.y;
+    same = same && first.by == FixedVector{kick_[0][i], kick_[1][i]}
+           && second.by == FixedVector{kick_[2][i], kick_[3][i]};
   }
   return same;
 }
