@@ -255,7 +255,7 @@ void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool 
 /// grain.
 double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
   if (near.partners != 0) return 0.0;
-  const WallLattice& wall = state_.walls[static_cast<std::size_t>(near.wall)];
+  const WallLattice& wall = state_.wall(near.wall);
   const double stray = courses_.deflected(near.slot) ? tolerance_ : 0.0;
   const double reach = (state_.grains.radius[near.slot] + wall.radius) * generous + stray;
   const Flight flight = flight_of(near.slot, state_, courses_, now);

@@ -31,13 +31,17 @@ struct Box {
   /// y in m in [-length/2, length/2): right for differences between two grains (nearest image).
   double metres_y(Fixed y) const { return static_cast<double>(y) * quantum_y(); }
 
-  /// y in m, any period, to the first one.
-  double wrapped(double y) const { return y - length * std::floor(y / length); }
+  /// y in m, any period, to the first one, [0, length).
+  double wrapped(double y) const { return below_period(y - length * std::floor(y / length)); }
 
   /// y in m in [0, length): where a grain is.
   double place_y(Fixed y) const {
-    return static_cast<double>(static_cast<std::uint64_t>(y)) * quantum_y();
+    return below_period(static_cast<double>(static_cast<std::uint64_t>(y)) * quantum_y());
   }
+
+private:
+  /// What is just below the period may be rounded up to it.
+  double below_period(double y) const { return y < length ? y : 0.0; }
 };
 
 }  // namespace riesel

@@ -68,16 +68,4 @@ void BrakeTally::add(const Contact& contact, const ContactModel& model, double m
   friction_loss_cut_short.add(contact.friction_loss);
 }
 
-void BrakeTally::merge(const BrakeTally& other) {
-  contacts += other.contacts;
-  cut_short += other.cut_short;
-  braking.add(other.braking);
-  braking_cut_short.add(other.braking_cut_short);
-  friction_loss.add(other.friction_loss);
-  friction_loss_cut_short.add(other.friction_loss_cut_short);
-  entry_slip.add(other.entry_slip);
-  duration.add(other.duration);
-  pulling.add(other.pulling);
-}
-
 }  // namespace riesel

@@ -25,8 +25,8 @@ inline constexpr double cut_short_below = 0.6390;
 /// velocity as they were at the end.
 bool is_cut_short(const Contact& contact, const NormalLaw& normal, double mass);
 
-/// s, for how long an ended contact pulled: F_N < 0. Worked out, not watched: for a parabola of the
-/// overlap with the contact's duration and largest overlap.
+/// s, for how long an ended contact of a grain of `mass` (kg) pulled: F_N < 0. Worked out, not
+/// watched: for a parabola of the overlap with the contact's duration and largest overlap.
 double pulling_time(const Contact& contact, const ContactModel& model, double mass);
 
 /// Sums over ended contacts with walls. "Braking" is the impulse against +y of those contacts that
@@ -42,8 +42,8 @@ struct BrakeTally {
   ExactSum duration;                 ///< s
   ExactSum pulling;                  ///< s
 
+  /// `mass` (kg) is that of the grain.
   void add(const Contact& contact, const ContactModel& model, double mass);
-  void merge(const BrakeTally& other);
 };
 
 }  // namespace riesel

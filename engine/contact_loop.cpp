@@ -45,7 +45,7 @@ void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
   for (std::uint32_t place = 0; place < slice.near_walls.size(); ++place) {
     NearWall& near = slice.near_walls[place];
     if (near.is_clear(way)) continue;
-    const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
+    const WallLattice& wall = state.wall(near.wall);
     const double radius = state.grains.radius[near.slot];
     const double across =
         wall.distance_across(state.box.metres_x(state.grains.position[near.slot].x), radius)

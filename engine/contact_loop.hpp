@@ -25,7 +25,7 @@ void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting)
 
 /// m, between the centres of a grain and a wall grain that touch.
 inline double reach_at_wall(const State& state, const NearWall& near) {
-  return state.grains.radius[near.slot] + state.walls[static_cast<std::size_t>(near.wall)].radius;
+  return state.grains.radius[near.slot] + state.wall(near.wall).radius;
 }
 
 /// Calls visit(k, from_grain) for the wall grains that `near`, which is at `place`, has within
@@ -34,7 +34,7 @@ inline double reach_at_wall(const State& state, const NearWall& near) {
 template <class Visit>
 void for_each_free_wall_grain(const State& state, const NearWall& near, const FixedVector& place,
                               const StepUnits& units, double room, Visit visit) {
-  const WallLattice& wall = state.walls[static_cast<std::size_t>(near.wall)];
+  const WallLattice& wall = state.wall(near.wall);
   const BodyMotion& moved = units.walls[static_cast<std::size_t>(near.wall)];
   const Fixed line = state.box.fixed_x(wall.line);
   const FixedVector back = wrapped_difference(place, moved.position);

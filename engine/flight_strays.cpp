@@ -54,7 +54,7 @@ void FlightRegion::look_at_walls(const Stray& stray, std::int64_t step) {
   const double radius = state.grains.radius[stray.slot];
   for (std::int32_t wall = 0; wall < static_cast<std::int32_t>(state.walls.size()); ++wall)
     if (!slice_.has_near(stray.slot, wall)
-        && state.walls[static_cast<std::size_t>(wall)].is_near(x, radius, leeway_.tolerance))
+        && state.wall(wall).is_near(x, radius, leeway_.tolerance))
       lose(stray, step);
 }
 

@@ -68,8 +68,8 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
 /// grain 0: m. Throws std::invalid_argument if it touches none.
 double just_upstream(const ImpactSetup& setup, double x);
 
-/// e_N of two bodies that meet head-on with `speed` (m/s), under any law, in steps so fine that
-/// they hardly count (measured: 5e-4). Nothing if they do not come apart.
+/// e_N of two bodies, `reduced_mass` in kg, that meet head-on with `speed` (m/s), under any law, in
+/// steps so fine that they hardly count (measured: 5e-4). Nothing if they do not come apart.
 std::optional<double> restitution(const ContactModel& model, double reduced_mass, double speed);
 
 /// 64-bit hash of all results.

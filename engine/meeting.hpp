@@ -65,7 +65,7 @@ inline Meeting meeting_of_grains(const Grains& g, std::uint32_t i, std::uint32_t
 /// The free grain in `slot` and grain `k` of a wall.
 inline Meeting meeting_with_wall(const State& state, std::uint32_t slot, std::int32_t wall,
                                  std::int64_t k, std::uint32_t candidate) {
-  const WallLattice& lattice = state.walls[static_cast<std::size_t>(wall)];
+  const WallLattice& lattice = state.wall(wall);
   const Grains& g = state.grains;
   return {.name = {wall, g.id[slot], static_cast<std::int32_t>(k)},
           .candidate = candidate,

@@ -29,7 +29,7 @@ struct Gap {
 Gap between_walls(const State& state) {
   Gap gap;
   for (const WallLattice& wall : state.walls)
-    (wall.line < 0.5 * state.box.width ? gap.low : gap.high) =
+    (wall.inwards(state.box) > 0.0 ? gap.low : gap.high) =
         wall.line + wall.motion.way(state.box, state.time()).x;
   return gap;
 }

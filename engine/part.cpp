@@ -48,9 +48,7 @@ void Part::gather(const Grains& all) {
     for (std::size_t i = 0; i < places_.size(); ++i) to[i] = from[places_[i]];
   };
   for_each_moving_array(mine, gather_array);
-  gather_array(&Grains::radius);
-  gather_array(&Grains::mass);
-  gather_array(&Grains::id);
+  for_each_lasting_array(gather_array);
 }
 
 void Part::note_ids(std::size_t all) {

@@ -89,12 +89,4 @@ private:
   Profile profile_;
 };
 
-/// Calls visit(member) for each array of Grains that stepping changes.
-template <class Visit>
-void for_each_moving_array(const Grains& g, Visit visit) {
-  for (auto member : {&Grains::position, &Grains::u, &Grains::kick}) visit(member);
-  if (!g.rotate()) return;
-  for (auto member : {&Grains::spin, &Grains::spin_kick}) visit(member);
-}
-
 }  // namespace riesel

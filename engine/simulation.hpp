@@ -35,9 +35,10 @@ enum class Sharing {
 
 class Simulation {
 public:
-  /// `state` may come from a scenario or from a checkpoint. Throws std::invalid_argument if its
-  /// invariants do not hold, the box is too small for the nearest image to be unique, or there is
-  /// no thread; RunFailure if the system grants fewer threads.
+  /// `state` may come from a scenario or from a checkpoint. Of these threads it takes as many as
+  /// the system grants, see threads(). Throws std::invalid_argument if the invariants of the state
+  /// do not hold, one of its contacts cannot be one, the box is too small for the nearest image to
+  /// be unique, wall grains stand too close together, there is no thread, or `askew` is unsound.
   Simulation(State state, const ContactModel& model, int threads,
              Stepping stepping = Stepping::automatic, const Askew& askew = {},
              Sharing sharing = Sharing::automatic);
@@ -48,7 +49,8 @@ public:
   /// Does `steps` steps. The result does not depend on the number of threads, nor on how the steps
   /// are shared between calls. None for steps <= 0. Throws RunFailure when a force is not finite or
   /// a grain is lost; in which step a lost one is found, and whether one that is thrown far within
-  /// a few steps is, depends on the stepping (automatic: on the clock), the threads and the calls.
+  /// a few steps is, depends on the stepping (automatic: on the clock), the threads and the calls;
+  /// also if the system grants fewer threads than at first.
   void advance(std::int64_t steps);
 
   const State& state() const { return state_; }

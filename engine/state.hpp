@@ -51,15 +51,26 @@ struct Grains {
   void resize(std::size_t n);
 };
 
+/// Calls visit(member) for each array of these grains that stepping changes.
+template <class Visit>
+void for_each_moving_array(const Grains& g, Visit visit) {
+  for (auto member : {&Grains::position, &Grains::u, &Grains::kick}) visit(member);
+  if (!g.rotate()) return;
+  for (auto member : {&Grains::spin, &Grains::spin_kick}) visit(member);
+}
+/// Likewise for the arrays that stay as they are.
+template <class Visit>
+void for_each_lasting_array(Visit visit) {
+  for (auto member : {&Grains::radius, &Grains::mass}) visit(member);
+  visit(&Grains::id);
+}
+
 /// Calls visit(array) for each array of the grains (const or not) that they have.
 template <class AnyGrains, class Visit>
 void for_each_array_of(AnyGrains& g, Visit visit) {
-  for (auto* array : {&g.position, &g.u, &g.kick}) visit(*array);
-  visit(g.radius);
-  visit(g.mass);
-  visit(g.id);
-  if (!g.rotate()) return;
-  for (auto* array : {&g.spin, &g.spin_kick}) visit(*array);
+  const auto visit_member = [&](auto member) { visit(g.*member); };
+  for_each_moving_array(g, visit_member);
+  for_each_lasting_array(visit_member);
 }
 
 /// The system at step 0, for the balances of energy and momentum.
@@ -87,6 +98,9 @@ struct State {
   Origin origin;                       ///< set by the Simulation that does the first step
 
   double time() const { return static_cast<double>(step) * time_step; }  ///< s
+  const WallLattice& wall(std::int32_t index) const {
+    return walls[static_cast<std::size_t>(index)];
+  }
 };
 
 /// What free fall adds to a displacement per step in each step, in quanta: gravity times dt^2, the

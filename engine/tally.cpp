@@ -68,8 +68,6 @@ void Tally::merge(const Tally& other) {
   grains.merge(other.grains);
   walls.merge(other.walls);
   impulses.merge(other.impulses);
-  brakes.merge(other.brakes);
-  visits.merge(other.visits);
   ended_at_walls.insert(ended_at_walls.end(), other.ended_at_walls.begin(),
                         other.ended_at_walls.end());
 }

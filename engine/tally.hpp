@@ -1,7 +1,7 @@
 // What the ended contacts of a run did, summed since step 0.
 //
-// Every member is a count, a maximum or an exact sum, so that tallies of several threads can be
-// merged in any order.
+// They are counts, maxima and exact sums, so that tallies of several threads can be merged in any
+// order.
 #pragma once
 
 #include "engine/brake.hpp"
@@ -64,8 +64,10 @@ struct Tally {
   ContactTally grains;    ///< free grain on free grain
   ContactTally walls;     ///< free grain on wall grain
   WallImpulses impulses;  ///< of these by wall
-  BrakeTally brakes;      ///< the same contacts as brakes
-  VisitTally visits;      ///< visits to walls that are over
+  /// The same contacts as brakes, and visits to walls that are over: in the tally of a State alone,
+  /// where WallWatch counts them.
+  BrakeTally brakes;
+  VisitTally visits;
   /// What is not yet in `brakes` and `visits`, in any order: WallWatch takes it up when an advance
   /// is over.
   std::vector<Contact> ended_at_walls;
@@ -73,6 +75,7 @@ struct Tally {
   ContactTally& of(const ContactName& name) { return name.wall == no_wall ? grains : walls; }
   /// Counts a contact that has ended; `reach` (m) is the sum of the radii.
   void end(const Contact& contact, double reach);
+  /// Adds what contacts of another slice or part did, which has no brakes and visits.
   void merge(const Tally& other);
 };
 

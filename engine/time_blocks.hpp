@@ -29,7 +29,7 @@ public:
   TimeBlocks(std::size_t columns, std::int64_t samples, std::int64_t samples_per_block,
              std::vector<double> sums);
 
-  /// Adds one sample of columns() finite values.
+  /// Adds one sample of columns() finite values. Throws std::invalid_argument for another number.
   void add(std::span<const double> sample);
 
   std::size_t columns() const { return columns_; }

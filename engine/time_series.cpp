@@ -184,8 +184,8 @@ double autocorrelation_time(std::span<const double> series) {
 }
 
 double standard_deviation(std::span<const double> series) {
+  const auto samples = finite_samples(series);
   if (series.size() < 2) return 0.0;
-  const Eigen::Map<const ArrayXd> samples(series.data(), std::ssize(series));
   const ArrayXd deviations = deviations_from_mean(samples);
   return std::sqrt(deviations.square().sum() / static_cast<double>(series.size() - 1));
 }

@@ -81,6 +81,8 @@ struct WallLattice {
     if (smooth()) return radius == 0.0;
     return count > 0 && count <= INT32_MAX && radius > 0.0 && std::isfinite(radius);
   }
+  /// 1 or -1, the direction along x from the wall into the box.
+  double inwards(const Box& box) const { return line < 0.5 * box.width ? 1.0 : -1.0; }
   /// m, from its line to the farthest point that it ever covers.
   double reach() const { return radius + std::abs(motion.amplitude_x); }
   /// m, across, of a grain with this radius (m) and its centre at `x` (m) from where the wall can

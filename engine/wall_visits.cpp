@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <tuple>
 
@@ -69,18 +68,6 @@ void VisitTally::add(const WallVisit& visit, double mass, double away) {
   entry_slip.add(visit.entry_slip);
   entry_rates.add(visit.entry_rate);
   entry_slips.add(visit.entry_slip);
-}
-
-void VisitTally::merge(const VisitTally& other) {
-  std::transform(of_contacts.begin(), of_contacts.end(), other.of_contacts.begin(),
-                 of_contacts.begin(), std::plus<>());
-  contacts += other.contacts;
-  dv_y.add(other.dv_y);
-  dv_x.add(other.dv_x);
-  entry_rate.add(other.entry_rate);
-  entry_slip.add(other.entry_slip);
-  entry_rates.merge(other.entry_rates);
-  entry_slips.merge(other.entry_slips);
 }
 
 }  // namespace riesel

@@ -68,7 +68,6 @@ struct VisitTally {
   /// Adds a visit by a grain of mass `mass` (kg). `away` is the sign of the direction from the wall
   /// into the tube.
   void add(const WallVisit& visit, double mass, double away);
-  void merge(const VisitTally& other);
 };
 
 }  // namespace riesel

@@ -54,7 +54,7 @@ void WallWatch::take_up(State& state) const {
   const double gravity = std::hypot(state.gravity.x, state.gravity.y);
   for (const Contact& contact : state.tally.ended_at_walls) {
     const double m = mass(contact.name.grain);
-    const WallLattice& wall = state.walls[static_cast<std::size_t>(contact.name.wall)];
+    const WallLattice& wall = state.wall(contact.name.wall);
     state.tally.brakes.add(contact, model_, m);
     visits.emplace_back(contact, visit_span(contact, m, wall.spacing(state.box), gravity));
   }
@@ -84,9 +84,8 @@ void WallWatch::join_and_close(State& state) const {
 }
 
 void WallWatch::close(State& state, const WallVisit& visit) const {
-  const WallLattice& wall = state.walls[static_cast<std::size_t>(visit.wall)];
-  const double away = wall.line < 0.5 * state.box.width ? 1.0 : -1.0;
-  state.tally.visits.add(visit, mass(visit.grain), away);
+  const WallLattice& wall = state.wall(visit.wall);
+  state.tally.visits.add(visit, mass(visit.grain), wall.inwards(state.box));
 }
 
 }  // namespace riesel

@@ -177,7 +177,7 @@ std::vector<double> scaled(const std::vector<double>& radii, double scale) {
 State between_planes(const State& empty) {
   State room = empty;
   for (WallLattice& wall : room.walls) {
-    const double inwards = wall.line < 0.5 * room.box.width ? wall.radius : -wall.radius;
+    const double inwards = wall.inwards(room.box) * wall.radius;
     wall = WallLattice::smooth_at(wall.line + inwards, {});
   }
   return room;

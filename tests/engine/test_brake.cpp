@@ -102,13 +102,6 @@ TEST_CASE("braking is what takes axial momentum") {
   CHECK(std::abs(tally.friction_loss_cut_short.value() - 3e-9) < 1e-20);
   CHECK(std::abs(tally.entry_slip.value() - 4.5) < 1e-12);
   CHECK(std::abs(tally.duration.value() - 2.1 * t_col()) < 1e-12);
-
-  BrakeTally twice = tally;
-  twice.merge(tally);
-  CHECK(twice.contacts == 6);
-  CHECK(twice.cut_short == 2);
-  CHECK(twice.braking_cut_short.value() == 2.0 * tally.braking_cut_short.value());
-  CHECK(twice.pulling.value() == 2.0 * tally.pulling.value());
 }
 
 TEST_CASE("a tally hands on contacts with walls, and counts all durations") {

@@ -123,6 +123,15 @@ TEST_CASE("y is the same place in every period") {
   CHECK(box.fixed_y(0.5 * box.length) == INT64_MIN);
 }
 
+TEST_CASE("a place is below the end of the period, however close") {
+  const Box box{.width = 1.0, .length = 0.7};
+  for (const Fixed below : {1, 100, 500, 2000}) CHECK(box.place_y(-below) < box.length);
+  for (const double below : {1e-30, 1e-18, 1e-17, 1e-15}) {
+    CHECK(box.wrapped(-below) < box.length);
+    CHECK(box.wrapped(box.length - below) < box.length);
+  }
+}
+
 TEST_CASE("the time until a body comes back is exact, however close by it turns") {
   const double u = -4e-9, a = 9.8e-12;  // m per step: a grain that leaves a floor
   for (const double gap : {1e-9, 1e-13, 1e-17, 1e-20}) {

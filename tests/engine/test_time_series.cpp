@@ -106,6 +106,7 @@ TEST_CASE("samples that are not finite are refused by index", "[time_series]") {
   CHECK_THROWS_AS(riesel::transient_length(series), std::invalid_argument);
   CHECK_THROWS_AS(riesel::autocorrelation_time(series), std::invalid_argument);
   CHECK_THROWS_AS(riesel::estimate_trend(series), std::invalid_argument);
+  CHECK_THROWS_AS(riesel::standard_deviation(series), std::invalid_argument);
   std::string message;
   try {
     riesel::estimate_mean(series);
