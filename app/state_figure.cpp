@@ -196,7 +196,7 @@ private:
       const Grain& partner = state_->grains[static_cast<std::size_t>(name.partner)];
       return {partner.x, partner.y};
     }
-    const WallLattice& wall = state_->wall(name.wall);
+    const WallLattice& wall = state_->walls[static_cast<std::size_t>(name.wall)];
     const WallWay way = wall.motion.way(state_->box, state_->time);
     const double x = wall.line + way.x;
     if (wall.smooth()) return {x, state_->grains[static_cast<std::size_t>(name.grain)].y};

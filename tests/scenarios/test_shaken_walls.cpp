@@ -135,8 +135,9 @@ TEST_CASE("a run between shaken walls goes on where they were") {
     const auto off_by = [&](Fixed a, Fixed b, double quantum) {
       return std::abs(static_cast<double>(a - b)) * quantum;
     };
-    CHECK(off_by(now.walls[wall].x, then.walls[wall].x, start.state.box.quantum_x()) < 1e-15);
-    CHECK(now.walls[wall].y == then.walls[wall].y);
+    const BodyMotion &is_now = now.walls[wall], &was_then = then.walls[wall];
+    CHECK(off_by(is_now.position.x, was_then.position.x, start.state.box.quantum_x()) < 1e-15);
+    CHECK(is_now.position.y == was_then.position.y);
     // They swing on in the direction that they had, as much faster as the frequency is higher.
     const WallMotion &before = earlier.walls[wall].motion, &after = next.state.walls[wall].motion;
     const double period = 1.0 / before.frequency;
@@ -146,8 +147,8 @@ TEST_CASE("a run between shaken walls goes on where they were") {
       CHECK_THAT(is.x, WithinAbs(was.x, 1e-12));
       CHECK_THAT(is.y, WithinAbs(was.y, 1e-12));
     }
-    CHECK((then.walls[wall].ux < 0) == (now.walls[wall].ux < 0));
-    CHECK((then.walls[wall].uy < 0) == (now.walls[wall].uy < 0));
+    CHECK((was_then.u.x < 0) == (is_now.u.x < 0));
+    CHECK((was_then.u.y < 0) == (is_now.u.y < 0));
   }
   if (angle == "0") return;
   Overrides as_far = shaken(continued);  // but for the last bit

@@ -187,7 +187,8 @@ TEST_CASE("a sheared cell goes on where it was, with walls that have moved") {
                           "start.from=" + directory.path().string(), "cell.velocity=2 m/s"});
   CHECK(next.state.walls[1].motion.velocity == 1.0);
   const StepUnits then(earlier), now(next.state);
-  for (std::size_t wall : {0U, 1U}) CHECK(now.walls[wall].y == then.walls[wall].y);
+  for (std::size_t wall : {0U, 1U})
+    CHECK(now.walls[wall].position.y == then.walls[wall].position.y);
   CHECK(next.state.contacts.size() == earlier.contacts.size());
   CHECK_NOTHROW(after_a_while(next));
 }
