@@ -150,12 +150,9 @@ TEST_CASE("the tallies of two threads together are that of one") {
       ++tally->of(contact.name).begun;
       tally->end(contact, 2.0 * radius);
       tally->impulses.work.add(work);
-      tally->brakes.add(contact, paper_model(), mass);
-      tally->visits.add(WallVisit(contact, {contact.begin, contact.end}), mass, 1.0);
     }
   }
   REQUIRE(right.grains.energy_won.value() > 0.0);
-  REQUIRE(right.brakes.cut_short > 0);
   left.merge(right);
   CHECK(all_of(left.grains) == all_of(one.grains));
   CHECK(all_of(left.walls) == all_of(one.walls));
@@ -163,8 +160,6 @@ TEST_CASE("the tallies of two threads together are that of one") {
   CHECK(same_states::same(left.walls.deepest, one.walls.deepest));
   CHECK(left.impulses.y == one.impulses.y);
   CHECK(left.impulses.work == one.impulses.work);
-  CHECK(all_of(left.brakes) == all_of(one.brakes));
-  CHECK(all_of(left.visits) == all_of(one.visits));
   CHECK(left.ended_at_walls.size() == one.ended_at_walls.size());
 }
 
