@@ -18,8 +18,10 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -44,6 +46,37 @@ Series autoregressive(std::size_t n, double phi) {
   }
   return series;
 }
+
+/// Stationary AR(2) of mean 0 and variance 1: waves of this period (samples) that are forgotten
+/// within `decay` (samples).
+struct Waves {
+  double period, decay;
+
+  double first() const {
+    return 2.0 * std::exp(-1.0 / decay) * std::cos(2.0 * std::numbers::pi / period);
+  }
+  double second() const { return -std::exp(-2.0 / decay); }
+  /// Of the noise, for a variance of 1.
+  double noise_variance() const {
+    const double a = first(), b = second();
+    return (1.0 + b) * ((1.0 - b) * (1.0 - b) - a * a) / (1.0 - b);
+  }
+  /// n times the variance of the mean of n samples, where n is large.
+  double time() const { return noise_variance() / std::pow(1.0 - first() - second(), 2); }
+
+  Series series(std::size_t n) const {
+    const double a = first(), b = second(), noise = std::sqrt(noise_variance());
+    const double correlation = a / (1.0 - b);  // of neighbours
+    double before = gaussian();
+    double x = correlation * before + std::sqrt(1.0 - correlation * correlation) * gaussian();
+    Series series(n);
+    for (double& sample : series) {
+      sample = before;
+      before = std::exchange(x, a * x + b * before + noise * gaussian());
+    }
+    return series;
+  }
+};
 
 /// An AR(1) of phi = 0.99 beneath white noise that carries nine tenths of the variance.
 Series slow_beneath_fast(std::size_t n) {
@@ -130,6 +163,13 @@ void print_stationary_table(int count) {
   }
   for (const std::size_t n : {1000U, 4000U, 10000U}) {
     print_stationary("slow", n, (9.0 + 199.0) / 10.0, count, [&] { return slow_beneath_fast(n); });
+  }
+  for (const Waves& waves :
+       {Waves{20.0, 5.0}, Waves{20.0, 20.0}, Waves{20.0, 200.0}, Waves{100.0, 100.0}}) {
+    std::array<char, 16> label{};
+    std::snprintf(label.data(), label.size(), "%.0f, %.0f", waves.period, waves.decay);
+    for (const std::size_t n : {200U, 1000U, 10000U})
+      print_stationary(label.data(), n, waves.time(), count, [&] { return waves.series(n); });
   }
 }
 
