@@ -86,26 +86,29 @@ double just_upstream(const ImpactSetup& setup, double x) {
   return -std::sqrt(reach * reach - x * x);
 }
 
-ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
-  require(speed_of(impact) > 0.0, "an impact needs a velocity");
+namespace {
+
+ImpactEnd advance_to_the_end(Simulation& simulation, const ImpactSetup& setup,
+                             const Impact& impact) {
   const double patience = time_to_wall(setup, impact)
                           + patience_in_collisions * setup.collision_time
                           + patience_in_reaches * setup.reach() / speed_of(impact);
   const std::int64_t steps = steps_between_looks(setup, impact);
-  Simulation simulation(start(setup, impact), setup.model, 1);
-  ImpactEnd end = ImpactEnd::stuck;
   while (simulation.state().time() < patience) {
     simulation.advance(steps);
     const Grain grain = grain_at(simulation.state(), 0);
-    if (grain.x < -setup.reach()) {
-      end = ImpactEnd::passed;
-      break;
-    }
-    if (gone(setup, simulation.state(), grain)) {
-      end = ImpactEnd::away;
-      break;
-    }
+    if (grain.x < -setup.reach()) return ImpactEnd::passed;
+    if (gone(setup, simulation.state(), grain)) return ImpactEnd::away;
   }
+  return ImpactEnd::stuck;
+}
+
+}  // namespace
+
+ImpactResult follow(const ImpactSetup& setup, const Impact& impact) {
+  require(speed_of(impact) > 0.0, "an impact needs a velocity");
+  Simulation simulation(start(setup, impact), setup.model, 1);
+  const ImpactEnd end = advance_to_the_end(simulation, setup, impact);
   const State& state = simulation.state();
   const Grain grain = grain_at(state, 0);
   const ContactTally& tally = state.tally.walls;

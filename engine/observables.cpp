@@ -213,6 +213,26 @@ double largest_speed(const Box& box, double time_step, std::size_t grains) {
                   std::sqrt(range / static_cast<double>(grains)));
 }
 
+namespace {
+
+Energies energies_of(const State& state, const GrainSums& sums, const SpinSums& spins,
+                     const ContactTally& among_grains, const ContactTally& at_walls) {
+  Energies e;
+  e.kinetic = sums.kinetic;
+  e.rotational = spins.energy;
+  e.elastic = stored_energy(state);
+  e.gravity_work = work_of_gravity(state, sums, at_walls);
+  e.wall_work = state.tally.impulses.work.value();
+  e.normal_loss = among_grains.normal_loss.value() + at_walls.normal_loss.value();
+  e.friction_loss = among_grains.friction_loss.value() + at_walls.friction_loss.value();
+  e.won = among_grains.energy_won.value() + at_walls.energy_won.value();
+  e.residual = state.origin.energy + e.gravity_work + e.wall_work - e.kinetic - e.rotational
+               - e.elastic - e.normal_loss - e.friction_loss;
+  return e;
+}
+
+}  // namespace
+
 Observables observe(const State& state) {
   const GrainSums sums = sum_over_grains(state);
   const SpinSums spins = sum_over_spins(state);
@@ -229,17 +249,7 @@ Observables observe(const State& state) {
   o.granular_temperature = 0.5 * (o.sigma_vx * o.sigma_vx + o.sigma_vy * o.sigma_vy);
   o.mean_spin = spins.spin / n;
   o.rotational_temperature = spins.temperature / n;
-  o.energies.kinetic = sums.kinetic;
-  o.energies.rotational = spins.energy;
-  o.energies.elastic = stored_energy(state);
-  o.energies.gravity_work = work_of_gravity(state, sums, at_walls);
-  o.energies.wall_work = state.tally.impulses.work.value();
-  o.energies.normal_loss = among_grains.normal_loss.value() + at_walls.normal_loss.value();
-  o.energies.friction_loss = among_grains.friction_loss.value() + at_walls.friction_loss.value();
-  o.energies.won = among_grains.energy_won.value() + at_walls.energy_won.value();
-  o.energies.residual = state.origin.energy + o.energies.gravity_work + o.energies.wall_work
-                        - o.energies.kinetic - o.energies.rotational - o.energies.elastic
-                        - o.energies.normal_loss - o.energies.friction_loss;
+  o.energies = energies_of(state, sums, spins, among_grains, at_walls);
   o.contacts = static_cast<double>(state.contacts.size()) / n;
   o.grain_contacts_begun = static_cast<double>(among_grains.begun);
   o.wall_contacts_begun = static_cast<double>(at_walls.begun);
