@@ -106,7 +106,8 @@ class Journeys(CommandTest):
             self.interrupted += process.returncode in interrupted
             by_limit = process.returncode == FAILED and "goes on from there with another limit" in stderr
             self.limited += by_limit
-            self.assertIn(process.returncode, {0} | interrupted | ({FAILED} if by_limit else set()), (arguments, stderr))
+            ends = {0} | interrupted | ({FAILED} if by_limit else set())
+            self.assertIn(process.returncode, ends, (arguments, stderr))
             complaints = [line for line in stderr.splitlines() if not PROGRESS.fullmatch(line)
                           and not line.startswith("riesel: limits.")]
             self.assertTrue(process.returncode != 0 or not complaints, stderr)
@@ -148,8 +149,8 @@ class Journeys(CommandTest):
         self.assertGreater(self.interrupted, 0)
         self.assertGreater(warned, 0)
         self.assertGreater(self.limited, 0)
-        print(f"{FLOWS} flows, {FLOWS * JOURNEYS} journeys of {legs} legs, {self.interrupted} of them ended by a signal and "
-              f"{self.limited} by a limit")
+        print(f"{FLOWS} flows, {FLOWS * JOURNEYS} journeys of {legs} legs, "
+              f"{self.interrupted} of them ended by a signal and {self.limited} by a limit")
 
     def assert_point_is_the_same(self, dice, number, flow, whole):
         """As a point of a sweep, among others in any order."""
