@@ -168,7 +168,8 @@ lint() {
   say "clang-format"
   cpp_files | xargs clang-format --dry-run -Werror || complaints+=("clang-format (try ./setup.sh format)")
   say "shellcheck"
-  shellcheck setup.sh .ci/run docs/paper/reproduce.sh tests/package/clean_debian.sh || complaints+=(shellcheck)
+  shellcheck setup.sh .ci/run docs/paper/reproduce.sh tests/fuzz/seeds.sh tests/package/clean_debian.sh ||
+    complaints+=(shellcheck)
   say "doxygen"
   api || complaints+=(doxygen)
   say "mypy"

@@ -1,6 +1,7 @@
 // What measurements rest on: that long tubes hold the flow of the short one of which they are
 // copies, that the scalar reference does the same physics as the engine, how repetitions are
-// counted.
+// counted, with which bandwidth speeds are compared.
+#include "bench/results.hpp"
 #include "bench/scalar_reference.hpp"
 #include "bench/start_states.hpp"
 #include "bench/timing.hpp"
@@ -10,7 +11,9 @@
 #include "tests/catch.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 using namespace riesel;
 using namespace riesel::bench;
@@ -99,6 +102,24 @@ TEST_CASE("least and median of repetitions") {
   CHECK(Timing{{3.0, 1.0, 2.0}}.least() == 1.0);
   CHECK(Timing{{3.0, 1.0, 2.0}}.median() == 2.0);
   CHECK(Timing{{4.0, 1.0, 2.0, 10.0}}.median() == 3.0);
+}
+
+TEST_CASE("the bandwidth is that of the fastest set which is large enough, or of the largest") {
+  // 4/3 of the set are moved in a pass.
+  const auto measured = [](int threads, std::size_t megabytes, double gigabytes_per_second) {
+    const auto bytes = static_cast<double>(megabytes) * 1e6;
+    return Bandwidth{.threads = threads,
+                     .working_set = megabytes * 1'000'000,
+                     .timing = {{bytes * 4.0 / 3.0 / (gigabytes_per_second * 1e9)}}};
+  };
+  const std::vector all = {measured(1, 10, 40.0), measured(1, 100, 11.0), measured(1, 200, 13.0),
+                           measured(1, 400, 12.0), measured(2, 400, 20.0)};
+  CHECK(bandwidth_for(all, 1, 5e6).value() == Approx(40e9));
+  CHECK(bandwidth_for(all, 1, 50e6).value() == Approx(13e9));
+  CHECK(bandwidth_for(all, 1, 300e6).value() == Approx(12e9));
+  CHECK(bandwidth_for(all, 1, 1e12).value() == Approx(12e9));
+  CHECK(bandwidth_for(all, 2, 5e6).value() == Approx(20e9));
+  CHECK_FALSE(bandwidth_for(all, 3, 5e6));
 }
 
 TEST_CASE("the traffic of grains that are far from each other is that of flying and looking") {

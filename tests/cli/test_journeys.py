@@ -102,10 +102,12 @@ class Journeys(CommandTest):
                 time.sleep(after)
                 process.send_signal(stop)
             _, stderr = process.communicate(timeout=PATIENCE)
-            ends = {0} if stop is None else {0, -stop, HEEDED.get(stop, 0)}
+            interrupted = set() if stop is None else {-stop, HEEDED.get(stop, -stop)}
+            self.interrupted += process.returncode in interrupted
             by_limit = process.returncode == FAILED and "goes on from there with another limit" in stderr
             self.limited += by_limit
-            self.assertIn(process.returncode, ends | ({FAILED} if by_limit else set()), (arguments, stderr))
+            ends = {0} | interrupted | ({FAILED} if by_limit else set())
+            self.assertIn(process.returncode, ends, (arguments, stderr))
             complaints = [line for line in stderr.splitlines() if not PROGRESS.fullmatch(line)
                           and not line.startswith("riesel: limits.")]
             self.assertTrue(process.returncode != 0 or not complaints, stderr)
@@ -117,7 +119,7 @@ class Journeys(CommandTest):
 
     def test_random_journeys_come_to_the_same_bits(self):
         legs = warned = 0
-        self.limited = 0
+        self.interrupted = self.limited = 0
         for number in range(FIRST, FIRST + FLOWS):
             dice = random.Random(number)
             flow = Flow(dice)
@@ -144,10 +146,11 @@ class Journeys(CommandTest):
                         self.assertEqual(self.state_hash(whole), self.state_hash(self.home / out))
             with self.subTest(flow=flow.text, sweep=True):
                 self.assert_point_is_the_same(dice, number, flow, whole)
-        self.assertGreater(legs, FLOWS * JOURNEYS, "none was interrupted")
+        self.assertGreater(self.interrupted, 0)
         self.assertGreater(warned, 0)
         self.assertGreater(self.limited, 0)
-        print(f"{FLOWS} flows, {FLOWS * JOURNEYS} journeys of {legs} legs, {self.limited} of them ended by a limit")
+        print(f"{FLOWS} flows, {FLOWS * JOURNEYS} journeys of {legs} legs, "
+              f"{self.interrupted} of them ended by a signal and {self.limited} by a limit")
 
     def assert_point_is_the_same(self, dice, number, flow, whole):
         """As a point of a sweep, among others in any order."""

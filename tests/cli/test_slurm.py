@@ -1,5 +1,5 @@
 """Sweeps on a real Slurm, of one node, which the test starts: they end as local ones do, also when the
-time of a task is not enough. The script alone is looked at without Slurm."""
+time of a task is not enough. The script alone is looked at, and run, without Slurm."""
 
 import json
 import os
@@ -11,8 +11,9 @@ import time
 import unittest
 
 import slurm_cluster
-from riesel_command import BAD_INPUT, FAILED, bytes_of_files
+from riesel_command import BAD_INPUT, DONE, FAILED, PATIENCE, bytes_of_files, saved_step
 from test_sweep import ONE_FAILS, SweepTest
+from test_sweep_tasks import ENDLESS, OUT_OF_TIME
 
 FOUR = """\
 base: tube.yaml
@@ -92,7 +93,10 @@ class Script(SweepTest):
 
     def test_options_of_slurm_want_slurm(self):
         self.write("sweep.yaml", FOUR)
-        self.assertEqual(self.riesel("sweep", "sweep.yaml", "--tasks", 3).returncode, BAD_INPUT)
+        for option in (["--tasks", 3], ["--sbatch=--mem=1G"]):
+            result = self.riesel("sweep", "sweep.yaml", *option)
+            self.assertEqual(result.returncode, BAD_INPUT)
+            self.assertIn("requires --slurm", result.stderr)
 
     def test_options_that_slurm_would_ignore_are_refused(self):
         self.write("sweep.yaml", FOUR)
@@ -107,30 +111,40 @@ class Script(SweepTest):
         self.assertEqual(bytes_of_files(self.home), before)
 
 
-class Submission(SweepTest):
-    """To programs that stand for those of Slurm."""
+class StandIns(SweepTest):
+    """Programs that stand for those of Slurm."""
 
     def setUp(self):
         super().setUp()
         (self.home / "slurm").mkdir()
+        self.path = f"{self.home / 'slurm'}:{os.environ['PATH']}"
         self.stand_in("scontrol", "echo 'MaxArraySize = 1001'")
         self.stand_in("sbatch", "echo 17")
 
     def stand_in(self, name, text):
-        self.write(f"slurm/{name}", f"#!/bin/sh\n{text}\n").chmod(0o755)
+        """It also keeps what it was asked for."""
+        self.write(f"slurm/{name}", f'#!/bin/sh\necho "$*" >> "$0.txt"\n{text}\n').chmod(0o755)
+
+    def asked(self, name):
+        path = self.home / f"slurm/{name}.txt"
+        return path.read_text(encoding="utf-8").splitlines() if path.exists() else []
 
     def submit(self, *options):
-        return self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm", *options,
-                           PATH=f"{self.home / 'slurm'}:{os.environ['PATH']}")
+        return self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm", *options, PATH=self.path)
+
+
+class Submission(StandIns):
 
     def test_what_failed_is_tried_once_more(self):
         self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
         nothing = self.submit()
         self.assert_done(nothing)
         self.assertEqual(nothing.stdout, self.riesel("status", "out").stdout)
+        self.assertEqual(self.asked("sbatch"), [])
         result = self.submit("--retry-failed")
         self.assert_done(result)
         self.assertIn("submitted as job 17; see 'riesel status out'", result.stdout)
+        self.assertEqual(self.asked("sbatch"), ["--parsable out/slurm.sh"])
         self.assertIn("#SBATCH --array=1\n", (self.home / "out/slurm.sh").read_text())
         for _ in range(2):  # as if the task were queued again
             self.assertEqual(self.riesel("sweep-task", "out", 1, "--of", 3).returncode, FAILED)
@@ -145,8 +159,7 @@ class Submission(SweepTest):
             checkpoint.write_bytes(checkpoint.read_bytes()[:-100])
         further = ["--set", "run.duration=5 ms"]
         self.assertEqual(self.riesel("sweep", "out", *further).returncode, FAILED)
-        path = f"{self.home / 'slurm'}:{os.environ['PATH']}"
-        self.assert_done(self.riesel("sweep", "out", "--slurm", "--retry-failed", *further, PATH=path))
+        self.assert_done(self.riesel("sweep", "out", "--slurm", "--retry-failed", *further, PATH=self.path))
         self.assertIn("#SBATCH --array=0\n", (self.home / "out/slurm.sh").read_text())
         self.assertEqual(self.riesel("sweep-task", "out", 0, "--of", 2, *further).returncode, FAILED)
         self.assertEqual(json.loads((point / "attempts.json").read_text())["attempts"], 3)
@@ -157,6 +170,61 @@ class Submission(SweepTest):
         self.stand_in("sbatch", "exit 1")
         self.assert_failed(self.submit("--retry-failed"), "sbatch has not taken the job")
         self.assertEqual(self.riesel("status", "out").stdout, before)
+
+
+class Submitted(StandIns):
+    """The script that was submitted, as Slurm would run it: as the first task of an array."""
+
+    def start_task(self, text, *options):
+        self.write("sweep.yaml", text)
+        self.assert_done(self.submit(*options))
+        return self.start_again()
+
+    def start_again(self):
+        task = subprocess.Popen(["bash", "out/slurm.sh"], cwd=self.home, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                env={**os.environ, "PATH": self.path, "SLURM_ARRAY_JOB_ID": "17",
+                                     "SLURM_ARRAY_TASK_ID": "0"})
+        self.addCleanup(self._end, task)
+        return task
+
+    def requeued(self):
+        return [line for line in self.asked("scontrol") if line != "show config"]
+
+    def signal_within_run(self, task, number):
+        deadline = time.monotonic() + PATIENCE
+        while not list(self.home.glob("out/points/*/checkpoint.h5")):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        task.send_signal(number)
+
+    def test_what_has_ended_is_not_queued_again(self):
+        task = self.start_task(FOUR)
+        self.assertEqual((task.wait(PATIENCE), self.requeued()), (DONE, []))
+        self.assertIn(": 4 points: 1 done", self.riesel("status", "out").stdout)
+
+    def test_what_has_failed_is_not_queued_again(self):
+        task = self.start_task(ONE_FAILS.replace("2000 N/m, ", ""))
+        self.assertEqual((task.wait(PATIENCE), self.requeued()), (FAILED, []))
+
+    def test_whose_time_is_over_is_queued_again_and_goes_on(self):
+        task = self.start_task(ENDLESS, "--max-walltime", "2 s")
+        self.assertEqual((task.wait(PATIENCE), self.requeued()), (OUT_OF_TIME, ["requeue 17_0"]))
+        point, = self.home.glob("out/points/*/checkpoint.h5")
+        before = saved_step(point.parent)
+        self.assertEqual(self.start_again().wait(PATIENCE), OUT_OF_TIME)
+        self.assertGreater(saved_step(point.parent), before)
+        self.assertEqual(self.requeued(), ["requeue 17_0"] * 2)
+
+    def test_the_signal_before_the_end_of_the_time_queues_it_again(self):
+        task = self.start_task(ENDLESS)
+        self.signal_within_run(task, signal.SIGUSR1)
+        self.assertEqual((task.wait(PATIENCE), self.requeued()), (143, ["requeue 17_0"]))
+
+    def test_what_is_cancelled_is_not_queued_again(self):
+        task = self.start_task(ENDLESS)
+        self.signal_within_run(task, signal.SIGTERM)
+        self.assertEqual((task.wait(PATIENCE), self.requeued()), (143, []))
 
 
 @unittest.skipIf(slurm_cluster.why_not(), slurm_cluster.why_not())

@@ -497,11 +497,15 @@ class Mistakes(SweepTest):
         self.assert_refused(result, "tube.yaml:3:10: grains.area_fracton: unknown key")
 
     def test_on_the_command_line(self):
-        for arguments, status in ((["sweep"], BAD_INPUT), (["sweep", "x.yaml"], BAD_INPUT),
-                                  (["sweep", "tube.yaml", "--jobs", 0], BAD_INPUT),
-                                  (["status"], BAD_INPUT), (["sweep-task", "out"], BAD_INPUT)):
+        self.write("sweep.yaml", GRID)
+        for arguments, mention in ((["sweep"], "FILE"), (["sweep", "x.yaml"], "x.yaml"),
+                                   (["sweep", "sweep.yaml", "--jobs", 0], "--jobs"),
+                                   (["status"], "DIR"), (["sweep-task", "out"], "INDEX")):
             with self.subTest(arguments):
-                self.assertEqual(self.riesel(*arguments).returncode, status)
+                result = self.riesel(*arguments)
+                self.assertEqual(result.returncode, BAD_INPUT)
+                self.assertIn(mention, result.stderr)
+        self.assertFalse((self.home / "sweeps").exists())
 
     def test_options_of_running_are_refused_where_nothing_is_run(self):
         self.write("sweep.yaml", GRID)

@@ -239,6 +239,14 @@ class UntilInSweeps(UntilTest):
                    "axes: {run.until.relative_error: [20 %, 10 %]}\n"
                    "continue_along: run.until.relative_error\n")
         self.assertEqual(self.riesel("sweep", "sweep.yaml", "--out", "out").returncode, 0)
+        with open(self.home / "out/sweep.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["parent"] for row in rows], [""] + [row["point"] for row in rows[:-1]])
+        energies = [self.summary(self.home / "out/points" / row["point"])["energy"] for row in rows]
+        self.assertEqual(len(energies), 3)  # forward and back
+        for before, after in itertools.pairwise(energies):
+            left = before["kinetic"] + before["elastic"]
+            self.assertAlmostEqual(after["initial"] / left, 1.0, delta=1e-12)
 
 
 class UntilMistakes(CommandTest):

@@ -1,5 +1,7 @@
 """The command line itself: what is asked for in the wrong way, and what tells how to ask."""
 
+import re
+
 from riesel_command import BAD_INPUT, SHIPPED, CommandTest
 
 SUBCOMMANDS = ["run", "resume", "check", "report", "scenarios", "settings", "schema"]
@@ -29,6 +31,12 @@ class Usage(CommandTest):
                 result = self.riesel("help", *words)
                 self.assert_done(result)
                 self.assertEqual(result.stdout, self.riesel(*words, "--help").stdout)
+
+    def test_the_fuzzer_knows_every_key_of_the_settings(self):
+        keys = re.findall(r"^\| `([a-z_.]+)` \|", self.riesel("settings").stdout, re.MULTILINE)
+        self.assertGreater(len(keys), 50)
+        words = (SHIPPED.parent / "tests/fuzz/yaml.dict").read_text(encoding="utf-8").splitlines()
+        self.assertEqual({word for key in keys for word in key.split(".") if f'"{word}"' not in words}, set())
 
     def test_an_unknown_option_is_named(self):
         for arguments in (["--fast"], ["run", "--fast"], ["run", "--fast", "tube.yaml"]):

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 using namespace systems;
 
@@ -65,14 +66,31 @@ TEST_CASE("an overdamped contact is measured by its elastic time") {
 
 TEST_CASE("a head-on contact pulls for as long as eq. (1) says") {
   // Its overlap is a damped sine, whose second derivative vanishes (2/pi) arctan(gamma / 2 omega)
-  // of t_col before the end. The parabola that stands for it is a bit off.
-  const double gamma = GENERATE(1e3, 5e3, 1e4, 2e4);
+  // of t_col before the end. The parabola that stands for it tells less, by up to `too_little` of
+  // that, in which is the bisection, too.
+  const auto [gamma, too_little] = GENERATE(std::pair(1e3, 0.025), std::pair(5e3, 0.042),
+                                            std::pair(1e4, 0.081), std::pair(2e4, 0.167));
+  CAPTURE(gamma);
   const ContactModel model{LinearLaw{stiffness, gamma}, CappedSlip{}, 0.5, Attraction::keep};
   const double duration = LinearContact{stiffness, gamma, mass}.collision_time();
   const double exact =
       2.0 / std::numbers::pi * std::atan(gamma * duration / (2.0 * std::numbers::pi));
   const double estimated = pulling_time(lasting_for(duration), model, mass) / duration;
-  CHECK(std::abs(estimated / exact - 1.0) < 0.25);
+  CHECK(estimated / exact < 1.0);
+  CHECK(estimated / exact > 1.0 - too_little);
+}
+
+TEST_CASE("a contact pulls from where the force along its parabola vanishes") {
+  // With the overlap 4 depth s (1 - s), 0 < s < 1, that is where s (1 - s) + c (1 - 2 s) = 0 with
+  // c = gamma m / (k duration), whatever the depth. A contact that was cut short pulls for longer.
+  const double gamma = GENERATE(1e3, 5e3, 1e4, 2e4);
+  const double part = GENERATE(0.2, 0.5, 1.0);
+  CAPTURE(gamma, part);
+  const ContactModel model{LinearLaw{stiffness, gamma}, CappedSlip{}, 0.5, Attraction::keep};
+  const double duration = part * LinearContact{stiffness, gamma, mass}.collision_time();
+  const double c = gamma * mass / (stiffness * duration);
+  const double pulling = 0.5 + c - std::sqrt(0.25 + c * c);
+  CHECK(std::abs(pulling_time(lasting_for(duration), model, mass) / duration - pulling) < 1.3e-4);
 }
 
 TEST_CASE("what does not pull does not pull") {

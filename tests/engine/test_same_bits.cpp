@@ -58,6 +58,15 @@ TEST_CASE("the expected run has something to get wrong") {
   CHECK_FALSE(expected().open_visits.empty());
 }
 
+TEST_CASE("states whose zeros differ in their signs are not the same") {
+  State state = expected();
+  state.contacts.at(0).spring = 0.0;
+  State other = state;
+  other.contacts[0].spring = -0.0;
+  CHECK(same(state, state));
+  CHECK_FALSE(same(other, state));
+}
+
 TEST_CASE("windows, automatic and plain stepping give the same bits") {
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows, Stepping::automatic);
   CHECK(same(advanced(start(), paper_model(), some_steps, 1, stepping), expected()));

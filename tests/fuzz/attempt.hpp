@@ -3,14 +3,21 @@
 
 #include "io/file_error.hpp"
 
+#include <set>
+#include <string>
+
 namespace fuzz {
 
-/// Reads; that the file is refused is as good.
-template <class Read>
-void attempt(Read read) {
+/// The readers that took what they were given, since this was cleared: a replay asks.
+inline std::set<std::string> accepted_by;
+
+/// Reads; that it is refused is as good.
+template <class Refusal = riesel::io::FileError, class Read>
+void attempt(const char* reader, Read read) {
   try {
     read();
-  } catch (const riesel::io::FileError&) {
+    accepted_by.insert(reader);
+  } catch (const Refusal&) {
   }
 }
 

@@ -1,5 +1,6 @@
 // Any bytes as a table of grains: read, or refused with a SettingsError. What is read are numbers.
 #include "io/csv_table.hpp"
+#include "tests/fuzz/attempt.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -26,10 +27,7 @@ void require_numbers(const io::CsvTable& table) {
 // The name is libFuzzer's. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  try {
-    require_numbers(io::parse_csv(text, "fuzz.csv", columns));
-  } catch (const io::SettingsError&) {
-    // as good
-  }
+  fuzz::attempt<io::SettingsError>(
+      "table", [&] { require_numbers(io::parse_csv(text, "fuzz.csv", columns)); });
   return 0;
 }

@@ -156,7 +156,7 @@ void go_on_with_trajectory(const Content& content) {
   static const auto path = directory / "trajectory.h5";
   std::ofstream(path, std::ios::binary)
       .write(content.data(), static_cast<std::streamsize>(content.size()));
-  attempt([&] { reopen_small_trajectory(path); });
+  attempt("trajectory", [&] { reopen_small_trajectory(path); });
 }
 
 }  // namespace
@@ -168,12 +168,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (kind == Kind::trajectory || kind == Kind::anything) go_on_with_trajectory(content);
   if (kind == Kind::checkpoint || kind == Kind::anything) {
     const MemoryFile file(sealed(content, "checkpoint"));
-    attempt([&] { io::read_checkpoint(file.path()); });
+    attempt("checkpoint", [&] { io::read_checkpoint(file.path()); });
   }
   if (kind == Kind::run || kind == Kind::anything) {
     const MemoryFile file(sealed(content, io::run_file_kind));
-    attempt([&] { io::read_run_file(file.path()); });
-    attempt([&] {
+    attempt("run", [&] { io::read_run_file(file.path()); });
+    attempt("resume", [&] {
       io::RunFile::reopen(file.path(), {{"date", "later"}, {"run", "1f"}}, small_columns, 2);
     });
   }

@@ -4,28 +4,41 @@
 #include "io/sweep_file.hpp"
 #include "io/sweep_points.hpp"
 #include "scenarios/scenario.hpp"
+#include "tests/fuzz/attempt.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 using namespace riesel;
+using fuzz::attempt;
 
 namespace {
 
-void read_as_settings(const std::string& text) {
+/// What was written, read and written out again; why not, if it is refused.
+std::string once_more(const std::string& written) {
   try {
-    const auto& tables = scenarios::settings_tables();
-    const auto settings = io::Settings::from_text(text, "settings.yaml", tables);
-    const auto written = settings.effective_yaml();
-    const auto again = io::Settings::from_text(written, "effective.yaml", tables);
-    if (again.effective_yaml() == written) return;
-    std::fprintf(stderr, "read again, this means something else:\n%s\n", written.c_str());
-    std::abort();
-  } catch (const io::SettingsError&) {
+    return io::Settings::from_text(written, "effective.yaml", scenarios::settings_tables())
+        .effective_yaml();
+  } catch (const io::SettingsError& error) {
+    return error.what();
   }
+}
+
+void read_as_settings(const std::string& text) {
+  std::optional<io::Settings> settings;
+  attempt<io::SettingsError>("settings", [&] {
+    settings = io::Settings::from_text(text, "settings.yaml", scenarios::settings_tables());
+  });
+  if (!settings) return;
+  const auto written = settings->effective_yaml();
+  const auto again = once_more(written);
+  if (again == written) return;
+  std::fprintf(stderr, "%s\nread again, is:\n%s\n", written.c_str(), again.c_str());
+  std::abort();
 }
 
 /// Small sweeps only: the number of points is limited elsewhere, and each takes its time.
@@ -43,12 +56,11 @@ bool is_small(const io::SweepFile& sweep) {
 }
 
 void read_as_sweep(const std::string& text) {
-  try {
+  attempt<io::SettingsError>("sweep", [&] {
     const auto& tables = scenarios::settings_tables();
     const auto sweep = io::read_sweep_text(text, "sweep.yaml", tables);
     if (is_small(sweep)) io::expand(sweep, tables);
-  } catch (const io::SettingsError&) {
-  }
+  });
 }
 
 }  // namespace

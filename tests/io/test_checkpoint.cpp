@@ -5,6 +5,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/seal.hpp"
 #include "io/state_layout.hpp"
+#include "tests/bits.hpp"
 #include "tests/io/file_fixture.hpp"
 
 #include <functional>
@@ -39,7 +40,7 @@ std::string bits_of(const Checkpoint& checkpoint) {
     bits.add(blocks->samples_per_block());
     bits.add_all(blocks->sums());
   }
-  auto all = file_fixture::bits_of(checkpoint.state) + bits.value() + checkpoint.settings + '\n'
+  auto all = riesel::bits_of(checkpoint.state) + bits.value() + checkpoint.settings + '\n'
              + checkpoint.source;
   for (const auto& warning : checkpoint.warnings) all += '\n' + warning;
   return all;

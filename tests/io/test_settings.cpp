@@ -1,5 +1,6 @@
 // Settings: what a correct file yields, and that effective.yaml yields the same bits again.
 #include "tests/io/settings_fixture.hpp"
+#include "tests/scratch_directory.hpp"
 
 #include <bit>
 #include <cmath>
@@ -267,18 +268,18 @@ TEST_CASE("the tables are sound") {
 }
 
 TEST_CASE("files: missing, a directory, too large") {
-  const auto folder = std::filesystem::temp_directory_path();
+  const riesel::ScratchDirectory folder;
   const auto message = [](const std::filesystem::path& file) {
     return message_of<SettingsError>([&] { (void)Settings::from_file(file, tables()); });
   };
   CHECK(message("/nowhere/f.yaml")
         == "/nowhere/f.yaml: cannot be opened (No such file or directory); check the path");
-  CHECK(message(folder) == folder.string() + ": is a directory; give the path of a YAML file");
+  CHECK(message(folder.path())
+        == folder.path().string() + ": is a directory; give the path of a YAML file");
 
-  const auto file = folder / "riesel_test_settings.yaml";
+  const auto file = folder / "settings.yaml";
   std::ofstream(file) << tube;
   CHECK(Settings::from_file(file, tables()).source_text() == tube);
   std::ofstream(file) << std::string(1'000'001, '#');
   CHECK(message(file).find("is larger than 1000000 bytes") != std::string::npos);
-  std::filesystem::remove(file);
 }

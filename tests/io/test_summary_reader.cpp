@@ -51,8 +51,10 @@ FlowSummary special_summary() {
   s.braking_force = {.left = {1.4, 0.4}, .right = Measured{1.5, std::nan("")}, .weight = 2.9};
   s.energy = {.initial = 1.0 / 9.0,
               .kinetic = 2.1,
+              .rotational = 2.6,
               .elastic = 2.2,
               .gravity_work = -2.3,
+              .wall_work = -2.7,
               .normal_loss = 2.4,
               .friction_loss = 2.5,
               .residual = -1e-12 / 3.0};
@@ -138,11 +140,18 @@ TEST_CASE("A summary of another format is refused, and told which riesel wrote i
 TEST_CASE("Verdicts and thresholds are those of the file, words are those of this program") {
   const ScratchDirectory directory;
   const auto path = directory / summary_name;
-  overwrite(path, with(to_json(special_summary()), "\"suspect\": 0.2,", "\"suspect\": 0.001,"));
+  // Neither these thresholds nor those of this program come to these verdicts.
+  FlowSummary kept = special_summary();
+  kept.validity.verdict.verdict = Validity::valid;
+  kept.validity.verdict.findings.at(0).suspect = 0.4;
+  kept.validity.verdict.findings[0].verdict = Validity::unphysical;
+  overwrite(path, to_json(kept));
   const auto summary = std::get<FlowSummary>(read_summary(path));
+  CHECK(summary.validity.verdict.verdict == Validity::valid);
   const Finding& finding = summary.validity.verdict.findings.at(0);
-  CHECK(finding.suspect == 0.001);
-  CHECK(finding.verdict == Validity::suspect);
+  CHECK(finding.value == 0.3);
+  CHECK(finding.suspect == 0.4);
+  CHECK(finding.verdict == Validity::unphysical);
   CHECK(finding.meaning == "grains sink deep into each other");
 }
 

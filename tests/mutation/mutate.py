@@ -83,6 +83,15 @@ def check_texts(sources):
             raise SystemExit(f"{what}: its text does not stand in {file} exactly once")
 
 
+def check_rows():
+    """Of the kept table: each names a fault that there is, and the file in which it is now."""
+    files = {what: file for what, file, _, _ in FAULTS}
+    for what, file in re.findall(r"^\| (.+?) \| `(.+?)` \| ", RESULT.read_text(), re.M):
+        if files.get(what) != file:
+            where = f"is in {files[what]}" if what in files else "is gone"
+            raise SystemExit(f"{RESULT.name}: {what} ({file}): this fault {where}")
+
+
 def update_copy():
     """Only files that differ are written: a build of before is used, and forgets a fault that was left in. What is not
     committed any more goes."""
@@ -127,11 +136,13 @@ def main():
     parser.add_argument("--from", dest="first", type=int, default=1, metavar="NUMBER",
                         help="leave the first faults out: begin with this one")
     parser.add_argument("--table", type=pathlib.Path, help="the result as a Markdown table")
-    parser.add_argument("--check", action="store_true", help="only look whether all of them can be planted")
+    parser.add_argument("--check", action="store_true",
+                        help=f"only look whether all of them can be planted, and the rows of {RESULT.name} are of them")
     options = parser.parse_args()
 
     if options.check:
         check_texts(HOME)
+        check_rows()
         return 0
     prepare()
     require_passing_tests()

@@ -8,13 +8,13 @@
 //                                      one thread and of windows on two: to compare two builds
 #include "engine/state.hpp"
 #include "tests/properties/properties.hpp"
+#include "tests/scratch_directory.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -28,9 +28,7 @@ void print(std::uint64_t seed, const SetUp& set_up, const Complaints& complaints
 }
 
 int check_set_ups(std::uint64_t first, std::uint64_t count) {
-  const auto scratch =
-      std::filesystem::temp_directory_path() / ("riesel-properties-" + std::to_string(first));
-  std::filesystem::create_directories(scratch);
+  const riesel::ScratchDirectory scratch;
   std::uint64_t wrong = 0, failures = 0, without_contacts = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const SetUp set_up = random_set_up(seed);
@@ -39,13 +37,12 @@ int check_set_ups(std::uint64_t first, std::uint64_t count) {
       ++failures;
     else if (contacts_begun(expected.end) == 0)
       ++without_contacts;
-    Complaints complaints = same_bits(set_up, expected, seed, scratch);
+    Complaints complaints = same_bits(set_up, expected, seed, scratch.path());
     for (const auto& more : balances(set_up, expected)) complaints.push_back(more);
     if (complaints.empty()) continue;
     ++wrong;
     print(seed, set_up, complaints);
   }
-  std::filesystem::remove_all(scratch);
   std::printf(
       "%llu set-ups, %llu of them wrong; in %llu a run has a reason to fail, in %llu nothing "
       "touches\n",

@@ -108,6 +108,13 @@ class Flow(CommandTest):
         self.assertEqual(run.series.label("mean_vy"), "mean_vy (m/s)")
         self.assertEqual(run.series.label("contacts"), "contacts")
 
+    def test_a_column_that_is_not_there_is_a_key_error_with_those_like_it(self):
+        series = self.run_of_it.series
+        with self.assertRaisesRegex(KeyError, "mean_v: there is no such column; there is .*mean_vy"):
+            series["mean_v"]
+        with self.assertRaisesRegex(KeyError, f"xyz: there is no such column; there is {', '.join(sorted(series))}"):
+            series["xyz"]
+
     def test_the_final_state(self):
         final = self.run_of_it.final
         self.assertEqual((final.width, final.length), (0.01, 0.01))
