@@ -123,6 +123,7 @@ void DeflectedGrains::move(const FixedVector& fallen) {
 }
 
 void DeflectedGrains::clear_kicks() {
+  if (kick_.empty()) return;  // memset must have memory, also for no bytes
   std::memset(kick_.data(), 0, padded_size() * sizeof(FixedVector));
   std::fill(spin_kick_.begin(), spin_kick_.end(), 0);
 }
