@@ -89,9 +89,9 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   print_balance(s.balance);
   print_braking(s.braking_force);
   print_visits(s.wall_visits);
-  if (const double came_in = s.energy.came_in(); came_in > 0.0)
-    fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
-               s.energy.residual / came_in);
+  if (const double turned_over = s.energy.turned_over(); turned_over > 0.0)
+    fmt::print("  {:<22}{:.2g} of the energy turned over\n", "energy residual",
+               s.energy.residual / turned_over);
   print_validity(s.validity.verdict);
   print_common(s.run, directory);
 }
