@@ -15,8 +15,11 @@
 namespace riesel::app {
 
 std::string call_of(std::string_view subcommand, const std::filesystem::path& path) {
-  return fmt::format("{} {} {}", io::in_quotes(program_invocation_short_name), subcommand,
-                     io::in_quotes(path.string()));
+  return fmt::format("{} {}", call_of(subcommand), io::in_quotes(path.string()));
+}
+
+std::string call_of(std::string_view subcommand) {
+  return fmt::format("{} {}", io::in_quotes(program_invocation_short_name), subcommand);
 }
 
 std::string explanation_of_state(const io::FlowSummary& s) {

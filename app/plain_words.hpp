@@ -13,9 +13,10 @@
 
 namespace riesel::app {
 
-/// "riesel resume runs/e09", for a shell: by the name under which this program runs, as programs
-/// of others have the same command.
+/// "riesel resume runs/e09", or "riesel sweep" alone, for a shell: by the name under which this
+/// program runs, as programs of others have the same command.
 std::string call_of(std::string_view subcommand, const std::filesystem::path& path);
+std::string call_of(std::string_view subcommand);
 
 /// What the state of the flow means and, where it is too short, what is missing.
 std::string explanation_of_state(const io::FlowSummary& summary);

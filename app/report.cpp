@@ -32,8 +32,8 @@ constexpr auto figures_name = "figures";
 void require_finished_run(const fs::path& directory) {
   if (!fs::exists(directory / io::run_file_name))
     throw UnusableInput(directory.string()
-                        + ": holds no run and no sweep; give the directory of one (see 'riesel "
-                          "run' and 'riesel sweep')");
+                        + ": holds no run and no sweep; give the directory of one (see '"
+                        + call_of("run") + "' and '" + call_of("sweep") + "')");
   if (fs::exists(directory / io::summary_name)) return;
   const std::string way_on = io::DirectoryLock::is_held(directory)
                                  ? "wait until it has"

@@ -172,9 +172,8 @@ SweepPlan plan_in(const fs::path& sweep) {
     files.push_back(point_directory(sweep, point.name) / point_settings_name);
   for (const fs::path& file : files)
     if (!fs::exists(file))
-      throw UnusableInput(file.string()
-                          + ": is missing; call 'riesel sweep' with the sweep file, which makes it "
-                            "anew, and --out "
+      throw UnusableInput(file.string() + ": is missing; call '" + call_of("sweep")
+                          + "' with the sweep file, which makes it anew, and --out "
                           + io::in_quotes(sweep.string()));
   return plan;
 }
@@ -214,8 +213,8 @@ int sweep(const SweepOptions& options) {
     write_plan(plan, directory);
   }
   if (options.prepare_only) {
-    fmt::print("{}: {} points are ready for 'riesel sweep-task'\n", directory.string(),
-               plan.manifest.points.size());
+    fmt::print("{}: {} points are ready for '{}'\n", directory.string(),
+               plan.manifest.points.size(), call_of("sweep-task"));
     return exit_done;
   }
   if (options.to_slurm) {
