@@ -1,9 +1,9 @@
 #include "app/flow_summary.hpp"
 
 #include "app/cumulative.hpp"
-#include "engine/closed_forms.hpp"
 #include "engine/steady_state.hpp"
 #include "engine/time_series.hpp"
+#include "engine/typical_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,23 +19,6 @@
 namespace riesel::app {
 
 namespace {
-
-/// What a grain of the mean mass and size does that meets others and the wall with the typical
-/// random velocity: t_col, and the velocity above which it passes a wall grain sooner than the
-/// contact can push it away, chord over t_col.
-void tell_typical_contacts(const State& state, const ContactModel& model, double sigma_vx,
-                           io::FlowSummary::Validity& validity) {
-  const double mass = mean_mass(state.grains);
-  const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
-  const WallLattice& wall = state.walls.front();
-  const double reach = 0.5 * mean_diameter(state.grains) + wall.radius;
-  validity.t_col_grains = collision_time(model.normal, 0.5 * mass, speed);
-  validity.t_col_walls = collision_time(model.normal, mass, speed);
-  // A smooth wall has nothing that could be passed.
-  validity.v_crit =
-      wall.smooth() ? std::numeric_limits<double>::infinity()
-                    : chord_of_impact(reach, speed, validity.t_col_walls) / validity.t_col_walls;
-}
 
 /// Of one series after the transient.
 io::Measured mean_of(const io::RunFile& file, const std::string& name, std::size_t first) {
@@ -183,7 +166,11 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   if (steady.transient_end < samples.size()) {
     s.transient_end = file.series("time")[steady.transient_end];
     s.granular_temperature = s.fluctuations.granular_temperature.value;
-    tell_typical_contacts(state, model, s.fluctuations.sigma_vx.value, s.validity);
+    const TypicalContacts typical =
+        typical_contacts(state, model.normal, s.fluctuations.sigma_vx.value);
+    s.validity.v_crit = typical.v_crit;
+    s.validity.t_col_grains = typical.t_col_grains;
+    s.validity.t_col_walls = typical.t_col_walls;
   }
   for (std::size_t n = 1; n <= density_waves; ++n)
     s.structure_factor[n - 1] =

@@ -103,4 +103,6 @@ double chord_of_impact(double reach, double speed, double t_col) {
   return chord(reach, std::max(0.0, reach - depth));
 }
 
+double critical_velocity(double chord, double t_col) { return chord / t_col; }
+
 }  // namespace riesel

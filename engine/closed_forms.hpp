@@ -64,4 +64,7 @@ double chord(double reach, double impact_height);
 /// that begins with `speed` (m/s).
 double chord_of_impact(double reach, double speed, double t_col);
 
+/// m/s, v_crit: a body that passes the chord (m) faster is through before `t_col` (s) is over.
+double critical_velocity(double chord, double t_col);
+
 }  // namespace riesel
