@@ -8,7 +8,6 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <variant>
 
 namespace riesel::app {
 
@@ -33,19 +32,14 @@ void print_contact_at_speeds(const char* what, const ContactModel& model, double
 }  // namespace
 
 void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed) {
-  const auto* linear = std::get_if<LinearLaw>(&model.normal);
-  if (linear == nullptr) return print_contact_at_speeds(what, model, reduced_mass, speed);
-  const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass, model.attraction};
-  line(what, "t_col = {:.4g} s, e_N = {:.4f}", contact.collision_time(), contact.restitution());
+  const auto linear = linear_contact(model.normal, reduced_mass, model.attraction);
+  if (!linear) return print_contact_at_speeds(what, model, reduced_mass, speed);
+  line(what, "t_col = {:.4g} s, e_N = {:.4f}", linear->collision_time(), linear->restitution());
 }
 
 double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact) {
-  return std::visit(
-      [&](const auto& law) {
-        return elastic_max_overlap(law.elastic_line(), contact.reduced_mass, contact.speed)
-               / contact.smaller_radius;
-      },
-      normal);
+  return elastic_max_overlap(elastic_line(normal), contact.reduced_mass, contact.speed)
+         / contact.smaller_radius;
 }
 
 void warn_of_overlap(double ratio, double speed) {
