@@ -251,17 +251,14 @@ std::vector<Grain> packed_grains(const io::Settings& settings, const std::vector
                                  const State& empty) {
   const auto places = pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
   if (!places) return {};
-  const double mean_radius = 0.5 * settings.number("grains.diameter");
   std::vector<Grain> grains(radii.size());
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double relative = radii[i] / mean_radius;
+  for (std::size_t i = 0; i < grains.size(); ++i)
     grains[i] = {.x = (*places)[i].x,
                  .y = (*places)[i].y,
                  .vx = 0.0,
                  .vy = 0.0,
                  .radius = radii[i],
-                 .mass = settings.number("grains.mass") * relative * relative};
-  }
+                 .mass = mass_of_diameter(settings, 2.0 * radii[i])};
   return grains;
 }
 
