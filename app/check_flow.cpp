@@ -3,6 +3,7 @@
 #include "app/check_parts.hpp"
 #include "app/cost.hpp"
 #include "app/flow_failures.hpp"
+#include "app/plain_words.hpp"
 #include "app/schedule.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
@@ -214,8 +215,8 @@ void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
   if (precision) line("ends", "when the mean is known to {:.3g} %", 100.0 * *precision);
   line("steps", "{}{:.0f}", precision ? "at most " : "", steps);
   const double seconds = static_cast<double>(grains) * steps / speed + rows * seconds_per_row(flow);
-  line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
-       precision ? "at most " : "", readable_time(seconds), threads, threads == 1 ? "" : "s",
+  line("expected time", "{}{} on {} ({:.0f} million particle-steps/s, measured just now)",
+       precision ? "at most " : "", readable_time(seconds), so_many(threads, "thread"),
        speed / 1e6);
   const TrajectorySize trajectory = size_of_trajectory(flow.state, schedule.steps_per_frame, steps);
   print_memory(bytes_to_save(grains, rows, trajectory));

@@ -1,5 +1,6 @@
 #include "app/check_parts.hpp"
 
+#include "app/plain_words.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/impact.hpp"
 #include "engine/validity.hpp"
@@ -76,8 +77,7 @@ void warn_of_time_step(const io::Settings& settings) {
 
 void print_cost_of_curve(const CurveCost& cost, int threads) {
   line("steps", "about {:.2g}", cost.steps);
-  line("expected time", "{} on {} thread{}", readable_time(cost.seconds), threads,
-       threads == 1 ? "" : "s");
+  line("expected time", "{} on {}", readable_time(cost.seconds), so_many(threads, "thread"));
   print_memory(0.0);
 }
 

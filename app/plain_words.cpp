@@ -104,6 +104,10 @@ std::string explanation(const Finding& f) {
                      f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
 }
 
+std::string so_many(std::int64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 void add_count(std::string& text, std::int64_t count, std::string_view name) {
   if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
 }

@@ -39,6 +39,9 @@ std::string with_error(const io::Measured& measured, std::string_view unit,
 /// What speaks against a run: the value, the threshold it passed, what it means and what helps.
 std::string explanation(const Finding& finding);
 
+/// "1 thread", "4 threads"
+std::string so_many(std::int64_t count, std::string_view noun);
+
 /// Adds to "3 steady" that there are so many of another kind: "3 steady, 1 too_short". Nothing for
 /// none.
 void add_count(std::string& text, std::int64_t count, std::string_view name);

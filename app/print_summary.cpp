@@ -67,9 +67,8 @@ void print_validity(const ValidityVerdict& v) {
 }
 
 void print_common(const io::RunSummary& run, const std::filesystem::path& directory) {
-  fmt::print("  {:<22}{:.1f} million particle-steps/s on {} thread{} ({:.1f} s)\n", "speed",
-             run.particle_steps_per_second / 1e6, run.threads, run.threads == 1 ? "" : "s",
-             run.wall_seconds);
+  fmt::print("  {:<22}{:.1f} million particle-steps/s on {} ({:.1f} s)\n", "speed",
+             run.particle_steps_per_second / 1e6, so_many(run.threads, "thread"), run.wall_seconds);
   fmt::print("  {:<22}{:016x}\n", "state hash", run.state_hash);
   fmt::print("  {:<22}{}/{}, run.h5, effective.yaml\n", "files", directory.string(),
              io::summary_name);

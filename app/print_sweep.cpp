@@ -79,8 +79,8 @@ void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep
                point_directory(sweep, point.name).string(), readable_time(point.expected_seconds),
                point.status, coordinates_of(point, manifest));
   }
-  fmt::print("{} points, {} runs, about {} with {} run{} side by side\n", manifest.points.size(),
-             runs.size(), readable_time(seconds_left(manifest, jobs)), jobs, jobs == 1 ? "" : "s");
+  fmt::print("{} points, {} runs, about {} with {} side by side\n", manifest.points.size(),
+             runs.size(), readable_time(seconds_left(manifest, jobs)), so_many(jobs, "run"));
 }
 
 void print_status(const io::Manifest& manifest, const std::filesystem::path& sweep) {

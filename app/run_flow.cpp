@@ -277,9 +277,9 @@ private:
     if (past_.rows > 0 && verbosity_ != Verbosity::quiet)
       tell("{}: goes on from t = {:.6g} s, step {} of {}\n", files_.directory().path().string(),
            state.time(), state.step, schedule_.last_step);
-    tell_more("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}",
-              files_.directory().path().string(), state.grains.size(), state.step,
-              schedule_.last_step, state.time_step, threads_, threads_ == 1 ? "" : "s");
+    tell_more("{}: {} grains, {} to {} steps of {:.4g} s on {}", files_.directory().path().string(),
+              state.grains.size(), state.step, schedule_.last_step, state.time_step,
+              so_many(threads_, "thread"));
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
