@@ -95,7 +95,7 @@ SweepResult result_of(const io::ManifestPoint& point, const fs::path& sweep) {
                      .flaw = "",
                      .directory = point_directory("", point.name).generic_string(),
                      .has_report = fs::exists(directory / report_name)};
-  if (point.status != to_string(RunStatus::done)) return result;
+  if (!has_status(point, RunStatus::done)) return result;
   try {
     result.summary = io::read_summary(directory / io::summary_name);
   } catch (const io::FileError& error) {

@@ -70,7 +70,7 @@ void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
   };
   const auto gone = std::ranges::count_if(earlier, is_gone);
   const bool any_done = std::ranges::any_of(
-      earlier, [](const auto& point) { return point.status == to_string(RunStatus::done); });
+      earlier, [](const auto& point) { return has_status(point, RunStatus::done); });
   if (gone > 0 && gone == std::ssize(earlier) && any_done)
     throw UnusableInput(sweep.string()
                         + ": holds another sweep, of which no point is one of this; choose another "
@@ -98,7 +98,7 @@ void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
   prolongation.look_ahead(manifest, sweep);
   if (!retry_failed) return;
   for (io::ManifestPoint& point : manifest.points) {
-    const bool failed = point.status == to_string(RunStatus::failed);
+    const bool failed = has_status(point, RunStatus::failed);
     if (failed && !io::read_run_record(point_directory(sweep, point.name)).failure.empty())
       point.status = to_string(RunStatus::interrupted);
   }
