@@ -155,13 +155,16 @@ private:
   void note_precision() {
     if (!schedule_.relative_error || !is_time_to_look(static_cast<std::size_t>(files_.rows())))
       return;
-    const Judged judged = judged_by(simulation_.state(), interval());
-    const SteadyState so_far =
-        assess_steady_state(files_.record().series(judged.series), judged.free_fall_gain);
+    const SteadyState so_far = assess();
     precision_so_far_ =
         fmt::format("  error {:.2g} % of {:.2g} %", 100.0 * so_far.error / std::abs(so_far.mean),
                     100.0 * *schedule_.relative_error);
     tell_more("t = {:.6g} s:{}", simulation_.state().time(), precision_so_far_);
+  }
+
+  SteadyState assess() const {
+    const Judged judged = judged_by(simulation_.state(), interval());
+    return assess_steady_state(files_.record().series(judged.series), judged.free_fall_gain);
   }
 
   /// s, between two rows.
@@ -301,13 +304,14 @@ private:
     const io::RunSummary run = run_summary();  // of the time up to here
     const Strips& strips = measurements_.strips();
     const TimeBlocks& profiles = measurements_.profiles();
+    const SteadyState steady = assess();
     io::FlowSummary s =
-        summarise({files_.record(), strips, profiles, interval(), limits_.warnings()},
+        summarise({files_.record(), steady, strips, profiles, interval(), limits_.warnings()},
                   simulation_.state(), simulation_.model(), measurements_.last());
     s.run = run;
     s.ended_by = ended_by();
     files_.record().write_validity(s.validity.verdict);
-    const std::int64_t first = std::llround(s.transient_end / interval());  // sample after that
+    const auto first = static_cast<std::int64_t>(steady.transient_end);
     files_.record().write_profiles(
         strips, tube_profiles(profiles, strips, each_strip(strips), first), s.transient_end);
     files_.record().write_histograms(
