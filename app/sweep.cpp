@@ -144,6 +144,18 @@ int show_slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   return exit_done;
 }
 
+/// What would be done; nothing is written.
+int show_plan(io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
+              const SweepOptions& options, int jobs) {
+  if (options.to_slurm) {
+    refresh_for_slurm(manifest, sweep, prolongation, options.retry_failed);
+    return show_slurm_script(manifest, sweep, options);
+  }
+  prolongation.look_ahead(manifest, sweep);
+  print_plan(manifest, sweep, jobs);
+  return exit_done;
+}
+
 int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
            const SweepOptions& options) {
   const auto most = most_tasks_of_slurm();
@@ -161,6 +173,25 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongati
   const std::string job = submitted_job(manifest, sweep, prolongation, options.retry_failed);
   fmt::print("{}: submitted as job {}; see '{}'\n", sweep.string(), job, call_of("status", sweep));
   return exit_done;
+}
+
+int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryLock& locked,
+             const Prolongation& prolongation, const SweepOptions& options, int jobs) {
+  const auto write_manifest = [&](const io::Manifest& now) {
+    locked.require_in_place();
+    io::write_durably(sweep / io::manifest_name, io::to_json(now));
+  };
+  const int status = run_points(manifest, sweep, {},
+                                {.jobs = jobs,
+                                 .cores = cores(),
+                                 .retry_failed = options.retry_failed,
+                                 .max_walltime = options.max_walltime,
+                                 .prolongation = prolongation,
+                                 .on_change = write_manifest});
+  write_table(manifest, sweep);
+  print_status(manifest, sweep);
+  if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
+  return status;
 }
 
 /// The plan of a sweep that was begun: nothing of it need be written. What lacks is for its sweep
@@ -198,15 +229,7 @@ int sweep(const SweepOptions& options) {
   SweepPlan plan = begun ? plan_in(directory) : plan_sweep(options.file);
   const Prolongation prolongation(plan.manifest, directory, {}, options.overrides);
   const int jobs = options.jobs.value_or(cores());
-  if (options.dry_run) {
-    if (options.to_slurm) {
-      refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
-      return show_slurm_script(plan.manifest, directory, options);
-    }
-    prolongation.look_ahead(plan.manifest, directory);
-    print_plan(plan.manifest, directory, jobs);
-    return exit_done;
-  }
+  if (options.dry_run) return show_plan(plan.manifest, directory, prolongation, options, jobs);
   const io::DirectoryLock locked = lock(directory);
   if (!begun) {
     heed_earlier_sweep(plan, directory);
@@ -221,21 +244,7 @@ int sweep(const SweepOptions& options) {
     refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
     return submit(plan.manifest, directory, prolongation, options);
   }
-  const auto write_manifest = [&](const io::Manifest& manifest) {
-    locked.require_in_place();
-    io::write_durably(directory / io::manifest_name, io::to_json(manifest));
-  };
-  const int status = run_points(plan.manifest, directory, {},
-                                {.jobs = jobs,
-                                 .cores = cores(),
-                                 .retry_failed = options.retry_failed,
-                                 .max_walltime = options.max_walltime,
-                                 .prolongation = prolongation,
-                                 .on_change = write_manifest});
-  write_table(plan.manifest, directory);
-  print_status(plan.manifest, directory);
-  if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
-  return status;
+  return run_here(plan.manifest, directory, locked, prolongation, options, jobs);
 }
 
 }  // namespace riesel::app
