@@ -3,11 +3,12 @@
 #include "app/check_parts.hpp"
 #include "app/cost.hpp"
 #include "app/flow_failures.hpp"
+#include "app/plain_words.hpp"
 #include "app/schedule.hpp"
 #include "app/series.hpp"
 #include "app/stepping.hpp"
-#include "engine/closed_forms.hpp"
 #include "engine/observables.hpp"
+#include "engine/typical_contacts.hpp"
 #include "io/trajectory_file.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/run_limits.hpp"
@@ -23,13 +24,12 @@ namespace riesel::app {
 
 namespace {
 
-void print_critical_velocity(double chord_length, double t_col, double fastest) {
-  const double v_crit = chord_length / t_col;
+void print_critical_velocity(const TypicalContacts& typical, double fastest) {
   line("v_crit",
        "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col) with the velocities across of the "
        "start; lower in a cooler flow",
-       v_crit, chord_length);
-  if (fastest > v_crit)
+       typical.v_crit, typical.chord);
+  if (fastest > typical.v_crit)
     warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the "
          "contact can push them away (brake failure)",
          fastest);
@@ -176,21 +176,19 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
 }
 
-/// `across`: m/s, the typical velocity towards a wall.
+/// `across`: m/s, the typical velocity towards a wall. How fast grains that are at rest across will
+/// be is not known.
 void print_brake(const scenarios::Flow& flow, double across, double mean_vy) {
-  constexpr double at_rest = 1e-6;  // m/s: how fast grains will be is not known then
-  const WallLattice& wall = flow.state.walls.front();
-  if (wall.smooth()) return;
-  if (across < at_rest) {
+  if (flow.state.walls.front().smooth()) return;
+  if (across < slowest_across) {
     constexpr double about_at_rest = 0.01;  // m/s
     if (std::abs(mean_vy) > about_at_rest)
       warn("all grains move with the same velocity, and so slowly across that any along the walls "
            "is above v_crit (brake failure): give start.random_velocity");
     return;
   }
-  const double t_col = collision_time(flow.model.normal, mean_mass(flow.state.grains), across);
-  const double reach = 0.5 * mean_diameter(flow.state.grains) + wall.radius;
-  print_critical_velocity(chord_of_impact(reach, across, t_col), t_col, std::abs(mean_vy));
+  print_critical_velocity(typical_contacts(flow.state, flow.model.normal, across),
+                          std::abs(mean_vy));
 }
 
 /// Those that the run would be beyond from its beginning.
@@ -217,8 +215,8 @@ void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
   if (precision) line("ends", "when the mean is known to {:.3g} %", 100.0 * *precision);
   line("steps", "{}{:.0f}", precision ? "at most " : "", steps);
   const double seconds = static_cast<double>(grains) * steps / speed + rows * seconds_per_row(flow);
-  line("expected time", "{}{} on {} thread{} ({:.0f} million particle-steps/s, measured just now)",
-       precision ? "at most " : "", readable_time(seconds), threads, threads == 1 ? "" : "s",
+  line("expected time", "{}{} on {} ({:.0f} million particle-steps/s, measured just now)",
+       precision ? "at most " : "", readable_time(seconds), so_many(threads, "thread"),
        speed / 1e6);
   const TrajectorySize trajectory = size_of_trajectory(flow.state, schedule.steps_per_frame, steps);
   print_memory(bytes_to_save(grains, rows, trajectory));

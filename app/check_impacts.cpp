@@ -37,7 +37,7 @@ void check_impacts(const io::Settings& settings, const scenarios::ImpactCurve& c
                           ? chord(setup.reach(), curve.impacts.front().x)
                           : chord_of_impact(setup.reach(), fastest_normal, setup.collision_time);
   line("v_crit", "{:.3g} m/s: above it a grain passes a wall grain sooner than t_col",
-       path / setup.collision_time);
+       critical_velocity(path, setup.collision_time));
   const int threads = threads_for_curve(settings);
   print_cost_of_curve(measured_cost(curve, threads, 50), threads);
 }

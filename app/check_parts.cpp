@@ -1,5 +1,6 @@
 #include "app/check_parts.hpp"
 
+#include "app/plain_words.hpp"
 #include "engine/closed_forms.hpp"
 #include "engine/impact.hpp"
 #include "engine/validity.hpp"
@@ -8,7 +9,6 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <variant>
 
 namespace riesel::app {
 
@@ -33,19 +33,14 @@ void print_contact_at_speeds(const char* what, const ContactModel& model, double
 }  // namespace
 
 void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed) {
-  const auto* linear = std::get_if<LinearLaw>(&model.normal);
-  if (linear == nullptr) return print_contact_at_speeds(what, model, reduced_mass, speed);
-  const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass, model.attraction};
-  line(what, "t_col = {:.4g} s, e_N = {:.4f}", contact.collision_time(), contact.restitution());
+  const auto linear = linear_contact(model.normal, reduced_mass, model.attraction);
+  if (!linear) return print_contact_at_speeds(what, model, reduced_mass, speed);
+  line(what, "t_col = {:.4g} s, e_N = {:.4f}", linear->collision_time(), linear->restitution());
 }
 
 double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact) {
-  return std::visit(
-      [&](const auto& law) {
-        return elastic_max_overlap(law.elastic_line(), contact.reduced_mass, contact.speed)
-               / contact.smaller_radius;
-      },
-      normal);
+  return elastic_max_overlap(elastic_line(normal), contact.reduced_mass, contact.speed)
+         / contact.smaller_radius;
 }
 
 void warn_of_overlap(double ratio, double speed) {
@@ -82,8 +77,7 @@ void warn_of_time_step(const io::Settings& settings) {
 
 void print_cost_of_curve(const CurveCost& cost, int threads) {
   line("steps", "about {:.2g}", cost.steps);
-  line("expected time", "{} on {} thread{}", readable_time(cost.seconds), threads,
-       threads == 1 ? "" : "s");
+  line("expected time", "{} on {}", readable_time(cost.seconds), so_many(threads, "thread"));
   print_memory(0.0);
 }
 

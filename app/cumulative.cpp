@@ -29,7 +29,7 @@ std::vector<double> CumulativeSeries::increments(const std::string& name) const 
 
 double CumulativeSeries::total(const std::string& name) const {
   const std::vector<double> series = file_->series(name);
-  return first_ < series.size() ? series.back() - series[first_] : 0.0;
+  return series.back() - series[first_];
 }
 
 io::Measured CumulativeSeries::rate(const std::string& name) const {

@@ -11,7 +11,7 @@
 
 namespace riesel::app {
 
-/// The rows of a run from row `first` on; `interval` (s) lies between two.
+/// The rows of a run from row `first` on, which is one of them; `interval` (s) lies between two.
 class CumulativeSeries {
 public:
   CumulativeSeries(const io::RunFile& file, std::size_t first, double interval)

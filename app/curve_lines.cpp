@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace riesel::app {
 
@@ -30,9 +29,9 @@ double where_it_rises(const Points& points, double io::CurvePoint::*value, doubl
   return rise;
 }
 
-io::CurveLine line_of(double v_x, Points points) {
-  std::ranges::sort(points, {}, &io::CurvePoint::v_y);
-  io::CurveLine line{.v_x = v_x};
+/// `points`: of one v_x, by v_y.
+io::CurveLine line_of(const Points& points) {
+  io::CurveLine line{.v_x = points.front().v_x};
   line.brake_fails_at =
       where_it_rises(points, &io::CurvePoint::brake_failure_fraction, unphysical_brake_failure);
   line.two_contacts_at = where_it_rises(points, &io::CurvePoint::contacts, 2.0);
@@ -48,11 +47,24 @@ io::CurveLine line_of(double v_x, Points points) {
 
 }  // namespace
 
+std::vector<Points> points_by_v_x(std::span<const io::CurvePoint> curve) {
+  std::vector<Points> all;
+  for (const io::CurvePoint& point : curve) {
+    const auto found = std::ranges::find_if(
+        all, [&](const Points& points) { return points.front().v_x == point.v_x; });
+    if (found == all.end())
+      all.push_back({point});
+    else
+      found->push_back(point);
+  }
+  for (Points& points : all) std::ranges::stable_sort(points, {}, &io::CurvePoint::v_y);
+  return all;
+}
+
 std::vector<io::CurveLine> lines_of(std::span<const io::CurvePoint> curve) {
-  std::map<double, Points> points;
-  for (const io::CurvePoint& point : curve) points[point.v_x].push_back(point);
   std::vector<io::CurveLine> lines;
-  for (const auto& [v_x, of_this] : points) lines.push_back(line_of(v_x, of_this));
+  for (const Points& points : points_by_v_x(curve)) lines.push_back(line_of(points));
+  std::ranges::sort(lines, {}, &io::CurveLine::v_x);
   return lines;
 }
 

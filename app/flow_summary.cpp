@@ -1,11 +1,11 @@
 #include "app/flow_summary.hpp"
 
 #include "app/cumulative.hpp"
-#include "engine/closed_forms.hpp"
-#include "engine/steady_state.hpp"
 #include "engine/time_series.hpp"
+#include "engine/typical_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -20,29 +20,25 @@ namespace riesel::app {
 
 namespace {
 
-/// What a grain of the mean mass and size does that meets others and the wall with the typical
-/// random velocity: t_col, and the velocity above which it passes a wall grain sooner than the
-/// contact can push it away, chord over t_col.
-void tell_typical_contacts(const State& state, const ContactModel& model, double sigma_vx,
-                           io::FlowSummary::Validity& validity) {
-  const double mass = mean_mass(state.grains);
-  const double speed = std::max(sigma_vx, 1e-6);  // m/s; a grain at rest sinks in nowhere
-  const WallLattice& wall = state.walls.front();
-  const double reach = 0.5 * mean_diameter(state.grains) + wall.radius;
-  validity.t_col_grains = collision_time(model.normal, 0.5 * mass, speed);
-  validity.t_col_walls = collision_time(model.normal, mass, speed);
-  // A smooth wall has nothing that could be passed.
-  validity.v_crit =
-      wall.smooth() ? std::numeric_limits<double>::infinity()
-                    : chord_of_impact(reach, speed, validity.t_col_walls) / validity.t_col_walls;
-}
-
 /// Of one series after the transient.
 io::Measured mean_of(const io::RunFile& file, const std::string& name, std::size_t first) {
   const std::vector<double> series = file.series(name);
-  if (first >= series.size()) return {.value = unknown, .error = unknown};
   const MeanEstimate mean = estimate_mean(std::span(series).subspan(first));
   return {.value = mean.mean, .error = series.size() - first > 1 ? mean.error : unknown};
+}
+
+io::FlowSummary::Fluctuations fluctuations_of(const io::RunFile& file, std::size_t first) {
+  return {.sigma_vx = mean_of(file, "sigma_vx", first),
+          .sigma_vy = mean_of(file, "sigma_vy", first),
+          .granular_temperature = mean_of(file, "granular_temperature", first)};
+}
+
+std::array<io::Measured, density_waves> structure_factors_of(const io::RunFile& file,
+                                                             std::size_t first) {
+  std::array<io::Measured, density_waves> factors{};
+  for (std::size_t n = 1; n <= density_waves; ++n)
+    factors[n - 1] = mean_of(file, "structure_factor_" + std::to_string(n), first);
+  return factors;
 }
 
 /// The core of the tube, and the layers at the walls.
@@ -114,6 +110,18 @@ io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const Vi
           .of_contacts = tally.of_contacts};
 }
 
+io::FlowSummary::Energy energy_of(const State& state, const Energies& e) {
+  return {.initial = state.origin.energy,
+          .kinetic = e.kinetic,
+          .rotational = e.rotational,
+          .elastic = e.elastic,
+          .gravity_work = e.gravity_work,
+          .wall_work = e.wall_work,
+          .normal_loss = e.normal_loss,
+          .friction_loss = e.friction_loss,
+          .residual = e.residual};
+}
+
 /// A flow that gains speed only passes through its mean: there is nothing that a bar could cover.
 /// That of the temperature likewise, if that is what grows.
 void take_error_bars_off(io::FlowSummary& s) {
@@ -145,6 +153,18 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
   };
 }
 
+io::FlowSummary::Validity validity_of(const CumulativeSeries& series, const State& state,
+                                      const Energies& energies, const TypicalContacts& typical,
+                                      const std::vector<std::string>& warnings) {
+  return {.verdict = judge(evidence(series, state, energies, typical.v_crit, warnings.size())),
+          .v_crit = typical.v_crit,
+          .t_col_grains = typical.t_col_grains,
+          .t_col_walls = typical.t_col_walls,
+          .friction_failure_fraction =
+              series.ratio("wall_friction_loss_cut_short", "wall_friction_loss").value,
+          .warnings = warnings};
+}
+
 }  // namespace
 
 double steps_per_contact(const State& state) {
@@ -162,58 +182,35 @@ Judged judged_by(const State& state, double interval) {
 
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
                           const Observables& last) {
-  const auto& [file, strips, profiles, interval, warnings] = records;
-  const Judged judged = judged_by(state, interval);
-  const std::vector<double> samples = file.series(judged.series);
-  const SteadyState steady = assess_steady_state(samples, judged.free_fall_gain);
+  const auto& [file, steady, strips, profiles, interval, warnings] = records;
+  const std::size_t first = steady.transient_end;
+  const CumulativeSeries series(file, first, interval);
+  const std::vector<double> mean_vy = file.series("mean_vy");
 
   io::FlowSummary s;
   s.time = state.time();
+  s.transient_end = file.series("time")[first];
   s.state = std::string(name(steady.verdict));
-  s.judged_by = judged.series;
-  s.mean_axial_velocity = mean_of(file, "mean_vy", steady.transient_end);
+  s.judged_by = judged_by(state, interval).series;
+  s.mean_axial_velocity = mean_of(file, "mean_vy", first);
   s.independent_samples = steady.independent_samples;
-  const CumulativeSeries series(file, steady.transient_end, interval);
-  s.fluctuations = {.sigma_vx = mean_of(file, "sigma_vx", steady.transient_end),
-                    .sigma_vy = mean_of(file, "sigma_vy", steady.transient_end),
-                    .granular_temperature =
-                        mean_of(file, "granular_temperature", steady.transient_end)};
-  const double error_of_velocity = s.mean_axial_velocity.error;
-  if (steady.verdict == SteadyVerdict::accelerating) take_error_bars_off(s);
-  if (steady.transient_end < samples.size()) {
-    s.transient_end = file.series("time")[steady.transient_end];
-    s.granular_temperature = s.fluctuations.granular_temperature.value;
-    tell_typical_contacts(state, model, s.fluctuations.sigma_vx.value, s.validity);
-  }
-  for (std::size_t n = 1; n <= density_waves; ++n)
-    s.structure_factor[n - 1] =
-        mean_of(file, "structure_factor_" + std::to_string(n), steady.transient_end);
+  s.fluctuations = fluctuations_of(file, first);
+  s.granular_temperature = s.fluctuations.granular_temperature.value;
+  s.structure_factor = structure_factors_of(file, first);
   std::tie(s.core, s.wall_layers) =
-      zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(steady.transient_end));
-  const std::vector<double> mean_vy = file.series("mean_vy");
-  s.balance = balance(series, state,
-                      std::span(mean_vy).subspan(std::min(steady.transient_end, mean_vy.size())),
-                      error_of_velocity, interval);
+      zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(first));
+  s.balance = balance(series, state, std::span(mean_vy).subspan(first), s.mean_axial_velocity.error,
+                      interval);
   // Each contact is one of two grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
   s.braking_force = braking_force(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
-  s.validity.warnings = warnings;
-  s.validity.verdict =
-      judge(evidence(series, state, last.energies, s.validity.v_crit, warnings.size()));
-  s.validity.friction_failure_fraction =
-      series.ratio("wall_friction_loss_cut_short", "wall_friction_loss").value;
-  const Energies& e = last.energies;
-  s.energy = {.initial = state.origin.energy,
-              .kinetic = e.kinetic,
-              .rotational = e.rotational,
-              .elastic = e.elastic,
-              .gravity_work = e.gravity_work,
-              .wall_work = e.wall_work,
-              .normal_loss = e.normal_loss,
-              .friction_loss = e.friction_loss,
-              .residual = e.residual};
+  s.energy = energy_of(state, last.energies);
+  s.validity =
+      validity_of(series, state, last.energies,
+                  typical_contacts(state, model.normal, s.fluctuations.sigma_vx.value), warnings);
+  if (steady.verdict == SteadyVerdict::accelerating) take_error_bars_off(s);
   return s;
 }
 

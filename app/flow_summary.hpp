@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/observables.hpp"
+#include "engine/steady_state.hpp"
 #include "engine/tube_profiles.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
@@ -16,6 +17,7 @@ namespace riesel::app {
 /// What a flow leaves to be summarised.
 struct FlowRecords {
   const io::RunFile& file;
+  const SteadyState& steady;  ///< what the series says by which it is judged
   const Strips& strips;
   const TimeBlocks& profiles;                ///< a sample of the strips with each row of the series
   double interval;                           ///< s, between two rows

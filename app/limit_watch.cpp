@@ -15,13 +15,10 @@ namespace {
 /// The contact that had it, and when.
 std::string contact_with(const LargestOverlap& largest, const State& state) {
   const Contact& contact = *largest.contact;
-  const auto& [wall, grain, partner] = contact.name;
-  const std::string partners =
-      wall == no_wall ? fmt::format("between grains {} and {}", grain, partner)
-                      : fmt::format("of grain {} with grain {} of wall {}", grain, partner, wall);
+  const std::string bodies = bodies_of(contact.name);
   const bool lasts = contact.end > state.time();
-  return lasts ? fmt::format("{} since t = {:.8g} s", partners, contact.begin)
-               : fmt::format("{} from t = {:.8g} s to {:.8g} s", partners, contact.begin,
+  return lasts ? fmt::format("between {} since t = {:.8g} s", bodies, contact.begin)
+               : fmt::format("between {} from t = {:.8g} s to {:.8g} s", bodies, contact.begin,
                              contact.end);
 }
 

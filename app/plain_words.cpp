@@ -15,8 +15,11 @@
 namespace riesel::app {
 
 std::string call_of(std::string_view subcommand, const std::filesystem::path& path) {
-  return fmt::format("{} {} {}", io::in_quotes(program_invocation_short_name), subcommand,
-                     io::in_quotes(path.string()));
+  return fmt::format("{} {}", call_of(subcommand), io::in_quotes(path.string()));
+}
+
+std::string call_of(std::string_view subcommand) {
+  return fmt::format("{} {}", io::in_quotes(program_invocation_short_name), subcommand);
 }
 
 std::string explanation_of_state(const io::FlowSummary& s) {
@@ -99,6 +102,10 @@ std::string explanation(const Finding& f) {
   const double threshold = f.verdict == Validity::unphysical ? f.unphysical : f.suspect;
   return fmt::format("{} = {:.3g}, {} {:.3g}: {}; {}", f.name, f.value,
                      f.low_is_bad ? "below" : "above", threshold, f.meaning, f.remedy);
+}
+
+std::string so_many(std::int64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 void add_count(std::string& text, std::int64_t count, std::string_view name) {

@@ -13,9 +13,10 @@
 
 namespace riesel::app {
 
-/// "riesel resume runs/e09", for a shell: by the name under which this program runs, as programs
-/// of others have the same command.
+/// "riesel resume runs/e09", or "riesel sweep" alone, for a shell: by the name under which this
+/// program runs, as programs of others have the same command.
 std::string call_of(std::string_view subcommand, const std::filesystem::path& path);
+std::string call_of(std::string_view subcommand);
 
 /// What the state of the flow means and, where it is too short, what is missing.
 std::string explanation_of_state(const io::FlowSummary& summary);
@@ -37,6 +38,9 @@ std::string with_error(const io::Measured& measured, std::string_view unit,
 
 /// What speaks against a run: the value, the threshold it passed, what it means and what helps.
 std::string explanation(const Finding& finding);
+
+/// "1 thread", "4 threads"
+std::string so_many(std::int64_t count, std::string_view noun);
 
 /// Adds to "3 steady" that there are so many of another kind: "3 steady, 1 too_short". Nothing for
 /// none.

@@ -1,5 +1,7 @@
 #include "app/print_profile.hpp"
 
+#include "app/plain_words.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -39,9 +41,9 @@ void print_profile(const Simulation& simulation, const RunTimes& times, std::int
     fmt::print("{:<18}{:>10.3f}{:>8.1f}{:>12.1f}\n", row.name, row.seconds,
                100.0 * row.seconds / total, 1e9 * row.seconds / static_cast<double>(steps));
   const Way way = simulation.preferred_way();
-  fmt::print("stepped {} on {} thread{}{} at the end; one step in {} was looked at in detail, on "
+  fmt::print("stepped {} on {}{} at the end; one step in {} was looked at in detail, on "
              "the first thread\n",
-             way.by_flights ? "by windows" : "plainly", way.threads, way.threads == 1 ? "" : "s",
+             way.by_flights ? "by windows" : "plainly", so_many(way.threads, "thread"),
              way.apart ? " apart" : "", Profile::steps_per_sample);
 }
 

@@ -67,9 +67,8 @@ void print_validity(const ValidityVerdict& v) {
 }
 
 void print_common(const io::RunSummary& run, const std::filesystem::path& directory) {
-  fmt::print("  {:<22}{:.1f} million particle-steps/s on {} thread{} ({:.1f} s)\n", "speed",
-             run.particle_steps_per_second / 1e6, run.threads, run.threads == 1 ? "" : "s",
-             run.wall_seconds);
+  fmt::print("  {:<22}{:.1f} million particle-steps/s on {} ({:.1f} s)\n", "speed",
+             run.particle_steps_per_second / 1e6, so_many(run.threads, "thread"), run.wall_seconds);
   fmt::print("  {:<22}{:016x}\n", "state hash", run.state_hash);
   fmt::print("  {:<22}{}/{}, run.h5, effective.yaml\n", "files", directory.string(),
              io::summary_name);
@@ -89,9 +88,9 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   print_balance(s.balance);
   print_braking(s.braking_force);
   print_visits(s.wall_visits);
-  if (const double came_in = s.energy.came_in(); came_in > 0.0)
-    fmt::print("  {:<22}{:.2g} of the energy that came in\n", "energy residual",
-               s.energy.residual / came_in);
+  if (const double turned_over = s.energy.turned_over(); turned_over > 0.0)
+    fmt::print("  {:<22}{:.2g} of the energy turned over\n", "energy residual",
+               s.energy.residual / turned_over);
   print_validity(s.validity.verdict);
   print_common(s.run, directory);
 }

@@ -33,15 +33,13 @@ std::string coordinates_of(const io::ManifestPoint& point, const io::Manifest& m
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-bool is_done(const io::ManifestPoint& point) { return point.status == to_string(RunStatus::done); }
-
 /// s: that of all runs shared by the jobs, or of the longest chain if that takes longer.
 double seconds_left(const io::Manifest& manifest, int jobs) {
   std::map<std::string, double> until_end;  // of a run, with all that it waits for
   double all = 0.0, longest = 0.0;
   for (const io::ManifestPoint& point : manifest.points) {
     if (until_end.contains(point.name)) continue;
-    const double seconds = is_done(point) ? 0.0 : point.expected_seconds;
+    const double seconds = has_status(point, RunStatus::done) ? 0.0 : point.expected_seconds;
     const double before = point.parent.empty() ? 0.0 : until_end[point.parent];
     until_end[point.name] = before + seconds;
     all += seconds;
@@ -54,7 +52,7 @@ double seconds_left(const io::Manifest& manifest, int jobs) {
 void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& sweep) {
   std::map<std::string, int> verdicts;
   for (const io::ManifestPoint& point : manifest.points) {
-    if (!is_done(point)) continue;
+    if (!has_status(point, RunStatus::done)) continue;
     try {
       const io::Summary any =
           io::read_summary(point_directory(sweep, point.name) / io::summary_name);
@@ -79,8 +77,8 @@ void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep
                point_directory(sweep, point.name).string(), readable_time(point.expected_seconds),
                point.status, coordinates_of(point, manifest));
   }
-  fmt::print("{} points, {} runs, about {} with {} run{} side by side\n", manifest.points.size(),
-             runs.size(), readable_time(seconds_left(manifest, jobs)), jobs, jobs == 1 ? "" : "s");
+  fmt::print("{} points, {} runs, about {} with {} side by side\n", manifest.points.size(),
+             runs.size(), readable_time(seconds_left(manifest, jobs)), so_many(jobs, "run"));
 }
 
 void print_status(const io::Manifest& manifest, const std::filesystem::path& sweep) {

@@ -32,8 +32,8 @@ constexpr auto figures_name = "figures";
 void require_finished_run(const fs::path& directory) {
   if (!fs::exists(directory / io::run_file_name))
     throw UnusableInput(directory.string()
-                        + ": holds no run and no sweep; give the directory of one (see 'riesel "
-                          "run' and 'riesel sweep')");
+                        + ": holds no run and no sweep; give the directory of one (see '"
+                        + call_of("run") + "' and '" + call_of("sweep") + "')");
   if (fs::exists(directory / io::summary_name)) return;
   const std::string way_on = io::DirectoryLock::is_held(directory)
                                  ? "wait until it has"
@@ -95,7 +95,7 @@ SweepResult result_of(const io::ManifestPoint& point, const fs::path& sweep) {
                      .flaw = "",
                      .directory = point_directory("", point.name).generic_string(),
                      .has_report = fs::exists(directory / report_name)};
-  if (point.status != to_string(RunStatus::done)) return result;
+  if (!has_status(point, RunStatus::done)) return result;
   try {
     result.summary = io::read_summary(directory / io::summary_name);
   } catch (const io::FileError& error) {

@@ -178,18 +178,19 @@ private:
   void show_energy() {
     page().heading("Energy");
     const auto parts = parts_of(summary().energy);
-    const double came_in = summary().energy.came_in();
-    io::HtmlRows rows = {{"part", "J", "of what came in"}};
+    const double turned_over = summary().energy.turned_over();
+    io::HtmlRows rows = {{"part", "J", "of what was turned over"}};
     for (const EnergyPart& part : parts)
       rows.push_back({part.name, number(part.value),
-                      came_in > 0.0 ? fmt::format("{:.3g} %", 100.0 * part.value / came_in)
-                                    : std::string("not defined")});
+                      turned_over > 0.0 ? fmt::format("{:.3g} %", 100.0 * part.value / turned_over)
+                                        : std::string("not defined")});
     page().table(rows);
     if (std::ranges::all_of(parts, [](const EnergyPart& p) { return std::isfinite(p.value); }))
       draft_.add_figure(
           "energy", draw_energy(parts),
-          "Blue: energy that was there at the start or came in since. Orange: where it is. The "
-          "residual is what is missing in the balance: the error of the calculation.");
+          "Blue: energy that was there at the start or came in since; what is negative went out. "
+          "Orange: where it is. The residual is what is missing in the balance: the error of the "
+          "calculation. Turned over is what was there at the start and the sizes of the works.");
   }
 
   void show_walls() {

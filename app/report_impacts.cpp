@@ -1,10 +1,10 @@
 #include "app/report_impacts.hpp"
 
+#include "app/curve_lines.hpp"
 #include "app/plain_words.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace riesel::app {
@@ -29,7 +29,7 @@ void tell_result(const io::CurveSummary& summary, io::HtmlPage& page) {
 }
 
 void show_curves(const io::CurveSummary& summary, ReportDraft& draft) {
-  std::vector<ImpactLine> lines = lines_of(summary);
+  std::vector<ImpactLine> lines = impact_lines(summary);
   if (lines.size() > 1)
     for (ImpactLine& line : lines)
       line.name = fmt::format("v_x = {:.6g} m/s", line.points.front().v_x);
@@ -55,17 +55,10 @@ void list_points(const io::CurveSummary& summary, io::HtmlPage& page) {
 
 }  // namespace
 
-std::vector<ImpactLine> lines_of(const io::CurveSummary& summary) {
+std::vector<ImpactLine> impact_lines(const io::CurveSummary& summary) {
   std::vector<ImpactLine> lines;
-  for (const io::CurvePoint& point : summary.curve) {
-    const auto found = std::ranges::find_if(
-        lines, [&](const ImpactLine& line) { return line.points.front().v_x == point.v_x; });
-    if (found == lines.end())
-      lines.push_back({.name = "", .points = {point}});
-    else
-      found->points.push_back(point);
-  }
-  for (ImpactLine& line : lines) std::ranges::stable_sort(line.points, {}, &io::CurvePoint::v_y);
+  for (auto& points : points_by_v_x(summary.curve))
+    lines.push_back({.name = "", .points = std::move(points)});
   return lines;
 }
 

@@ -16,7 +16,7 @@ using ImpactRecord = CurveRecord<io::CurveSummary>;
 Report make_report(const ImpactRecord& record);
 
 /// A line for each v_x, without names.
-std::vector<ImpactLine> lines_of(const io::CurveSummary& summary);
+std::vector<ImpactLine> impact_lines(const io::CurveSummary& summary);
 
 /// What dashed lines of draw_impacts() mean, in words.
 std::string what_dashes_mean();

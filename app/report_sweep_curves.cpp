@@ -182,7 +182,7 @@ std::vector<ImpactPanel> impact_panels(const SweepRecord& record) {
   std::vector<ImpactLine> lines;
   for (std::size_t i = 0; i < record.results.size(); ++i) {
     if (!holds<io::CurveSummary>(record.results[i])) continue;
-    for (ImpactLine& line : lines_of(std::get<io::CurveSummary>(*record.results[i].summary))) {
+    for (ImpactLine& line : impact_lines(std::get<io::CurveSummary>(*record.results[i].summary))) {
       marks.push_back(marks_of(record.manifest, record.manifest.points[i], told));
       marks.back().push_back({.name = "v_x", .value = text_of(line.points.front().v_x, "m/s")});
       lines.push_back(std::move(line));

@@ -28,22 +28,26 @@ io::ColumnPoint point(const scenarios::ColumnCurve& curve, double gap_ratio,
   return p;
 }
 
-void write_points(io::RunFile& file, const io::ColumnSummary& summary) {
-  std::vector<std::vector<double>> rows;
-  for (const io::ColumnPoint& p : summary.column)
-    rows.push_back({p.gap_ratio, p.gap, p.restitution, p.rebound, p.detachment, p.contacts,
-                    p.contact_time, p.max_overlap, static_cast<double>(p.verdict)});
-  file.write_curve(
+void write_drops(io::RunFile& file, const io::ColumnSummary& summary) {
+  static const std::vector<PointColumn<io::ColumnPoint>> table = {
       {{"gap_ratio", "1", "Gap between the beads over velocity times t_col at the plate."},
-       {"gap", "m", "Gap between neighbouring beads before the impact."},
-       {"restitution", "1", "Square root of the energy after over that before."},
-       {"rebound", "1", "Velocity of the centre of mass after over that before, upwards."},
-       {"detachment", "1", "Part of the energy that hard beads lose which these keep."},
-       {"contacts", "1", "Number of contacts begun."},
-       {"contact_time", "s", "Sum of the durations of the contacts."},
-       {"max_overlap", "m", "Largest overlap."},
-       {"verdict", "1", "Validity: 0 valid, 1 suspect, 2 unphysical."}},
-      rows);
+       [](auto& p) { return p.gap_ratio; }},
+      {{"gap", "m", "Gap between neighbouring beads before the impact."},
+       [](auto& p) { return p.gap; }},
+      {{"restitution", "1", "Square root of the energy after over that before."},
+       [](auto& p) { return p.restitution; }},
+      {{"rebound", "1", "Velocity of the centre of mass after over that before, upwards."},
+       [](auto& p) { return p.rebound; }},
+      {{"detachment", "1", "Part of the energy that hard beads lose which these keep."},
+       [](auto& p) { return p.detachment; }},
+      {{"contacts", "1", "Number of contacts begun."}, [](auto& p) { return p.contacts; }},
+      {{"contact_time", "s", "Sum of the durations of the contacts."},
+       [](auto& p) { return p.contact_time; }},
+      {{"max_overlap", "m", "Largest overlap."}, [](auto& p) { return p.max_overlap; }},
+      {{"verdict", "1", "Validity: 0 valid, 1 suspect, 2 unphysical."},
+       [](auto& p) { return static_cast<double>(p.verdict); }},
+  };
+  write_points(file, table, summary.column);
 }
 
 }  // namespace
@@ -60,7 +64,7 @@ int run_column(const io::Settings& settings, const scenarios::ColumnCurve& curve
   return run_problems(
       settings, curve.setup.beads, directory, arguments, verbosity,
       [&](int threads) { return drop_all(curve.setup, gaps_of(curve), threads); }, summarise,
-      write_points);
+      write_drops);
 }
 
 }  // namespace riesel::app

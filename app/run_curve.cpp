@@ -45,24 +45,28 @@ io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::P
 }
 
 void write_curve(io::RunFile& file, const io::CurveSummary& summary) {
-  std::vector<std::vector<double>> rows;
-  for (const io::CurvePoint& p : summary.curve)
-    rows.push_back({p.v_x, p.v_y, p.dv_x, p.dv_y, p.contacts, p.contact_time, p.max_overlap,
-                    static_cast<double>(p.passed), static_cast<double>(p.stuck), p.cut_short,
-                    p.brake_failure_fraction, static_cast<double>(p.verdict)});
-  file.write_curve({{"v_x", "m/s", "Velocity towards the wall before the impact."},
-                    {"v_y", "m/s", "Axial velocity before the impact."},
-                    {"dv_x", "m/s", "Velocity away from the wall after the impact plus v_x."},
-                    {"dv_y", "m/s", "Loss of axial velocity."},
-                    {"contacts", "1", "Number of contacts begun."},
-                    {"contact_time", "s", "Sum of the durations of the contacts."},
-                    {"max_overlap", "m", "Largest overlap."},
-                    {"passed", "1", "Starts that went through the wall; not in the means."},
-                    {"stuck", "1", "Starts that were given up; not in the means."},
-                    {"cut_short", "1", "Number of contacts cut short."},
-                    {"brake_failure_fraction", "1", "Part of the braking that they did."},
-                    {"verdict", "1", "Validity: 0 valid, 1 suspect, 2 unphysical."}},
-                   rows);
+  static const std::vector<PointColumn<io::CurvePoint>> table = {
+      {{"v_x", "m/s", "Velocity towards the wall before the impact."},
+       [](auto& p) { return p.v_x; }},
+      {{"v_y", "m/s", "Axial velocity before the impact."}, [](auto& p) { return p.v_y; }},
+      {{"dv_x", "m/s", "Velocity away from the wall after the impact plus v_x."},
+       [](auto& p) { return p.dv_x; }},
+      {{"dv_y", "m/s", "Loss of axial velocity."}, [](auto& p) { return p.dv_y; }},
+      {{"contacts", "1", "Number of contacts begun."}, [](auto& p) { return p.contacts; }},
+      {{"contact_time", "s", "Sum of the durations of the contacts."},
+       [](auto& p) { return p.contact_time; }},
+      {{"max_overlap", "m", "Largest overlap."}, [](auto& p) { return p.max_overlap; }},
+      {{"passed", "1", "Starts that went through the wall; not in the means."},
+       [](auto& p) { return static_cast<double>(p.passed); }},
+      {{"stuck", "1", "Starts that were given up; not in the means."},
+       [](auto& p) { return static_cast<double>(p.stuck); }},
+      {{"cut_short", "1", "Number of contacts cut short."}, [](auto& p) { return p.cut_short; }},
+      {{"brake_failure_fraction", "1", "Part of the braking that they did."},
+       [](auto& p) { return p.brake_failure_fraction; }},
+      {{"verdict", "1", "Validity: 0 valid, 1 suspect, 2 unphysical."},
+       [](auto& p) { return static_cast<double>(p.verdict); }},
+  };
+  write_points(file, table, summary.curve);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "app/exit_status.hpp"
 #include "app/flow_failures.hpp"
 #include "app/flow_measurements.hpp"
+#include "app/flow_result.hpp"
 #include "app/flow_summary.hpp"
 #include "app/interrupt.hpp"
 #include "app/limit_watch.hpp"
@@ -19,11 +20,10 @@
 #include "app/terminal.hpp"
 #include "app/time_limit.hpp"
 #include "engine/hash.hpp"
-#include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
 #include "engine/steady_state.hpp"
 #include "engine/stopping_rule.hpp"
-#include "engine/tube_profiles.hpp"
+#include "engine/time_blocks.hpp"
 #include "io/provenance.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_limits.hpp"
@@ -76,13 +76,13 @@ public:
         schedule_(settings_, state.time_step),
         threads_(threads_for(settings_, state.grains.size())),
         simulation_(std::move(state), model, threads_, stepping_of(settings_)),
-        run_(past_.rows == 0 ? identity_of(settings_, simulation_.state()) : past_.run),
+        run_(goes_on() ? past_.run : identity_of(settings_, simulation_.state())),
         limits_(scenarios::run_limits(settings_), past_.warnings),
         files_(std::move(directory), origin(arguments), past_.rows, simulation_.state(),
                schedule_.steps_per_frame),
-        measurements_(past_.rows == 0 ? FlowMeasurements(simulation_.state())
-                                      : FlowMeasurements(simulation_.state(), past_.profiles,
-                                                         past_.histograms)),
+        measurements_(goes_on()
+                          ? FlowMeasurements(simulation_.state(), past_.profiles, past_.histograms)
+                          : FlowMeasurements(simulation_.state())),
         progress_(options.verbosity),
         time_limit_(options.max_walltime),
         first_step_(simulation_.state().step) {
@@ -91,15 +91,10 @@ public:
 
   int run() {
     start_ = last_checkpoint_ = Clock::now();
-    if (past_.rows > 0) files_.directory().go_on(settings_);
-    if (past_.rows > 0 && (!is_over() || past_.had_other_settings))
-      files_.directory().drop_report();
+    if (goes_on()) take_up_directory();
     tell_beginning();
     try {
-      if (files_.rows() == 0) begin();
-      if (past_.had_other_settings) keep_settings();
-      if (past_.rows > 0) look_where_it_stopped();
-      if (time_limit_.asks_to_save(files_.rows())) save();
+      set_out();
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
       return fail(failure,
@@ -121,6 +116,21 @@ private:
             .source = past_.source,
             .settings = settings_.effective_yaml(),
             .run = run_};
+  }
+
+  bool goes_on() const { return past_.rows > 0; }
+
+  /// Where this run has been before.
+  void take_up_directory() {
+    files_.directory().go_on(settings_);
+    if (!is_over() || past_.had_other_settings) files_.directory().drop_report();
+  }
+
+  void set_out() {
+    if (!goes_on()) begin();
+    if (past_.had_other_settings) keep_settings();
+    if (goes_on()) look_where_it_stopped();
+    if (time_limit_.asks_to_save(files_.rows())) save();
   }
 
   /// The first row, frame and checkpoint: from here on nothing is lost.
@@ -155,13 +165,16 @@ private:
   void note_precision() {
     if (!schedule_.relative_error || !is_time_to_look(static_cast<std::size_t>(files_.rows())))
       return;
-    const Judged judged = judged_by(simulation_.state(), interval());
-    const SteadyState so_far =
-        assess_steady_state(files_.record().series(judged.series), judged.free_fall_gain);
+    const SteadyState so_far = assess();
     precision_so_far_ =
         fmt::format("  error {:.2g} % of {:.2g} %", 100.0 * so_far.error / std::abs(so_far.mean),
                     100.0 * *schedule_.relative_error);
     tell_more("t = {:.6g} s:{}", simulation_.state().time(), precision_so_far_);
+  }
+
+  SteadyState assess() const {
+    const Judged judged = judged_by(simulation_.state(), interval());
+    return assess_steady_state(files_.record().series(judged.series), judged.free_fall_gain);
   }
 
   /// s, between two rows.
@@ -274,12 +287,12 @@ private:
 
   void tell_beginning() {
     const State& state = simulation_.state();
-    if (past_.rows > 0 && verbosity_ != Verbosity::quiet)
+    if (goes_on() && verbosity_ != Verbosity::quiet)
       tell("{}: goes on from t = {:.6g} s, step {} of {}\n", files_.directory().path().string(),
            state.time(), state.step, schedule_.last_step);
-    tell_more("{}: {} grains, {} to {} steps of {:.4g} s on {} thread{}",
-              files_.directory().path().string(), state.grains.size(), state.step,
-              schedule_.last_step, state.time_step, threads_, threads_ == 1 ? "" : "s");
+    tell_more("{}: {} grains, {} to {} steps of {:.4g} s on {}", files_.directory().path().string(),
+              state.grains.size(), state.step, schedule_.last_step, state.time_step,
+              so_many(threads_, "thread"));
   }
 
   double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
@@ -299,25 +312,17 @@ private:
   int tell_result() {
     files_.directory().require_in_place();
     const io::RunSummary run = run_summary();  // of the time up to here
-    const Strips& strips = measurements_.strips();
-    const TimeBlocks& profiles = measurements_.profiles();
-    io::FlowSummary s =
-        summarise({files_.record(), strips, profiles, interval(), limits_.warnings()},
-                  simulation_.state(), simulation_.model(), measurements_.last());
+    const State& state = simulation_.state();
+    const SteadyState steady = assess();
+    io::FlowSummary s = summarise({files_.record(), steady, measurements_.strips(),
+                                   measurements_.profiles(), interval(), limits_.warnings()},
+                                  state, simulation_.model(), measurements_.last());
     s.run = run;
     s.ended_by = ended_by();
-    files_.record().write_validity(s.validity.verdict);
-    const std::int64_t first = std::llround(s.transient_end / interval());  // sample after that
-    files_.record().write_profiles(
-        strips, tube_profiles(profiles, strips, each_strip(strips), first), s.transient_end);
-    files_.record().write_histograms(
-        histogram_tables(simulation_.state().tally, measurements_.histograms(), first, interval()),
-        s.transient_end);
-    files_.record().flush();
-    files_.directory().write_summary(io::to_json(s));
+    write_result(s, measurements_, state.tally, static_cast<std::int64_t>(steady.transient_end),
+                 interval(), files_);
     if (verbosity_ != Verbosity::quiet) print_summary(s, files_.directory().path());
-    if (simulation_.profile().on())
-      print_profile(simulation_, times_, simulation_.state().step - first_step_);
+    if (simulation_.profile().on()) print_profile(simulation_, times_, state.step - first_step_);
     return exit_done;
   }
 

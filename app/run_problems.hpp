@@ -12,8 +12,29 @@
 
 #include <cstdint>
 #include <numeric>
+#include <vector>
 
 namespace riesel::app {
+
+/// A column of the curve in run.h5, and what a point has in it.
+template <class Point>
+struct PointColumn {
+  io::Column column;
+  double (*value)(const Point&);
+};
+
+template <class Point>
+void write_points(io::RunFile& file, const std::vector<PointColumn<Point>>& table,
+                  const std::vector<Point>& points) {
+  std::vector<io::Column> columns;
+  for (const auto& [column, value] : table) columns.push_back(column);
+  std::vector<std::vector<double>> rows;
+  for (const Point& point : points) {
+    rows.emplace_back();
+    for (const auto& [column, value] : table) rows.back().push_back(value(point));
+  }
+  file.write_curve(columns, rows);
+}
 
 /// Computes the curve and writes its run directory; returns the exit status.
 ///   follow(threads)             vector of results, each with the `steps` that it took and a

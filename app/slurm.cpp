@@ -39,7 +39,7 @@ std::string ranges_of(const std::vector<std::size_t>& numbers) {
 std::vector<std::size_t> open_parts(const io::Manifest& manifest, std::size_t count) {
   std::set<std::string> over;
   for (const io::ManifestPoint& point : manifest.points)
-    if (point.status == to_string(RunStatus::done) || point.status == to_string(RunStatus::failed))
+    if (has_status(point, RunStatus::done) || has_status(point, RunStatus::failed))
       over.insert(point.name);
   const auto parts = parts_of(manifest, count);
   std::vector<std::size_t> open;

@@ -70,7 +70,7 @@ void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
   };
   const auto gone = std::ranges::count_if(earlier, is_gone);
   const bool any_done = std::ranges::any_of(
-      earlier, [](const auto& point) { return point.status == to_string(RunStatus::done); });
+      earlier, [](const auto& point) { return has_status(point, RunStatus::done); });
   if (gone > 0 && gone == std::ssize(earlier) && any_done)
     throw UnusableInput(sweep.string()
                         + ": holds another sweep, of which no point is one of this; choose another "
@@ -98,7 +98,7 @@ void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
   prolongation.look_ahead(manifest, sweep);
   if (!retry_failed) return;
   for (io::ManifestPoint& point : manifest.points) {
-    const bool failed = point.status == to_string(RunStatus::failed);
+    const bool failed = has_status(point, RunStatus::failed);
     if (failed && !io::read_run_record(point_directory(sweep, point.name)).failure.empty())
       point.status = to_string(RunStatus::interrupted);
   }
@@ -144,6 +144,18 @@ int show_slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   return exit_done;
 }
 
+/// What would be done; nothing is written.
+int show_plan(io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
+              const SweepOptions& options, int jobs) {
+  if (options.to_slurm) {
+    refresh_for_slurm(manifest, sweep, prolongation, options.retry_failed);
+    return show_slurm_script(manifest, sweep, options);
+  }
+  prolongation.look_ahead(manifest, sweep);
+  print_plan(manifest, sweep, jobs);
+  return exit_done;
+}
+
 int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
            const SweepOptions& options) {
   const auto most = most_tasks_of_slurm();
@@ -163,6 +175,25 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongati
   return exit_done;
 }
 
+int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryLock& locked,
+             const Prolongation& prolongation, const SweepOptions& options, int jobs) {
+  const auto write_manifest = [&](const io::Manifest& now) {
+    locked.require_in_place();
+    io::write_durably(sweep / io::manifest_name, io::to_json(now));
+  };
+  const int status = run_points(manifest, sweep, {},
+                                {.jobs = jobs,
+                                 .cores = cores(),
+                                 .retry_failed = options.retry_failed,
+                                 .max_walltime = options.max_walltime,
+                                 .prolongation = prolongation,
+                                 .on_change = write_manifest});
+  write_table(manifest, sweep);
+  print_status(manifest, sweep);
+  if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
+  return status;
+}
+
 /// The plan of a sweep that was begun: nothing of it need be written. What lacks is for its sweep
 /// file to make.
 SweepPlan plan_in(const fs::path& sweep) {
@@ -172,9 +203,8 @@ SweepPlan plan_in(const fs::path& sweep) {
     files.push_back(point_directory(sweep, point.name) / point_settings_name);
   for (const fs::path& file : files)
     if (!fs::exists(file))
-      throw UnusableInput(file.string()
-                          + ": is missing; call 'riesel sweep' with the sweep file, which makes it "
-                            "anew, and --out "
+      throw UnusableInput(file.string() + ": is missing; call '" + call_of("sweep")
+                          + "' with the sweep file, which makes it anew, and --out "
                           + io::in_quotes(sweep.string()));
   return plan;
 }
@@ -199,44 +229,22 @@ int sweep(const SweepOptions& options) {
   SweepPlan plan = begun ? plan_in(directory) : plan_sweep(options.file);
   const Prolongation prolongation(plan.manifest, directory, {}, options.overrides);
   const int jobs = options.jobs.value_or(cores());
-  if (options.dry_run) {
-    if (options.to_slurm) {
-      refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
-      return show_slurm_script(plan.manifest, directory, options);
-    }
-    prolongation.look_ahead(plan.manifest, directory);
-    print_plan(plan.manifest, directory, jobs);
-    return exit_done;
-  }
+  if (options.dry_run) return show_plan(plan.manifest, directory, prolongation, options, jobs);
   const io::DirectoryLock locked = lock(directory);
   if (!begun) {
     heed_earlier_sweep(plan, directory);
     write_plan(plan, directory);
   }
   if (options.prepare_only) {
-    fmt::print("{}: {} points are ready for 'riesel sweep-task'\n", directory.string(),
-               plan.manifest.points.size());
+    fmt::print("{}: {} points are ready for '{}'\n", directory.string(),
+               plan.manifest.points.size(), call_of("sweep-task"));
     return exit_done;
   }
   if (options.to_slurm) {
     refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
     return submit(plan.manifest, directory, prolongation, options);
   }
-  const auto write_manifest = [&](const io::Manifest& manifest) {
-    locked.require_in_place();
-    io::write_durably(directory / io::manifest_name, io::to_json(manifest));
-  };
-  const int status = run_points(plan.manifest, directory, {},
-                                {.jobs = jobs,
-                                 .cores = cores(),
-                                 .retry_failed = options.retry_failed,
-                                 .max_walltime = options.max_walltime,
-                                 .prolongation = prolongation,
-                                 .on_change = write_manifest});
-  write_table(plan.manifest, directory);
-  print_status(plan.manifest, directory);
-  if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
-  return status;
+  return run_here(plan.manifest, directory, locked, prolongation, options, jobs);
 }
 
 }  // namespace riesel::app

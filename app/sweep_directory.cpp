@@ -58,6 +58,10 @@ std::string to_string(RunStatus status) {
   return {};
 }
 
+bool has_status(const io::ManifestPoint& point, RunStatus status) {
+  return point.status == to_string(status);
+}
+
 fs::path point_directory(const fs::path& sweep, const std::string& name) {
   return sweep / "points" / name;
 }

@@ -19,6 +19,9 @@ enum class RunStatus {
 
 std::string to_string(RunStatus status);
 
+/// By the snapshot in the manifest.
+bool has_status(const io::ManifestPoint& point, RunStatus status);
+
 struct RunStanding {
   RunStatus status = RunStatus::waiting;
   int attempts = 0;

@@ -4,6 +4,7 @@
 #include "app/clock.hpp"
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
+#include "app/plain_words.hpp"
 #include "app/progress.hpp"
 #include "app/run_directory.hpp"
 #include "app/terminal.hpp"
@@ -226,7 +227,9 @@ private:
     if (was_stopped(*end)) {
       job.status = RunStatus::interrupted;
       if (job.starts == most_starts && ending_signal() == 0)
-        tell_of("point {} was stopped {} times; 'riesel sweep' goes on with it", job, most_starts);
+        tell_of(
+            "point {} was stopped {}", job,
+            fmt::format("{} times; '{}' goes on with it", most_starts, call_of("sweep", sweep_)));
       return;
     }
     fail(job, reason_of(job, *end));

@@ -12,10 +12,9 @@ namespace {
 /// s, duration of a contact that nothing cuts short. An overdamped one creeps apart and has none:
 /// the elastic time stands for it.
 double undisturbed_time(const NormalLaw& normal, double mass, double speed) {
-  if (const auto* linear = std::get_if<LinearLaw>(&normal)) {
-    const LinearContact contact{linear->k_n, linear->gamma_n, mass};
-    if (!contact.rebounds()) return elastic_collision_time(linear->elastic_line(), mass, speed);
-  }
+  const auto linear = linear_contact(normal, mass);
+  if (linear && !linear->rebounds())
+    return elastic_collision_time(elastic_line(normal), mass, speed);
   return collision_time(normal, mass, speed);
 }
 

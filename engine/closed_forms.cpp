@@ -50,6 +50,13 @@ double LinearContact::restitution() const {
   return std::exp(-(attraction == Attraction::clip ? pushed_decay(decay) : decay));
 }
 
+std::optional<LinearContact> linear_contact(const NormalLaw& normal, double reduced_mass,
+                                            Attraction attraction) {
+  const auto* law = std::get_if<LinearLaw>(&normal);
+  if (law == nullptr) return std::nullopt;
+  return LinearContact{law->k_n, law->gamma_n, reduced_mass, attraction};
+}
+
 double damping_for_restitution(double restitution, double k_n, double reduced_mass,
                                Attraction attraction) {
   const bool clips = attraction == Attraction::clip;
@@ -59,6 +66,10 @@ double damping_for_restitution(double restitution, double k_n, double reduced_ma
   const double log_e = std::log(restitution);
   const double decay = clips ? decay_by_pushed(-log_e) : -log_e;
   return 2.0 * decay * std::sqrt(k_n / reduced_mass / (pi * pi + decay * decay));
+}
+
+ElasticLine elastic_line(const NormalLaw& normal) {
+  return std::visit([](const auto& law) { return law.elastic_line(); }, normal);
 }
 
 double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed) {
@@ -76,13 +87,8 @@ double elastic_collision_time(const ElasticLine& line, double reduced_mass, doub
 }
 
 double collision_time(const NormalLaw& normal, double reduced_mass, double speed) {
-  if (const auto* linear = std::get_if<LinearLaw>(&normal))
-    return LinearContact{linear->k_n, linear->gamma_n, reduced_mass}.collision_time();
-  return std::visit(
-      [&](const auto& law) {
-        return elastic_collision_time(law.elastic_line(), reduced_mass, speed);
-      },
-      normal);
+  if (const auto linear = linear_contact(normal, reduced_mass)) return linear->collision_time();
+  return elastic_collision_time(elastic_line(normal), reduced_mass, speed);
 }
 
 double slip_gain_by_turning(double inertia) { return inertia > 0.0 ? 1.0 + 1.0 / inertia : 1.0; }
@@ -102,5 +108,7 @@ double chord_of_impact(double reach, double speed, double t_col) {
   const double depth = speed * t_col / pi;
   return chord(reach, std::max(0.0, reach - depth));
 }
+
+double critical_velocity(double chord, double t_col) { return chord / t_col; }
 
 }  // namespace riesel

@@ -8,6 +8,8 @@
 
 #include "engine/contact_law.hpp"
 
+#include <optional>
+
 namespace riesel {
 
 /// A linear contact of two bodies: k_N in N/m, gamma_N in 1/s, reduced mass in kg.
@@ -27,6 +29,10 @@ struct LinearContact {
   double restitution() const;
 };
 
+/// The contact of two bodies under the linear law; nothing under another one.
+std::optional<LinearContact> linear_contact(const NormalLaw& normal, double reduced_mass,
+                                            Attraction attraction = Attraction::keep);
+
 /// What critical damping leaves to a linear contact that may not pull: exp(-2). More damping leaves
 /// less: exp(-(beta/Omega) ln((beta + Omega)/(beta - Omega))), beta = gamma_N/2 and Omega^2 =
 /// beta^2 - k_N/m_red.
@@ -36,6 +42,9 @@ inline constexpr double least_restitution_without_pull = 0.13533528323661270;
 /// Throws std::domain_error if it may not pull and e_N is not above least_restitution_without_pull.
 double damping_for_restitution(double restitution, double k_n, double reduced_mass,
                                Attraction attraction);
+
+/// The elastic part of any law.
+ElasticLine elastic_line(const NormalLaw& normal);
 
 /// s, duration of an undamped head-on contact under F = k xi^alpha that begins with the given speed
 /// (m/s). For alpha = 1 it does not depend on the speed; for others it has none at speed 0 (not a
@@ -63,5 +72,8 @@ double chord(double reach, double impact_height);
 /// m, the chord of a body that has sunk in as deep as in a head-on contact of duration `t_col` (s)
 /// that begins with `speed` (m/s).
 double chord_of_impact(double reach, double speed, double t_col);
+
+/// m/s, v_crit: a body that passes the chord (m) faster is through before `t_col` (s) is over.
+double critical_velocity(double chord, double t_col);
 
 }  // namespace riesel

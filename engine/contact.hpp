@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct ContactName {
 };
 
 inline constexpr std::int32_t no_wall = -1;
+
+/// "grain 3 and grain 4", "grain 3 and grain 7 of wall 0"
+std::string bodies_of(const ContactName& name);
 
 /// A contact whose force is no usable number.
 struct Trouble {

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 
 namespace riesel {
 
@@ -137,8 +136,7 @@ namespace {
 /// Of a body of the reduced mass, on another so large that overlaps do not matter.
 ImpactSetup head_on(const ContactModel& model, double reduced_mass, double speed) {
   constexpr double radius_in_overlaps = 20.0;
-  const ElasticLine line =
-      std::visit([](const auto& law) { return law.elastic_line(); }, model.normal);
+  const ElasticLine line = elastic_line(model.normal);
   const double radius = radius_in_overlaps * elastic_max_overlap(line, reduced_mass, speed);
   return {.grain_radius = radius,
           .grain_mass = reduced_mass,

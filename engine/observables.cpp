@@ -276,14 +276,14 @@ LargestOverlap largest_overlap(const State& state) {
   return of_walls.ratio > of_grains.ratio ? of_walls : of_grains;
 }
 
-double energy_turned_over(const State& state, const Energies& energies) {
-  return state.origin.energy + std::abs(energies.gravity_work) + std::abs(energies.wall_work);
+double energy_turned_over(double initial, double gravity_work, double wall_work) {
+  return initial + std::abs(gravity_work) + std::abs(wall_work);
 }
 
 double energy_error_ratio(const State& state, const Energies& energies) {
   const double error = std::abs(energies.residual) + energies.won;
   if (error == 0.0) return 0.0;
-  return error / energy_turned_over(state, energies);
+  return error / energy_turned_over(state.origin.energy, energies.gravity_work, energies.wall_work);
 }
 
 }  // namespace riesel

@@ -73,9 +73,9 @@ struct LargestOverlap {
 };
 LargestOverlap largest_overlap(const State& state);
 
-/// J, what the run began with and the sizes of the work of gravity and of that of walls, which may
-/// be negative. `energies` are those of `state`.
-double energy_turned_over(const State& state, const Energies& energies);
+/// J, what errors of the energy are measured by: what the run began with and the sizes of the work
+/// of gravity and of that of walls, which are negative where they take energy.
+double energy_turned_over(double initial, double gravity_work, double wall_work);
 
 /// How much of the energy of `state` is an error of the time step: the size of the residual, and
 /// what contacts have won that should have lost, as a part of the energy turned over.

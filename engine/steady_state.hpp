@@ -23,7 +23,7 @@ enum class SteadyVerdict {
 /// of those too, but of no less than the second half of the series.
 struct SteadyState {
   SteadyVerdict verdict;
-  std::size_t transient_end;    ///< index of the first sample after the transient
+  std::size_t transient_end;    ///< index of the first sample after the transient: there is one
   double mean;                  ///< a property of the flow only if `verdict` is `steady`
   double error;                 ///< of the mean, 68 %
   double autocorrelation_time;  ///< sample intervals per independent sample

@@ -11,14 +11,6 @@ namespace riesel {
 
 namespace {
 
-std::string partners(const ContactName& name) {
-  const std::string grain = "grain " + std::to_string(name.grain);
-  const std::string partner = std::to_string(name.partner);
-  return name.wall == no_wall
-             ? grain + " and grain " + partner
-             : grain + " and grain " + partner + " of wall " + std::to_string(name.wall);
-}
-
 /// Not each side has a wall.
 bool has_open_side(const State& state) { return state.walls.size() < 2; }
 
@@ -91,7 +83,7 @@ void Stepper::fail_if_in_trouble() const {
     lost = first_of(lost, slice.lost);
   }
   if (trouble && !(lost && lost->step < trouble->step))
-    throw RunFailure("the force between " + partners(trouble->contact) + " is not finite "
+    throw RunFailure("the force between " + bodies_of(trouble->contact) + " is not finite "
                      + when(trouble->step, state_.time_step) + "; a shorter time step may help");
   if (!lost) return;
   const bool through_open_side = !lost->thrown && has_open_side(state_);

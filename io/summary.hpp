@@ -5,6 +5,7 @@
 
 #include "engine/density_waves.hpp"
 #include "engine/estimate.hpp"
+#include "engine/observables.hpp"
 #include "engine/rigid_column.hpp"
 #include "engine/validity.hpp"
 #include "engine/wall_visits.hpp"
@@ -87,8 +88,8 @@ struct FlowSummary {
   struct Energy {
     double initial = 0.0, kinetic = 0.0, rotational = 0.0, elastic = 0.0, gravity_work = 0.0,
            wall_work = 0.0, normal_loss = 0.0, friction_loss = 0.0, residual = 0.0;
-    /// What was there at the start and what gravity and walls have put in.
-    double came_in() const { return initial + gravity_work + wall_work; }
+    /// What the residual is measured by, here as in the verdict.
+    double turned_over() const { return energy_turned_over(initial, gravity_work, wall_work); }
   } energy;
 
   /// What grains do at a wall between coming and going.

@@ -65,9 +65,10 @@ Problem prepare(const io::Settings& settings) {
   setup.time_step =
       time_step(settings, setup.model, collision_time(settings, setup.model, 0.5 * setup.bead_mass),
                 0.5 * setup.bead_mass);
-  const auto& law = std::get<LinearLaw>(setup.model.normal);
   const auto restitution = [&](double reduced_mass) {
-    return LinearContact{law.k_n, law.gamma_n, reduced_mass, setup.model.attraction}.restitution();
+    return linear_contact(setup.model.normal, reduced_mass, setup.model.attraction)
+        .value()
+        .restitution();
   };
   curve.rigid =
       rigid_column(setup.beads, restitution(0.5 * setup.bead_mass), restitution(setup.bead_mass));

@@ -100,10 +100,9 @@ double inertia(const io::Settings& settings) {
 
 double collision_time(const io::Settings& settings, const ContactModel& model,
                       double reduced_mass) {
-  if (const auto* linear = std::get_if<LinearLaw>(&model.normal)) {
-    const LinearContact contact{linear->k_n, linear->gamma_n, reduced_mass};
-    if (!contact.rebounds()) reject_overdamped(settings, contact);
-    return contact.collision_time();
+  if (const auto linear = linear_contact(model.normal, reduced_mass)) {
+    if (!linear->rebounds()) reject_overdamped(settings, *linear);
+    return linear->collision_time();
   }
   return riesel::collision_time(model.normal, reduced_mass,
                                 settings.number("contact.impact_speed"));

@@ -1,10 +1,9 @@
 #include "scenarios/flow_start.hpp"
 
-#include "engine/exact_sum.hpp"
-#include "engine/observables.hpp"
 #include "engine/random.hpp"
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/continued_start.hpp"
+#include "scenarios/flow_refusals.hpp"
 #include "scenarios/grain_file.hpp"
 #include "scenarios/packing.hpp"
 #include "scenarios/run_length.hpp"
@@ -95,39 +94,6 @@ void set_velocities(const io::Settings& settings, const State& empty, std::vecto
   }
 }
 
-/// What falls freely from one look to the next must not get so fast that it seems slow again.
-void reject_strong_gravity(const io::Settings& settings, std::size_t grains, const State& state) {
-  const double largest = largest_speed(state.box, state.time_step, grains)
-                         / (static_cast<double>(steps_per_look) * state.time_step);
-  if (std::hypot(state.gravity.x, state.gravity.y) < largest) return;
-  settings.reject(
-      "gravity",
-      fmt::format("too strong for this tube and a time step of {:.3g} s", state.time_step),
-      fmt::format("choose less than {:.3g} m/s^2, or a shorter time step: a light grain or a stiff "
-                  "contact (do grains.mass and contact.stiffness have their units?)",
-                  largest));
-}
-
-/// Velocities change by whole quanta in a step: where it is very short, or gravity very small, by a
-/// gravity of other size than is set.
-void reject_rounded_gravity(const io::Settings& settings, const State& state) {
-  constexpr double tolerated = 1e-3;  // of gravity
-  const Box& box = state.box;
-  const FixedVector fall = fall_per_step(state);
-  const double per_step2 = 1.0 / (state.time_step * state.time_step);
-  const double error = std::hypot(box.metres_x(fall.x) * per_step2 - state.gravity.x,
-                                  box.metres_y(fall.y) * per_step2 - state.gravity.y);
-  const double gravity = std::hypot(state.gravity.x, state.gravity.y);
-  if (error <= tolerated * gravity) return;
-  constexpr auto steps_key = "run.steps_per_collision";
-  settings.reject(settings.given(steps_key) ? steps_key : "gravity",
-                  fmt::format("with a time step of {:.3g} s gravity would be off by {:.2g} %, as "
-                              "what it adds in a step is rounded",
-                              state.time_step, 100.0 * error / gravity),
-                  "choose gravity 0 or a stronger one, fewer run.steps_per_collision, softer or "
-                  "heavier grains, or a smaller system");
-}
-
 /// From the lightest pair. Damping counts most for the heaviest grain at the wall: rejects it if it
 /// does not rebound, before any other is asked. Rejects walls and gravity that steps as long do not
 /// follow.
@@ -140,69 +106,30 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
   reject_too_many_steps(settings, run_length(settings), state.time_step);
   reject_fast_walls(settings, state);
   reject_rows_in_step(settings, state);
-  reject_strong_gravity(settings, masses.size(), state);
-  reject_rounded_gravity(settings, state);
+  reject_unfit_gravity(settings, masses.size(), state);
 }
 
-void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
-                        const State& state) {
-  const double largest = largest_speed(state.box, state.time_step, grains.size());
-  const bool held =
-      std::ranges::all_of(grains, [&](const Grain& g) { return std::hypot(g.vx, g.vy) < largest; });
-  if (held) return;
-  const std::string problem = "too fast for this tube and time step";
-  const std::string remedy = fmt::format("choose velocities below {:.3g} m/s", largest);
-  const std::string kind = settings.text("start.kind");
-  if (kind == "file") settings.reject("start.from", problem, remedy);
-  if (kind == "continued")
-    settings.reject("start.from", "has grains too fast for this tube and time step",
-                    remedy + ", or stiffer contacts, whose time step is shorter");
-  const bool by_chance = std::abs(settings.number("start.random_velocity"))
-                         > std::abs(settings.number("start.axial_velocity"));
-  settings.reject(by_chance ? "start.random_velocity" : "start.axial_velocity", problem, remedy);
-}
-
-/// What the grains have together must be less than sums hold.
-void reject_heavy_grains(const io::Settings& settings, const State& state) {
-  const double largest = largest_sum(state);
-  if (largest < ExactSum::largest_sum) return;
-  settings.reject(settings.text("start.kind") == "fresh" ? "grains.mass" : "start.from",
-                  fmt::format("grains so heavy that their masses or energies, {:.3g} in SI units, "
-                              "are beyond what sums hold",
-                              largest),
-                  fmt::format("choose lighter ones, for less than {:.3g} in all (do masses and "
-                              "velocities have their units?); stiffness may be scaled with the "
-                              "mass, which changes no motion",
-                              ExactSum::largest_sum));
-}
-
-/// An eighth of a turn in a step; a few times more, and it would seem slow again.
-void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
-                       const State& state) {
-  const double largest = 0.25 * pi / state.time_step;
-  const bool held =
-      std::ranges::all_of(grains, [&](const Grain& g) { return std::abs(g.spin) < largest; });
-  if (!held)
-    settings.reject("start.from", "has spins too fast for this time step",
-                    fmt::format("choose spins below {:.3g} 1/s", largest));
-}
-
-/// Of grains that are not in the state yet, as it may not hold them.
-void reject_fast_motion(const io::Settings& settings, const std::vector<Grain>& grains,
-                        const State& state) {
-  reject_fast_grains(settings, grains, state);
-  reject_fast_spins(settings, grains, state);
+/// The one way to a flow. `masses`: kg, of its grains; once the time step is known, `motion(state)`
+/// tells with which velocities they set out, and `fill(state)` puts them into the state.
+template <class Motion, class Fill>
+Flow set_out(const io::Settings& settings, const ContactModel& model,
+             std::span<const double> masses, State state, Motion motion, Fill fill) {
+  set_time_step(settings, model, masses, state);
+  reject_fast_motion(settings, motion(state), state);
+  fill(state);
+  reject_heavy_grains(settings, state);
+  return {.state = std::move(state), .model = model};
 }
 
 Flow start_with(const std::vector<Grain>& grains, const io::Settings& settings,
-                const ContactModel& model, State state) {
+                const ContactModel& model, State empty) {
   std::vector<double> masses;
   for (const Grain& grain : grains) masses.push_back(grain.mass);
-  set_time_step(settings, model, masses, state);
-  reject_fast_motion(settings, grains, state);
-  for (const Grain& grain : grains) add_grain(state, grain);
-  reject_heavy_grains(settings, state);
-  return {.state = std::move(state), .model = model};
+  const auto motion = [&](const State&) -> const auto& { return grains; };
+  const auto fill = [&](State& state) {
+    for (const Grain& grain : grains) add_grain(state, grain);
+  };
+  return set_out(settings, model, masses, std::move(empty), motion, fill);
 }
 
 Flow start_from_file(const io::Settings& settings, const ContactModel& model, Room room) {
@@ -216,11 +143,11 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   const State earlier = earlier_state(settings, room.empty);
   room.reject_too_small(settings, 2.0 * std::ranges::max(earlier.grains.radius), room.empty);
   reject_other_swing_across(settings, earlier, room.empty);
-  set_time_step(settings, model, earlier.grains.mass, room.empty);
-  reject_fast_motion(settings, half_a_step_before(earlier, room.empty.time_step), room.empty);
-  take_over(earlier, model, room.empty);
-  reject_heavy_grains(settings, room.empty);
-  return {.state = std::move(room.empty), .model = model};
+  const auto motion = [&](const State& state) {
+    return half_a_step_before(earlier, state.time_step);
+  };
+  const auto fill = [&](State& state) { take_over(earlier, model, state); };
+  return set_out(settings, model, earlier.grains.mass, std::move(room.empty), motion, fill);
 }
 
 /// Before anything is made for each of them. `area`: m^2, of all grains.
@@ -324,17 +251,14 @@ std::vector<Grain> packed_grains(const io::Settings& settings, const std::vector
                                  const State& empty) {
   const auto places = pack(empty, radii, static_cast<std::uint64_t>(settings.integer("seed")));
   if (!places) return {};
-  const double mean_radius = 0.5 * settings.number("grains.diameter");
   std::vector<Grain> grains(radii.size());
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double relative = radii[i] / mean_radius;
+  for (std::size_t i = 0; i < grains.size(); ++i)
     grains[i] = {.x = (*places)[i].x,
                  .y = (*places)[i].y,
                  .vx = 0.0,
                  .vy = 0.0,
                  .radius = radii[i],
-                 .mass = settings.number("grains.mass") * relative * relative};
-  }
+                 .mass = mass_of_diameter(settings, 2.0 * radii[i])};
   return grains;
 }
 

@@ -1,6 +1,7 @@
 #include "scenarios/grain_file.hpp"
 
 #include "io/csv_table.hpp"
+#include "scenarios/size_distribution.hpp"
 
 #include <fmt/core.h>
 
@@ -48,8 +49,7 @@ double diameter_of(const io::CsvTable& table, std::size_t row, double tube_lengt
 /// Where no mass is given, it goes as the area.
 double mass_of(const io::Settings& settings, const io::CsvTable& table, std::size_t row) {
   if (table.has("mass")) return positive(table, row, "mass");
-  const double relative = table.value(row, "diameter") / settings.number("grains.diameter");
-  return settings.number("grains.mass") * relative * relative;
+  return mass_of_diameter(settings, table.value(row, "diameter"));
 }
 
 /// rad/s; of grains that do not rotate none is taken.

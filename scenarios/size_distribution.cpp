@@ -12,7 +12,8 @@ namespace {
 
 constexpr double cut_off = 3.0;  // standard deviations of the truncated normal distribution
 constexpr double variance_within_cut_off = 0.97334;  // of a deviation of 1
-constexpr auto diameter_key = "grains.diameter", file_key = "grains.sizes_from";
+constexpr auto diameter_key = "grains.diameter", grain_mass_key = "grains.mass",
+               file_key = "grains.sizes_from";
 
 std::vector<double> diameters_from_file(const io::Settings& settings) {
   const io::CsvTable table = io::read_csv(settings, file_key, {{.name = "diameter", .unit = "m"}});
@@ -37,7 +38,7 @@ io::SettingsTable size_settings() {
        .range = io::positive(),
        .doc = "Mean diameter of the free grains; of sizes from a file, the diameter that "
               "`grains.mass` is meant for."},
-      {.key = "grains.mass",
+      {.key = grain_mass_key,
        .unit = "kg",
        .fallback = "1 mg",
        .range = io::positive(),
@@ -77,6 +78,11 @@ io::SettingsTable size_settings() {
        .only_when = io::When{"grains.size_distribution", {"file"}},
        .names_content = true},
   };
+}
+
+double mass_of_diameter(const io::Settings& settings, double diameter) {
+  const double relative = diameter / settings.number(diameter_key);
+  return settings.number(grain_mass_key) * relative * relative;
 }
 
 SizeDistribution::SizeDistribution(const io::Settings& settings)

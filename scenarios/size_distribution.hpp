@@ -12,6 +12,9 @@ namespace riesel::scenarios {
 /// Rows of the section `grains` that say how large they are; they depend on `start.kind`.
 io::SettingsTable size_settings();
 
+/// kg, of a grain of this diameter (m): in proportion to its area, from `grains.mass`.
+double mass_of_diameter(const io::Settings& settings, double diameter);
+
 class SizeDistribution {
 public:
   /// Reads the file of sizes, if there is one, and rejects one that cannot be used.

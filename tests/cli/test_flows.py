@@ -1,6 +1,7 @@
 """Flows beside the tube, through the command: smooth walls, slopes, walls that move."""
 
 import json
+import re
 import xml.etree.ElementTree
 
 import h5py
@@ -32,6 +33,14 @@ tube: {{width: 10 mm, length: 10 mm, tilt: 30 degrees}}
 run: {{duration: 0.1 s}}
 output: {{trajectory_interval: 20 ms}}
 """
+UPWARDS = f"""
+scenario: periodic_tube
+{CONTACT}
+wall: {{surface: smooth}}
+tube: {{width: 10 mm, length: 10 mm}}
+start: {{axial_velocity: -1 m/s, random_velocity: 0.2 m/s}}
+run: {{duration: 60 ms}}
+"""
 
 
 class Flows(CommandTest):
@@ -55,6 +64,20 @@ class Flows(CommandTest):
         self.assertEqual(summary["judged_by"], "mean_vy")
         self.assertAlmostEqual(summary["balance"]["gravity"], 4.226, places=3)
         self.assertLess(abs(summary["energy"]["residual"]), 0.01 * summary["energy"]["gravity_work"])
+
+    def test_the_residual_is_told_beside_what_was_turned_over_also_if_gravity_takes(self):
+        self.write("upwards.yaml", UPWARDS)
+        result = self.riesel("run", "upwards.yaml", "--out", "upwards")
+        self.assert_done(result)
+        energy = self.summary(self.home / "upwards")["energy"]
+        self.assertLess(energy["gravity_work"], -0.3 * energy["initial"])
+        part = energy["residual"] / (energy["initial"] - energy["gravity_work"])
+        told = re.search(r"(?m)^  energy residual       (\S+) of the energy turned over$", result.stdout)
+        self.assertAlmostEqual(float(told[1]) / part, 1.0, delta=0.06)
+        self.assert_done(self.riesel("report", "upwards"))
+        page = (self.home / "upwards/report.html").read_text(encoding="utf-8")
+        self.assertIn("of what was turned over", page)
+        self.assertIn(f"{100.0 * part:.3g} %", page)
 
     def test_a_chute_has_one_wall(self):
         self.write("chute.yaml", CHUTE)

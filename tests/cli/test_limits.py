@@ -137,7 +137,7 @@ class Limits(CommandTest):
     def test_an_overlap_too_deep_stops_it_and_the_contact_with_a_wall_is_named(self):
         overlap, ratio, where = self.overlap_told("0.2 ms")
         contact = self.deepest_contact()
-        self.assertEqual(where, "of grain {grain} with grain {partner} of wall {wall}".format(**contact))
+        self.assertEqual(where, "between grain {grain} and grain {partner} of wall {wall}".format(**contact))
         self.assertAlmostEqual(overlap / contact["max_overlap"], 1.0, delta=0.005)
         radius = self.post_mortem("overlap")["walls/radius"][contact["wall"]]
         self.assertAlmostEqual(ratio * radius / overlap, 1.0, delta=0.01)
@@ -146,7 +146,7 @@ class Limits(CommandTest):
         overlap, ratio, where = self.overlap_told("0.12 ms")
         contact = self.deepest_contact()
         self.assertEqual(contact["wall"], -1)
-        self.assertEqual(where, "between grains {grain} and {partner}".format(**contact))
+        self.assertEqual(where, "between grain {grain} and grain {partner}".format(**contact))
         self.assertAlmostEqual(overlap / contact["max_overlap"], 1.0, delta=0.005)
         smallest = self.post_mortem("overlap")["grains/radius"][:].min()
         self.assertAlmostEqual(ratio * smallest / overlap, 1.0, delta=0.01)

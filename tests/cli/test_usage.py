@@ -1,8 +1,9 @@
 """The command line itself: what is asked for in the wrong way, and what tells how to ask."""
 
 import re
+import subprocess
 
-from riesel_command import BAD_INPUT, SHIPPED, CommandTest
+from riesel_command import BAD_INPUT, COMMAND, SHIPPED, CommandTest
 
 SUBCOMMANDS = ["run", "resume", "check", "report", "scenarios", "settings", "schema"]
 
@@ -71,6 +72,12 @@ class Usage(CommandTest):
                 self.assert_done(result)
                 for option in options:
                     self.assertIn(option, result.stdout)
+
+    def test_what_is_to_be_called_next_is_called_as_this_program_is(self):
+        (self.home / "grains").symlink_to(COMMAND)
+        result = subprocess.run(["./grains", "report", "nowhere"], cwd=self.home, capture_output=True, text=True,
+                                check=False)
+        self.assertIn("see 'grains run' and 'grains sweep'", result.stderr)
 
     def test_version_is_told(self):
         result = self.riesel("--version")

@@ -89,6 +89,14 @@ TEST_CASE("short series are too short", "[steady_state]") {
   CHECK(std::isfinite(falling.error));
 }
 
+TEST_CASE("whatever the transient takes, a sample is left", "[steady_state]") {
+  for (std::size_t n = 1; n < 300; ++n)
+    for (const double part : {0.2, 0.4, 0.5, 0.6}) {
+      const Series arrived = noisy(n, 0.0, 0.0, 1, [&](double t) { return t < part ? 9.0 : 1.0; });
+      CHECK(riesel::assess_steady_state(arrived).transient_end < n);
+    }
+}
+
 TEST_CASE("a velocity that is not finite is refused", "[steady_state]") {
   Series series(100, 1.0);
   series[99] = std::numeric_limits<double>::quiet_NaN();

@@ -405,7 +405,7 @@ FAULTS = [
      'return {.series = "granular_temperature", .free_fall_gain = {}};',
      'return {.series = "mean_vy", .free_fall_gain = {}};'),
     ("rows in step with walls that are shaken", "scenarios/walls.cpp", "if (!seen) return;", "if (!seen || *seen) return;"),
-    ("a start heavier than sums hold", "scenarios/flow_start.cpp",
+    ("a start heavier than sums hold", "scenarios/flow_refusals.cpp",
      "if (largest < ExactSum::largest_sum) return;", "if (largest > 0.0) return;"),
     ("sums that wrap on the way", "app/flow_failures.cpp",
      "if (largest < ExactSum::largest_sum) return;", "if (largest > 0.0) return;"),

@@ -134,8 +134,9 @@ Complaints energy_out_of_balance(const SetUp& set_up, const State& end, const En
   if (set_up.model.attraction == Attraction::keep && energies.normal_loss < 0.0)
     complaints.emplace_back("the damping has won energy");
   // Second order, as of single impacts: J.
-  const double borne = 3.0 / (set_up.steps_per_contact * set_up.steps_per_contact)
-                       * energy_turned_over(end, energies);
+  const double borne =
+      3.0 / (set_up.steps_per_contact * set_up.steps_per_contact)
+      * energy_turned_over(end.origin.energy, energies.gravity_work, energies.wall_work);
   const SlipLaw& slip = set_up.model.slip;
   // Springs give back what they store; only friction that is capped never overshoots.
   const double borne_of_friction = std::holds_alternative<CappedSlip>(slip) ? 0.0 : borne;

@@ -1,0 +1,25 @@
+#include "engine/typical_contacts.hpp"
+
+#include "engine/closed_forms.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace riesel {
+
+TypicalContacts typical_contacts(const State& state, const NormalLaw& normal, double across) {
+  const double mass = mean_mass(state.grains);
+  const double speed = std::max(across, slowest_across);
+  const WallLattice& wall = state.walls.front();
+  const double reach = 0.5 * mean_diameter(state.grains) + wall.radius;
+  const double t_col_walls = collision_time(normal, mass, speed);
+  // A smooth wall has nothing that could be passed.
+  const double chord = wall.smooth() ? std::numeric_limits<double>::infinity()
+                                     : chord_of_impact(reach, speed, t_col_walls);
+  return {.t_col_grains = collision_time(normal, 0.5 * mass, speed),
+          .t_col_walls = t_col_walls,
+          .chord = chord,
+          .v_crit = critical_velocity(chord, t_col_walls)};
+}
+
+}  // namespace riesel

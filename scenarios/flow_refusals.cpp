@@ -1,0 +1,106 @@
+#include "scenarios/flow_refusals.hpp"
+
+#include "engine/exact_sum.hpp"
+#include "engine/observables.hpp"
+#include "scenarios/run_length.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace riesel::scenarios {
+
+namespace {
+
+/// What falls freely from one look to the next must not get so fast that it seems slow again.
+void reject_strong_gravity(const io::Settings& settings, std::size_t grains, const State& state) {
+  const double largest = largest_speed(state.box, state.time_step, grains)
+                         / (static_cast<double>(steps_per_look) * state.time_step);
+  if (std::hypot(state.gravity.x, state.gravity.y) < largest) return;
+  settings.reject(
+      "gravity",
+      fmt::format("too strong for this tube and a time step of {:.3g} s", state.time_step),
+      fmt::format("choose less than {:.3g} m/s^2, or a shorter time step: a light grain or a stiff "
+                  "contact (do grains.mass and contact.stiffness have their units?)",
+                  largest));
+}
+
+/// Velocities change by whole quanta in a step: where it is very short, or gravity very small, by a
+/// gravity of other size than is set.
+void reject_rounded_gravity(const io::Settings& settings, const State& state) {
+  constexpr double tolerated = 1e-3;  // of gravity
+  const Box& box = state.box;
+  const FixedVector fall = fall_per_step(state);
+  const double per_step2 = 1.0 / (state.time_step * state.time_step);
+  const double error = std::hypot(box.metres_x(fall.x) * per_step2 - state.gravity.x,
+                                  box.metres_y(fall.y) * per_step2 - state.gravity.y);
+  const double gravity = std::hypot(state.gravity.x, state.gravity.y);
+  if (error <= tolerated * gravity) return;
+  constexpr auto steps_key = "run.steps_per_collision";
+  settings.reject(settings.given(steps_key) ? steps_key : "gravity",
+                  fmt::format("with a time step of {:.3g} s gravity would be off by {:.2g} %, as "
+                              "what it adds in a step is rounded",
+                              state.time_step, 100.0 * error / gravity),
+                  "choose gravity 0 or a stronger one, fewer run.steps_per_collision, softer or "
+                  "heavier grains, or a smaller system");
+}
+
+void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
+                        const State& state) {
+  const double largest = largest_speed(state.box, state.time_step, grains.size());
+  const bool held =
+      std::ranges::all_of(grains, [&](const Grain& g) { return std::hypot(g.vx, g.vy) < largest; });
+  if (held) return;
+  const std::string problem = "too fast for this tube and time step";
+  const std::string remedy = fmt::format("choose velocities below {:.3g} m/s", largest);
+  const std::string kind = settings.text("start.kind");
+  if (kind == "file") settings.reject("start.from", problem, remedy);
+  if (kind == "continued")
+    settings.reject("start.from", "has grains too fast for this tube and time step",
+                    remedy + ", or stiffer contacts, whose time step is shorter");
+  const bool by_chance = std::abs(settings.number("start.random_velocity"))
+                         > std::abs(settings.number("start.axial_velocity"));
+  settings.reject(by_chance ? "start.random_velocity" : "start.axial_velocity", problem, remedy);
+}
+
+/// An eighth of a turn in a step; a few times more, and it would seem slow again.
+void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
+                       const State& state) {
+  const double largest = 0.25 * std::numbers::pi / state.time_step;
+  const bool held =
+      std::ranges::all_of(grains, [&](const Grain& g) { return std::abs(g.spin) < largest; });
+  if (!held)
+    settings.reject("start.from", "has spins too fast for this time step",
+                    fmt::format("choose spins below {:.3g} 1/s", largest));
+}
+
+}  // namespace
+
+void reject_unfit_gravity(const io::Settings& settings, std::size_t grains, const State& state) {
+  reject_strong_gravity(settings, grains, state);
+  reject_rounded_gravity(settings, state);
+}
+
+void reject_fast_motion(const io::Settings& settings, const std::vector<Grain>& grains,
+                        const State& state) {
+  reject_fast_grains(settings, grains, state);
+  reject_fast_spins(settings, grains, state);
+}
+
+void reject_heavy_grains(const io::Settings& settings, const State& state) {
+  const double largest = largest_sum(state);
+  if (largest < ExactSum::largest_sum) return;
+  settings.reject(settings.text("start.kind") == "fresh" ? "grains.mass" : "start.from",
+                  fmt::format("grains so heavy that their masses or energies, {:.3g} in SI units, "
+                              "are beyond what sums hold",
+                              largest),
+                  fmt::format("choose lighter ones, for less than {:.3g} in all (do masses and "
+                              "velocities have their units?); stiffness may be scaled with the "
+                              "mass, which changes no motion",
+                              ExactSum::largest_sum));
+}
+
+}  // namespace riesel::scenarios
