@@ -35,7 +35,7 @@ FAULTS = [
      "return !grain_outside(simulation_.state());", "return true;"),
     ("walls that move while grains look for their places", "scenarios/packing.cpp",
      "for (WallLattice& wall : state.walls) wall.motion = {};", ""),
-    ("a fall that gets too fast to be told", "scenarios/flow_start.cpp",
+    ("a fall that gets too fast to be told", "scenarios/flow_refusals.cpp",
      "if (std::hypot(state.gravity.x, state.gravity.y) < largest) return;", "if (largest > 0.0) return;"),
     ("drops that win energy", "engine/validity.cpp",
      """                   judge(detachment_criterion, std::abs(detachment)),
