@@ -14,11 +14,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <exception>
 #include <functional>
 #include <stdexcept>
+#include <system_error>
 
 namespace {
 
@@ -129,6 +131,16 @@ void measure_all(const Options& options, const std::vector<Flow>& flows, const S
     measure_ensemble(RIESEL_COMMAND, states.folder(), effort, results);
 }
 
+/// Makes its folder. Before anything is timed: nobody measures for minutes what cannot be kept.
+void reject_unfit_place(const std::filesystem::path& out) {
+  const std::filesystem::path folder = std::filesystem::absolute(out).parent_path();
+  std::error_code none;
+  std::filesystem::create_directories(folder, none);
+  const bool fit = std::filesystem::is_directory(folder) && ::access(folder.c_str(), W_OK) == 0
+                   && !std::filesystem::is_directory(out);
+  if (!fit) throw Mistake(out.string() + ": cannot be written; choose another place with --out");
+}
+
 int run_suite(const Options& options) {
   reject_missing_sizes(options);
   const StartStates states(options.cache);
@@ -136,15 +148,15 @@ int run_suite(const Options& options) {
   if (flows.empty()
       && std::ranges::none_of(other_cases(), [&](auto& name) { return options.wants_case(name); }))
     throw Mistake("nothing that is asked for fits into the memory");
-  make_all_states(options, flows, states);
   Results results{.machine = this_machine(), .quick = options.quick, .part = options.part()};
+  const std::filesystem::path out = options.out.empty() ? usual_place(results, RIESEL_BENCH_RESULTS)
+                                                        : std::filesystem::path(options.out);
+  reject_unfit_place(out);
+  make_all_states(options, flows, states);
   measure_bandwidths(options, results);
   print_machine(results);
   measure_all(options, flows, states, results);
 
-  const std::filesystem::path out = options.out.empty() ? usual_place(results, RIESEL_BENCH_RESULTS)
-                                                        : std::filesystem::path(options.out);
-  if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
   io::write_durably(out, to_json(results).dump(1) + "\n");
   fmt::print("\nkept in {}\n", out.string());
   for (const std::string& disagreement : results.disagreements)

@@ -188,6 +188,10 @@ class Mistakes(unittest.TestCase):
     def test_a_size_that_the_case_does_not_have(self):
         self.check(2, "--case", "tube_stiff", "--size", "1M")
 
+    def test_a_place_that_cannot_be_written(self):
+        for out in ("/dev/null/results.json", "."):
+            self.check(2, "--case", "tube_start", "--size", "1.4k", "--out", out)
+
     def test_a_checkpoint_that_is_not_there(self):
         self.check(1, "advance", "nothing.h5")
 
