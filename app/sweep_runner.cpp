@@ -227,9 +227,8 @@ private:
     if (was_stopped(*end)) {
       job.status = RunStatus::interrupted;
       if (job.starts == most_starts && ending_signal() == 0)
-        tell_of(
-            "point {} was stopped {}", job,
-            fmt::format("{} times; '{}' goes on with it", most_starts, call_of("sweep", sweep_)));
+        tell_of("point {} was stopped {} times; '{}' goes on with it", job, most_starts,
+                call_of("sweep", sweep_));
       return;
     }
     fail(job, reason_of(job, *end));
@@ -250,11 +249,11 @@ private:
     tell_of("point {} failed: {}", job, reason);
   }
 
-  template <class What>
-  void tell_of(fmt::format_string<const std::string&, const What&> format, const Job& job,
-               const What& what) {
+  template <class... Parts>
+  void tell_of(fmt::format_string<const std::string&, const Parts&...> format, const Job& job,
+               const Parts&... parts) {
     progress_.finish();
-    tell("riesel: {}\n", fmt::format(format, job.name, what));
+    tell("riesel: {}\n", fmt::format(format, job.name, parts...));
   }
 
   /// What the runs are to be stopped by, or 0. They need some time to write their checkpoints.

@@ -311,8 +311,7 @@ void Candidates::list_kicked(const Grains& grains, Slice& mine) {
 }
 
 FixedVector Candidates::common_motion(std::int64_t step) const {
-  return wrapped_sum(wrapped_product(step - sorted_at_, drift_),
-                     wrapped_product(sum_of_steps(sorted_at_, step), fall_));
+  return way_of_flight(drift_, fall_, sorted_at_, step);
 }
 
 /// m, rounded up.

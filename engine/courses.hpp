@@ -97,8 +97,7 @@ public:
 private:
   /// From the origin to `step`.
   FixedVector way(const FixedVector& u, std::int64_t step) const {
-    return wrapped_sum(wrapped_product(step - origin_, u),
-                       wrapped_product(sum_of_steps(origin_, step), fall_));
+    return way_of_flight(u, fall_, origin_, step);
   }
 
   Grains& grains_;

@@ -135,4 +135,12 @@ struct ByAddition {
   return static_cast<std::int64_t>(steps % 2 == 0 ? steps / 2 * ends : ends / 2 * steps);
 }
 
+/// Quanta, from step `since` to `now`, of who goes by `u` per step in the frame that falls since
+/// step 0; `fall` is what each step adds there. Steps as in sum_of_steps().
+[[gnu::always_inline]] inline FixedVector way_of_flight(FixedVector u, FixedVector fall,
+                                                        std::int64_t since, std::int64_t now) {
+  return wrapped_sum(wrapped_product(now - since, u),
+                     wrapped_product(sum_of_steps(since, now), fall));
+}
+
 }  // namespace riesel

@@ -1,8 +1,6 @@
 #include "engine/live_contacts.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
