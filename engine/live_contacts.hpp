@@ -32,7 +32,7 @@ public:
   Contact contact(std::size_t i) const;
   std::int64_t first(std::size_t i) const { return tile(i).body[0][lane(i)]; }
   std::int64_t second(std::size_t i) const { return tile(i).body[1][lane(i)]; }
-  /// What the last step() gives to the bodies.
+  /// The kick that contact i gives to its first, or second, body in the last step().
   BodyKick kick_of_first(std::size_t i) const { return kick_of(tile(i), 0, lane(i)); }
   BodyKick kick_of_second(std::size_t i) const { return kick_of(tile(i), 1, lane(i)); }
   /// Calls give(place, kick) for the kicks of all contacts; `place` is the index in Bodies.

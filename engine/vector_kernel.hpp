@@ -12,7 +12,7 @@
 
 #include "engine/fixed_point.hpp"
 
-#if defined(RIESEL_VECTOR_KERNEL)  // set by the build, which compiles for one machine: no clones
+#if defined(RIESEL_VECTOR_KERNEL)  // on the command line, to compile for one machine: no clones
 #define RIESEL_KERNEL_THAT_ADDS
 #define RIESEL_KERNEL_THAT_CONVERTS
 #elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)                              \
