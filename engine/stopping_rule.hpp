@@ -1,11 +1,10 @@
 // When a run that asks for precision may stop.
 //
-// To look at an error bar again and again until it is small enough prefers the moments at which it
-// is small by chance. So a run is looked at rarely, each time it has become a quarter longer, and
-// has to please twice in a row. What is left of the bias is measured in docs/statistics-methods.md.
+// Checking an error bar again and again until it is small enough would prefer moments at which it
+// is small by chance. So a run is checked rarely, each time it has become a quarter longer, and has
+// to be precise twice in a row. The remaining bias is measured in docs/statistics-methods.md.
 //
-// The rule knows the series and nothing else: a run that was interrupted stops where the
-// uninterrupted one does.
+// The rule depends on the series only: an interrupted run stops where an uninterrupted one does.
 #pragma once
 
 #include <cstddef>
