@@ -39,7 +39,8 @@ void give_up(Array& array) {
 }
 
 /// Loads values into the caches line by line, which is faster than in the random order in which
-/// they will be needed. By reading them: the processor drops most of so many prefetches.
+/// they will be needed. It reads them, because the processor drops most prefetches of so many
+/// lines.
 template <class T>
 void fetch(std::span<T> values) {
   const auto bytes = std::as_bytes(values);

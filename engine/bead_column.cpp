@@ -64,7 +64,7 @@ std::vector<double> velocities(const State& state) {
 /// and lose next to nothing.
 bool is_over(const ColumnSetup& setup, const State& state) {
   constexpr double hardly = 1e-3;  // of the present velocities: 1e-6 of the energy
-  constexpr double slowly = 1e-3;  // of the velocity at the start: likewise
+  constexpr double slowly = 1e-3;  // of the velocity at the start: 1e-6 of that energy
   if (!state.contacts.empty()) return false;
   double squares = 0.0, largest_approach = 0.0, below = 0.0;  // `below` is the plate at first
   const std::vector<double> velocity = velocities(state);

@@ -1,7 +1,7 @@
 // The linked-cell grid: sorts the grains by cell, so that a cell is a range of slots.
 //
-// Cells are numbered row by row, x first. Along y their number divides the period and the row of a
-// grain follows from its fixed-point y by a multiplication; the rows close into a ring. Cells are
+// Cells are numbered row by row, x first. Rows divide the period equally, so that the row of a
+// grain follows from its fixed-point y by a multiplication, and they close into a ring. Cells are
 // at least as long as the search range, so that all partners of a grain are in its cell and the
 // eight around it. To find each pair once, half of these are searched: in sorted order only two
 // ranges of slots.

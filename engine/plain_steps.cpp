@@ -144,7 +144,7 @@ std::int64_t PlainSteps::steps_ahead(Member& member, std::int64_t now, std::int6
   candidates_.team().arrive_and_wait(member.number);  // all have received
   const std::int64_t steps =
       candidates_.steps_ahead(now + 1, std::min(most_steps_askew_, last - now));
-  candidates_.team().arrive_and_wait(member.number);  // before anybody moves
+  candidates_.team().arrive_and_wait(member.number);  // all have read the bounds: they may change
   return steps;
 }
 

@@ -70,7 +70,7 @@ private:
   }
 
   bool on_, sampled_ = false;
-  double weight_ = 1.0;  // the number of such (groups of) steps that the present one stands for
+  double weight_ = 1.0;  // how many steps, or groups of steps, the timed one stands for
   Clock::time_point last_;
   std::array<double, phases> seconds_{};
 };

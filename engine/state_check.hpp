@@ -1,5 +1,5 @@
-// What must be true of every State that is stepped or kept, whoever made it: the invariants of
-// engine/state.hpp.
+// What must be true of every State that is stepped or kept, wherever it came from: the invariants
+// of engine/state.hpp.
 #pragma once
 
 #include "engine/state.hpp"

@@ -40,14 +40,14 @@ inline constexpr double runaway_fraction = 0.1;
 /// runaway, too, whatever there was before.
 inline constexpr double breakaway_fraction = 0.5;
 
-/// Judges a series of velocities (positive downstream), or of what else may be steady, sampled at
-/// even intervals. `free_fall_gain` is what a grain in free fall gains per sample interval, g times
-/// the interval, in the unit of the samples; nothing where gravity does not pull along the flow, or
-/// for what is no velocity. The transient is twice what MSER-5 cuts; a run of which MSER-5 cuts
-/// more than two fifths has not arrived: it cannot be steady, and a single cut is its transient.
-/// The rest is judged by the estimates of time_series.hpp. About one in a hundred stationary series
-/// is called accelerating or drifting (measured: docs/statistics-methods.md). std::invalid_argument
-/// for a sample that is not finite.
+/// Judges a series of velocities (positive downstream), or of another quantity that may be steady,
+/// sampled at even intervals. `free_fall_gain` is what a grain in free fall gains per sample
+/// interval, g times the interval, in the unit of the samples; none where gravity does not pull
+/// along the flow, or where the quantity is no velocity. The transient is twice what MSER-5 cuts; a
+/// run of which MSER-5 cuts more than two fifths has not arrived: it cannot be steady, and a single
+/// cut is its transient. The rest is judged by the estimates of time_series.hpp. About one in a
+/// hundred stationary series is called accelerating or drifting (measured:
+/// docs/statistics-methods.md). Throws std::invalid_argument for a sample that is not finite.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain = std::nullopt);
 

@@ -13,12 +13,12 @@
 
 namespace riesel {
 
-/// Whether a series of so many samples is looked at: first when there are 100.
+/// Whether a series with this number of samples is checked: first when there are 100.
 bool is_time_to_look(std::size_t samples);
 
-/// Whether this is the time to look at a series of velocities, and its mean is steady, with an
-/// error bar within `relative_error` of it, now and at the look before. `free_fall_gain` as in
-/// assess_steady_state(). std::invalid_argument for a sample that is not finite.
+/// Whether a series of velocities is to be checked now, and is found steady, with an error bar of
+/// at most `relative_error` of the mean, both now and at the check before. `free_fall_gain` as in
+/// assess_steady_state(). Throws std::invalid_argument for a sample that is not finite.
 bool is_precise(std::span<const double> velocities, double relative_error,
                 std::optional<double> free_fall_gain = std::nullopt);
 

@@ -27,7 +27,7 @@ struct ContactTally {
   ExactSum slip_path;        ///< m
   ExactSum normal_loss;      ///< J
   ExactSum friction_loss;    ///< J
-  ExactSum energy_won;       ///< J, by those whose losses together are negative
+  ExactSum energy_won;       ///< J, gained by those whose total loss is negative
   /// kg m/s, impulse along y given by walls to the grains; and the same with each step's part
   /// weighted by the time in units of `era`. The work of gravity follows from the two
   /// (observables.cpp).

@@ -30,7 +30,7 @@ constexpr double finite_sample_allowance = 6.0;
 // freedom.
 constexpr Eigen::Index blocks = 10;
 
-// The smallest series worth a second look.
+// The shortest series that is analysed at all.
 constexpr auto min_samples = static_cast<std::size_t>(min_independent_samples);
 
 // A sum over lags costs samples times lags. Longer series are averaged in batches first, which does
@@ -96,8 +96,8 @@ double long_run_variance(const Samples& deviations, Index first) {
   return sum / static_cast<double>(cosines);
 }
 
-/// Autocorrelation time with Sokal's window, which ends at the first lag of five decay times (the
-/// integrated time is two of them), and at a fifth of the series at the latest.
+/// Autocorrelation time with Sokal's window, which ends at the first lag beyond five decay times
+/// (one decay time is half of the integrated time), but at a fifth of the series at the latest.
 double time_by_lags(const Samples& deviations) {
   const Index n = deviations.size();
   const double scale = 1.0 / deviations.square().sum();

@@ -7,8 +7,8 @@
 // cosines across the whole series, with Student's distribution for so small a number. See
 // docs/statistics-methods.md for formulas and measurements.
 //
-// The unit of time is the sample interval. Pure functions; std::invalid_argument for a sample that
-// is not finite.
+// The unit of time is the sample interval. The functions are pure, and throw std::invalid_argument
+// for a sample that is not finite.
 #pragma once
 
 #include <cstddef>

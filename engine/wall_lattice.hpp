@@ -1,5 +1,5 @@
 // A wall. Corrugated: a row of equal, fixed grains, known in closed form. Smooth: a plane, which is
-// a row of points so close that one of them is level with whoever asks.
+// treated as a single point that always has the y of the grain that is looked at.
 //
 // Which wall grains are near follows from index arithmetic on the fixed-point ring; nothing is
 // stored per wall grain, and the wall of a long tube costs as much memory as that of a short one.
@@ -105,14 +105,15 @@ struct WallLattice {
   /// m, between two neighbours; negative where they overlap, 0 where it is smooth.
   double gap(const Box& box) const { return spacing(box) - 2.0 * radius; }
 
-  /// Any so many consecutive grains of a wall, also across the seam, have different bits.
+  /// This many consecutive grains of a wall, also across the seam, always have different bits.
   static constexpr std::int64_t most_told_apart = 31;
   /// m, the least spacing with which the wall grains that one grain touches at a time are no more
   /// than that; `reach` (m) is the sum of the radii.
   static double least_spacing(double reach) {
     return 2.0 * reach / static_cast<double>(most_told_apart - 1);
   }
-  /// One of 64 bits for grain k, 0 <= k < count.
+  /// One of 64 bits for grain k, 0 <= k < count, by which NearWall::partners tells its partners
+  /// apart.
   std::uint64_t bit_of(std::int64_t k) const {
     // The bits continue across the seam as if the number of grains were a multiple of 64. The bits
     // too many are skipped at two places: skipping up to 63 at one place would repeat bits nearby.

@@ -32,8 +32,8 @@ struct Span {
 /// grain, `spacing` (m) that of the wall grains, 0 for a smooth wall. The end may be infinite.
 Span visit_span(const Contact& contact, double mass, double spacing, double gravity);
 
-/// A piece of a visit: contacts of one grain with one wall whose spans are connected. What is
-/// summed is summed exactly, so that pieces can be joined in any order.
+/// A piece of a visit: contacts of one grain with one wall whose spans are connected. Its sums are
+/// exact, so that pieces can be joined in any order.
 struct WallVisit {
   std::int32_t wall;
   std::int32_t grain;
