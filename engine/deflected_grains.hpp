@@ -73,7 +73,8 @@ private:
 
   std::vector<std::uint32_t> slots_;
   std::vector<std::int32_t> contacts_;
-  // By place; all 0 at free places and in the padding. off_...: actual motion minus course.
+  // By place; u, kick and off_... are 0 at free places and in the padding, whose positions mean
+  // nothing. off_...: actual motion minus course.
   AlignedVector<FixedVector> position_, u_, kick_, off_, off_u_;
   Strays strays_;  // of places
   std::vector<Place> free_, straying_;
