@@ -32,14 +32,15 @@ struct CacheLineAllocator {
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
-/// Gives the memory of an array to others; `= {}` would keep it.
+/// Empties an array and frees its memory; `= {}` would keep it.
 template <class Array>
 void give_up(Array& array) {
   array = Array();
 }
 
-/// Brings values from memory into the caches: one line after the other, which is faster than in the
-/// order in which they will be needed. (The processor drops most prefetches of so many lines.)
+/// Loads values into the caches line by line, which is faster than in the random order in which
+/// they will be needed. It reads them, because the processor drops most prefetches of so many
+/// lines.
 template <class T>
 void fetch(std::span<T> values) {
   const auto bytes = std::as_bytes(values);

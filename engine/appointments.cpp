@@ -13,15 +13,15 @@ namespace riesel {
 
 namespace {
 
-/// Of a grain that are to be reconsidered: more than most grains have.
+/// Candidates of a grain that are noted at a time: more than most grains have.
 constexpr std::uint32_t candidates_at_a_time = 8;
 
-/// That are sifted: not so many that they leave the cache.
+/// Pairs that are sifted at a time: few enough to stay in the cache.
 constexpr std::size_t pairs_at_a_time = 1024;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-/// A grain on its course, now; s steps lead by u s + fall s^2 / 2.
+/// The motion of a grain on its course from now on: s steps lead by u s + fall s^2 / 2.
 struct Flight {
   FixedVector position;   // quanta
   double ux, uy;          // m per step
@@ -41,7 +41,8 @@ Flight flight_of(std::uint32_t slot, const State& state, const Courses& courses,
           .fall_y = fall_y};
 }
 
-/// Of its way across the tube to where the wall can be.
+/// Steps that the grain can do before its distance across the tube from where the wall can ever be
+/// is `reach` (m).
 double steps_across(const Flight& f, const WallLattice& wall, const Box& box, double reach) {
   const double x = box.metres_x(f.position.x) - wall.line;
   const double gap = std::abs(x) - reach - std::abs(wall.motion.amplitude_x);
@@ -49,7 +50,8 @@ double steps_across(const Flight& f, const WallLattice& wall, const Box& box, do
   return gap > 0.0 ? steps_to_go(gap, to_wall * f.ux, to_wall * f.fall_x) : 0.0;
 }
 
-/// Of its way straight to the nearest wall grain, and of the wall's to it.
+/// Steps that the grain can do before it can be within `reach` (m) of any wall grain: as if it, and
+/// the wall, moved straight towards each other from their present distance.
 double steps_to_nearest(const Flight& f, const WallLattice& wall, double reach, const State& state,
                         std::int64_t now) {
   const Box& box = state.box;
@@ -88,8 +90,8 @@ void Appointments::start_over(double tolerance) {
   link();
 }
 
-/// Finds the candidates of each grain. The pairs are ordered by their first grain: only where a
-/// grain is the second, or near a wall, a list is needed.
+/// Lists the candidates of each grain. As the pairs are ordered by their first grain, only those of
+/// which a grain is the second, and its walls, need a list.
 void Appointments::link() {
   const std::uint32_t n_pairs = pair_count();
   const std::size_t begin = slice_.begin;
@@ -105,16 +107,17 @@ void Appointments::link() {
     first_[i].pair += first_[i - 1].pair;
     first_[i].link += first_[i - 1].link;
   }
-  links_.clear();  // which makes the next line take no more than it needs
+  links_.clear();  // so that resize() need not copy, and takes no more memory than needed
   links_.resize(first_.back().link + candidates_at_a_time);
-  // Now it is one past the last link of each grain. They are put in from behind: it becomes the
-  // first.
+  // Now first_[i].link is one past the last link of grain i. Filling the lists from their ends
+  // turns it into the index of the first.
   for_each_link([&](std::size_t grain, std::uint32_t candidate) {
     links_[--first_[grain].link] = candidate;
   });
 }
 
-/// Several candidates are written at a time, whether they are wanted, or there, or not.
+/// Notes the candidates of a grain for which wanted(candidate) is true. Always writes several at a
+/// time, also unwanted ones and ones beyond the last, to be overwritten: no branches.
 template <class Wanted>
 void Appointments::reconsider_if(std::uint32_t slot, Wanted wanted) {
   const std::size_t grain = border_.number(slot);
@@ -168,7 +171,7 @@ void Appointments::make_inside(std::int64_t now, std::int64_t earliest, std::int
 
 void Appointments::make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until) {
   if (reconsidered_.empty()) return;
-  // Beyond this all is made anew; but the step that comes first is to be looked at in any case.
+  // After hold_until all appointments are made anew; but `earliest` comes before that.
   const Period period{.now = now, .earliest = earliest, .latest = std::max(hold_until, earliest)};
   bool any_watched = false;
   reconsidered_.keep_if([&](std::uint32_t candidate) {
@@ -206,8 +209,8 @@ void Appointments::end_watch(std::uint32_t pair) {
   if (i < close_watch_.size()) due_[close_watch_.pair(i)] = Appointment::watched(i);
 }
 
-/// Whether the pair is watched, and has to be: if a grain of it has been deflected or let go, it is
-/// not any more.
+/// Whether the pair is watched and stays so. If a grain of it has been deflected or let go since,
+/// ends the watch.
 bool Appointments::is_watched_on(std::uint32_t pair) {
   if (!due_[pair].is_watched()) return false;
   if (close_watch_.holds(due_[pair].watched_as())) return true;
@@ -215,8 +218,8 @@ bool Appointments::is_watched_on(std::uint32_t pair) {
   return false;
 }
 
-/// What has just been foreseen. Most pairs do not meet before all is made anew: of these it is
-/// noted without branches to guess.
+/// Enters what has just been foreseen. Most pairs do not touch before all appointments are made
+/// anew; for these that is written without a branch.
 void Appointments::enter_pairs(std::span<const std::uint32_t> pairs, const Forecast& forecast,
                                const Period& period) {
   std::array<std::uint32_t, Forecast::most_pairs> soon;
@@ -236,8 +239,8 @@ void Appointments::make_for_next_step(std::uint32_t pair, std::int64_t now, int 
   enter(pair, 1, is_exact(strays), {.now = now, .earliest = now + 1, .latest = now + 1});
 }
 
-/// A step farther away than the calendar knows is moved closer: then the candidate is looked at
-/// once in between.
+/// Enters the appointment of one candidate. A step beyond the horizon of the calendar is replaced
+/// by the last one within, when the candidate is looked at and gets another appointment.
 void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool exact,
                          const Period& period) {
   const std::int64_t due = std::max(period.earliest, period.now + free_steps);
@@ -251,8 +254,8 @@ void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool 
   if (!entered) calendar_.enter(candidate, next);
 }
 
-/// Steps that a grain can do on its course, and within its tolerance, before it can touch a wall
-/// grain.
+/// Steps that a grain can do on its course, or within the tolerance of it if it is deflected,
+/// before it can touch a wall grain; 0 while it touches one.
 double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
   if (near.partners != 0) return 0.0;
   const WallLattice& wall = state_.wall(near.wall);

@@ -1,9 +1,9 @@
 // When to look at which candidate: the appointments of one slice.
 //
-// An appointment is the step before which a candidate, a pair or a grain near a wall, cannot touch
+// An appointment is the step before which a candidate (a pair, or a grain near a wall) cannot touch
 // as long as the grains keep to their courses. Most are made with a tolerance: they hold as long as
 // both grains stay that close to their courses, in contact or not. Those of pairs that are too
-// close for that are exact, and to be made anew when one of the two is deflected.
+// close for that are exact: they must be made anew when one of the two grains is deflected.
 #pragma once
 
 #include "engine/border.hpp"
@@ -24,19 +24,19 @@
 
 namespace riesel {
 
-/// The step in which a candidate is due, and whether only as long as nobody is deflected: one word,
-/// as there are many.
+/// The step in which a candidate is due, and whether that is exact, in one word of 32 bits, as
+/// there are many.
 class Appointment {
 public:
   static constexpr std::int32_t never = -1;
 
-  /// `step` is counted since the candidates were listed, less than 2^30, or `never`.
+  /// `step` is counted since the candidates were listed: 0 <= step < 2^30, or `never`.
   Appointment(std::int32_t step, bool exact) : word_(2 * step + (exact ? 1 : 0)) {}
-  /// Pair number i of those that are watched in every step, as long as nobody is deflected.
+  /// Of pair number i of the CloseWatch; exact.
   static Appointment watched(std::size_t i) {
     return {first_watched - static_cast<std::int32_t>(i), true};
   }
-  /// Of a pair that touches: nobody looks for it.
+  /// Of a pair in contact, which is not looked at.
   static Appointment in_contact() { return {touching, false}; }
 
   bool is_for(std::int32_t step) const { return word_ >> 1 == step; }
@@ -45,8 +45,8 @@ public:
   std::size_t watched_as() const { return static_cast<std::size_t>(first_watched - (word_ >> 1)); }
   bool exact() const { return (word_ & 1) != 0; }
   void cancel() { *this = {never, exact()}; }
-  /// Becomes `other` if `mask` is -1, stays if it is 0: without a branch, which GCC makes of a
-  /// selection.
+  /// Becomes `other` if `mask` is -1, stays as it is if `mask` is 0. Bit operations, because GCC
+  /// makes a branch of ?:.
   void replace_by(Appointment other, std::int32_t mask) {
     word_ = (word_ & ~mask) | (other.word_ & mask);
   }
@@ -63,12 +63,12 @@ public:
   Appointments(const State& state, const Slice& slice, const Courses& courses, const Border& border)
       : state_(state), slice_(slice), courses_(courses), border_(border), close_watch_(courses) {}
 
-  /// The candidates of the slice have just been listed: none has an appointment. Deflected grains
-  /// may be off their courses by `tolerance` (m) from now on.
+  /// To be called when the candidates of the slice have just been listed: none has an appointment.
+  /// Deflected grains may be off their courses by `tolerance` (m) from now on.
   void start_over(double tolerance);
 
-  /// Will get a new appointment: all candidates of a grain; those with an exact appointment; a
-  /// pair, or a grain near a wall, by their index in the slice.
+  /// These note candidates for a new appointment by the next make(): all of a grain; those of a
+  /// grain with an exact appointment; a pair, or a grain near a wall, by its index in the slice.
   void reconsider(std::uint32_t slot);
   void reconsider_exact(std::uint32_t slot);
   void reconsider_pair(std::uint32_t pair) { reconsidered_.add(pair); }
@@ -76,27 +76,29 @@ public:
     reconsidered_.add(pair_count() + near_wall);
   }
 
-  /// The pair touches from now on, or does not any more: then it will get a new appointment.
+  /// To be called when the pair begins to touch, and when it ends: then it is noted for a new
+  /// appointment.
   void begin_contact(std::uint32_t pair) { due_[pair] = Appointment::in_contact(); }
   void end_contact(std::uint32_t pair) {
     due_[pair] = {Appointment::never, false};
     reconsider_pair(pair);
   }
-  /// For a pair that is closer than the grains of it that may stray, 1 or 2, can go.
+  /// For a pair so close that nothing can be foreseen; `strays` (1 or 2) of its grains may be off
+  /// their courses.
   void make_for_next_step(std::uint32_t pair, std::int64_t now, int strays);
-  /// Has the pair watched from the next step on, see CloseWatch::add().
+  /// Has the pair watched from the next step on: see CloseWatch::add().
   void watch(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach,
              double far, std::int64_t step);
-  /// Makes the appointments of all that are to be reconsidered, with the courses of step `now`: not
-  /// before `earliest`, and none for after `hold_until` unless it is `earliest`.
+  /// Makes the appointments of all candidates that were noted, from their courses at step `now`:
+  /// none before `earliest`, and none after `hold_until` (or `earliest` if that is later).
   void make(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
-  /// The same for those of them without foreign grains; the others stay to be reconsidered.
+  /// The same for those of them without a foreign grain; the others stay noted.
   void make_inside(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
-  /// The same for all candidates.
+  /// The same for all candidates of the slice, right after start_over().
   void make_all(std::int64_t now, std::int64_t earliest, std::int64_t hold_until);
 
-  /// Calls look_at_pair(index) and look_at_near_wall(index) for those that are due, which have no
-  /// appointment then, and are not watched. `deflected` have moved to `step`, of which `units` are.
+  /// Calls look_at_pair(index) and look_at_near_wall(index) for the candidates that are due, whose
+  /// appointment or watch is over then. `units` and `deflected` must be those of `step`.
   template <class LookAtPair, class LookAtNearWall>
   void keep(std::int64_t step, const StepUnits& units, const DeflectedGrains& deflected,
             LookAtPair look_at_pair, LookAtNearWall look_at_near_wall) {
@@ -116,7 +118,7 @@ public:
     }
   }
 
-  /// Brings what is known of the candidates into the caches.
+  /// Loads what is known of the candidates into the caches.
   void fetch() const;
 
 private:
@@ -147,14 +149,15 @@ private:
 
   Calendar calendar_;
   std::vector<Appointment> due_;  // of each candidate
-  /// Where the candidates of a grain begin: pairs of which it is the first, and links_.
+  /// Where the candidates of a grain begin: those pairs of which it is the first grain (consecutive
+  /// indices), and the others in links_.
   struct First {
     std::uint32_t pair = 0, link = 0;
   };
-  std::vector<First> first_;          // of each grain of the slice, or foreign in it, and the end
-  std::vector<std::uint32_t> links_;  // to other candidates; like due_, with some room to read
+  std::vector<First> first_;          // by Border::number(), and one more for the end
+  std::vector<std::uint32_t> links_;  // candidates; like due_, with some room to read at the end
   Selection reconsidered_;            // candidates
-  Selection put_off_;                 // likewise, while others are foreseen
+  Selection put_off_;                 // candidates, scratch of make_inside()
   CloseWatch close_watch_;
 };
 

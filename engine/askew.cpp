@@ -9,8 +9,8 @@ namespace riesel {
 
 namespace {
 
-/// Bytes, about, of all grains and their candidates: the closer together grains are, the more of
-/// these there are. Contacts, whose number changes all the time, do not count.
+/// Estimate in bytes of the memory of all grains and their candidates, whose number grows with the
+/// area fraction. Contacts are left out, as their number changes all the time.
 double memory_of(const State& state) {
   constexpr double of_grain = 110.0, of_candidates_at_fraction_one = 240.0;
   const auto grains = static_cast<double>(state.grains.size());
@@ -27,8 +27,8 @@ bool Askew::pays(const State& state) const { return memory_of(state) >= least; }
 std::int64_t Askew::most_steps(const State& state) const { return pays(state) ? steps : 1; }
 
 std::size_t Askew::slices_per_thread(const State& state, int threads, bool by_flights) const {
-  constexpr double of_flights = 2.0;  // over those of plain stepping
-  // So that slices have enough rows even where grains are denser than elsewhere.
+  constexpr double of_flights = 2.0;  // size of slices over that in plain stepping
+  // More than slices need, so that they have enough even where grains are denser than elsewhere.
   constexpr double rows_per_slice = 10.0;
   if (!pays(state)) return 1;
   const double size = by_flights ? of_flights * slice : slice;

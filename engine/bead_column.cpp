@@ -12,15 +12,16 @@ namespace riesel {
 
 namespace {
 
-/// The system looks whether a drop is over every so many steps.
+/// Whether a drop is over is checked after every so many steps.
 constexpr std::int64_t steps_between_looks = 1024;
 
-/// A drop is given up after so many collision times per bead, plus the time to fall so many
+/// A drop is given up after this many collision times per bead, plus the time to go this many
 /// heights of the column.
 constexpr double patience_in_collisions = 200.0;
 constexpr double patience_in_heights = 1000.0;
 
-/// Where the lowest bead begins, over the gap to its neighbour: near enough not to wait for it.
+/// Distance of the lowest bead from the plate at the start, over the gap between beads: small, to
+/// save steps.
 constexpr double first_gap = 0.1;
 
 double height(const ColumnSetup& setup, double gap) {
@@ -34,7 +35,8 @@ double patience(const ColumnSetup& setup, double gap) {
 
 State start(const ColumnSetup& setup, double gap) {
   const double diameter = 2.0 * setup.bead_radius;
-  // No bead gets far faster than the column fell.
+  // Wide enough for beads that fly away until the drop is given up: none gets much faster than the
+  // column fell.
   const double room = height(setup, gap) + 4.0 * patience(setup, gap) * setup.velocity;
   State state;
   state.box = {.width = room, .length = 8.0 * diameter};
@@ -50,7 +52,7 @@ State start(const ColumnSetup& setup, double gap) {
   return state;
 }
 
-/// Upwards, from the lowest bead to the highest.
+/// m/s, positive upwards, from the lowest bead to the highest.
 std::vector<double> velocities(const State& state) {
   const GrainView grains(state);
   std::vector<double> v;
@@ -58,12 +60,13 @@ std::vector<double> velocities(const State& state) {
   return v;
 }
 
-/// Bodies that hardly approach each other would meet late, and lose next to nothing.
+/// Whether no contact is left, and no two neighbours approach noticeably: others would meet late
+/// and lose next to nothing.
 bool is_over(const ColumnSetup& setup, const State& state) {
   constexpr double hardly = 1e-3;  // of the present velocities: 1e-6 of the energy
-  constexpr double slowly = 1e-3;  // of the velocity at the start: likewise
+  constexpr double slowly = 1e-3;  // of the velocity at the start: 1e-6 of that energy
   if (!state.contacts.empty()) return false;
-  double squares = 0.0, largest_approach = 0.0, below = 0.0;  // the plate
+  double squares = 0.0, largest_approach = 0.0, below = 0.0;  // `below` is the plate at first
   const std::vector<double> velocity = velocities(state);
   for (const double v : velocity) {
     squares += v * v;
@@ -99,7 +102,7 @@ ColumnResult drop(const ColumnSetup& setup, double gap, Stepping stepping) {
   Simulation simulation(start(setup, gap), setup.model, 1, stepping);
   const double longest = patience(setup, gap);
   bool over = false;
-  // A bead that is beyond the centre of the plate is never driven back.
+  // A bead beyond the centre of the plate has passed through it and is never driven back.
   while (!over && !grain_outside(simulation.state()) && simulation.state().time() < longest) {
     simulation.advance(steps_between_looks);
     over = is_over(setup, simulation.state());

@@ -15,8 +15,7 @@
 
 namespace riesel {
 
-/// What all drops of a curve share. There is no gravity: it would matter only for beads that are
-/// hardly apart in time.
+/// What all drops of a curve share. There is no gravity.
 struct ColumnSetup {
   int beads;           ///< at least 1
   double bead_radius;  ///< m
@@ -34,7 +33,7 @@ struct ColumnResult {
   double contact_time;  ///< s, sum of the durations of those that have ended
   double max_overlap;   ///< m
   double energy_error;  ///< see energy_error_ratio()
-  bool over;  ///< contacts have ended and no two bodies approach (more than hardly); else given up
+  bool over;  ///< no contacts are left, and no two bodies approach noticeably; false: given up
   std::int64_t steps;
 };
 

@@ -13,7 +13,7 @@ void sort_and_unite(std::vector<std::uint32_t>& slots) {
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
-/// How many of the slots, which increase, come before this one.
+/// The number of slots below `slot` in `slots`, which are in increasing order.
 std::size_t rank_in(const std::vector<std::uint32_t>& slots, std::uint32_t slot) {
   return static_cast<std::size_t>(std::lower_bound(slots.begin(), slots.end(), slot)
                                   - slots.begin());

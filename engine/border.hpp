@@ -1,11 +1,11 @@
 // What crosses the borders between the slices of flights.
 //
-// A pair belongs to the slice of its first grain; the second may be foreign: of another slice,
-// where alone its course, its place and its motion are changed. What others need to know of a grain
-// its slice announces once per step, and what the contacts of others do to it is told to its slice.
-// Slices before this one have grains of it in their pairs and do things to them; of those after it
-// this one has grains in its pairs. If slices are thick (Candidates) that is one on either side,
-// else all others are both.
+// A pair belongs to the slice of its first grain. The second grain may be foreign: of another
+// slice, which alone changes its course, place and motion. Once per step each slice announces what
+// others need to know of its grains, and reports (as deeds) what its contacts did to foreign ones.
+// "Slices before this one" have grains of this one in their pairs, and deeds for them; grains of
+// "slices after this one" are foreign here. If slices are thick (Candidates) that is one slice on
+// either side, else each other slice is both.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -19,11 +19,12 @@
 
 namespace riesel {
 
-/// What contacts of one slice do to a grain of another: a kick, a beginning, an end.
+/// What contacts of one slice did to a grain of another: a kick, or the beginning or end of a
+/// contact.
 struct Deed {
   std::uint32_t slot;
   BodyKick kick;
-  std::int32_t contacts;  ///< this many more
+  std::int32_t contacts;  ///< change of its number of contacts
 };
 
 /// A grain for which the candidates do not hold any more from this step on.
@@ -32,18 +33,19 @@ struct Stray {
   std::int64_t step;
 };
 
-/// What one slice tells the others. What they read in each step stands on lines that are written to
-/// only if there is news, for then alone they have to come from another core.
+/// What one slice tells the others. What they read in each step is on cache lines that are written
+/// to only if there is news, as a line has to come from another core only after it was written.
 struct alignas(cache_line) Announcement {
-  std::vector<std::uint32_t> foreign;     ///< slots that are foreign here, increasing
-  std::vector<std::uint32_t> border;      ///< own grains that are foreign elsewhere, increasing
+  std::vector<std::uint32_t> foreign;     ///< slots that are foreign to this slice, increasing
+  std::vector<std::uint32_t> border;      ///< own slots that are foreign to another, increasing
   AlignedVector<std::uint8_t> deflected;  ///< whether each of the border is, after the last step
-  AlignedVector<Motion> motions;          ///< of those that are
+  AlignedVector<Motion> motions;          ///< by index in `border`; set for those that are
   static_assert(sizeof(Motion) == cache_line);  // each may be written while others are read
 
   alignas(cache_line) std::vector<Deed> deeds;
 
-  alignas(cache_line) std::vector<std::uint32_t> new_courses;  ///< own grains of the border
+  /// Grains of `border` that got a new course in the last step.
+  alignas(cache_line) std::vector<std::uint32_t> new_courses;
   std::int64_t hold_until = 0;  ///< step until which the candidates hold for sure
   double fastest2 = 0.0;        ///< (m per step)^2, as SkinGuard::fastest2()
   bool trouble = false;         ///< the run cannot go on
@@ -51,7 +53,7 @@ struct alignas(cache_line) Announcement {
   std::vector<Stray> strays;    ///< while slices are askew
 };
 
-/// Writes it if it is news.
+/// Sets `told` to `now`, but writes only if that is a change: see Announcement.
 template <class T>
 void tell_news(T& told, const T& now) {
   if (told != now) told = now;
@@ -67,32 +69,32 @@ public:
 
   bool owns(std::uint32_t slot) const { return slice_.owns(slot); }
 
-  /// After the candidates have been listed: who is before and who after this slice.
+  /// To be called when the candidates have been listed: finds the slices before and after this one.
   void find_neighbours(bool slices_are_thick);
-  /// Likewise: which slots are foreign here.
+  /// Likewise: lists the slots that are foreign to this slice.
   void list_foreign();
-  /// After all slices have: which own grains are foreign elsewhere.
+  /// After all slices have called list_foreign(): lists the own grains that are foreign to others.
   void list_border();
 
   const std::vector<std::uint32_t>& foreign() const { return mine().foreign; }
   bool is_foreign(std::uint32_t slot) const;
-  /// Numbers the slots of the slice, 0 ..., and after them those that are foreign here.
+  /// Numbers the own slots 0, 1, ..., and after them the foreign ones.
   std::size_t number(std::uint32_t slot) const {
     return owns(slot) ? slot - slice_.begin : number_of_foreign(slot);
   }
   std::size_t numbered() const { return slice_.end - slice_.begin + foreign().size(); }
 
-  /// Announces what the grains of the border do after `step`. All slices announce the same step.
+  /// Announces the motion of the own grains of the border after `step`.
   void announce_motion(const DeflectedGrains& deflected, std::int64_t step);
-  /// Of a foreign grain in `step`, that of the announcements or the next; `fallen` is the fall in
-  /// this step.
+  /// The motion of a foreign grain at `step`, which must be the step announced last or the next
+  /// one. `fallen` is StepUnits::fallen of `step`.
   Motion foreign_motion(std::uint32_t slot, std::int64_t step, const FixedVector& fallen) const;
 
   Announcement& mine() { return announcements_[index_]; }
   const Announcement& mine() const { return announcements_[index_]; }
-  /// Whether an own grain is at the border: foreign elsewhere.
+  /// Whether an own grain is at the border: foreign to another slice.
   bool is_at_border(std::uint32_t slot) const;
-  /// Announces it if it is.
+  /// Announces that an own grain has a new course, if it is at the border.
   void announce_course(std::uint32_t slot);
 
   /// Calls visit(announcement) for those of the slices before this one, or after it.
@@ -115,7 +117,7 @@ private:
   std::vector<Announcement>& announcements_;
   const std::size_t index_;
   std::vector<std::size_t> before_, after_;
-  std::int64_t announced_ = 0;  // the last step of which motion was announced, by all slices
+  std::int64_t announced_ = 0;  // step of the last announcement; the same for the slices after
 };
 
 }  // namespace riesel

@@ -17,10 +17,10 @@ struct Box {
   double quantum_x() const { return 8.0 * width * two_to_minus_64; }  ///< m
   double quantum_y() const { return length * two_to_minus_64; }       ///< m
 
-  /// x in m, |x| < 4 width, to quanta.
+  /// Converts x in m to quanta; |x| < 4 width is not checked.
   Fixed fixed_x(double x) const { return nearest_fixed(x / quantum_x()); }
 
-  /// y in m, any period, to quanta.
+  /// Converts y in m, in any period, to quanta.
   Fixed fixed_y(double y) const {
     const double fraction = y / length - std::nearbyint(y / length);  // in [-1/2, 1/2]
     return fraction >= 0.5 ? INT64_MIN : nearest_fixed(fraction / two_to_minus_64);
@@ -28,19 +28,19 @@ struct Box {
 
   double metres_x(Fixed x) const { return static_cast<double>(x) * quantum_x(); }
 
-  /// y in m in [-length/2, length/2): right for differences between two grains (nearest image).
+  /// y in m in [-length/2, length/2): for differences between two grains (nearest image).
   double metres_y(Fixed y) const { return static_cast<double>(y) * quantum_y(); }
 
-  /// y in m, any period, to the first one, [0, length).
+  /// Maps y in m, in any period, to [0, length).
   double wrapped(double y) const { return below_period(y - length * std::floor(y / length)); }
 
-  /// y in m in [0, length): where a grain is.
+  /// y in m in [0, length): for the place of a grain.
   double place_y(Fixed y) const {
     return below_period(static_cast<double>(static_cast<std::uint64_t>(y)) * quantum_y());
   }
 
 private:
-  /// What is just below the period may be rounded up to it.
+  /// A y just below the period may have been rounded up to it: that is y = 0.
   double below_period(double y) const { return y < length ? y : 0.0; }
 };
 

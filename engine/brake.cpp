@@ -9,8 +9,8 @@ namespace riesel {
 
 namespace {
 
-/// s, duration of a contact that nothing cuts short. An overdamped one creeps apart and has none:
-/// the elastic time stands for it.
+/// s, duration of a head-on contact. An overdamped one has none, as it creeps apart: then that
+/// without damping.
 double undisturbed_time(const NormalLaw& normal, double mass, double speed) {
   const auto linear = linear_contact(normal, mass);
   if (linear && !linear->rebounds())
@@ -18,7 +18,8 @@ double undisturbed_time(const NormalLaw& normal, double mass, double speed) {
   return collision_time(normal, mass, speed);
 }
 
-/// Where F_N changes its sign in the second half of overlap = 4 depth s (1 - s), 0 < s < 1.
+/// The s at which F_N changes its sign in the second half of overlap = 4 depth s (1 - s), 0 < s <
+/// 1, where s is the time over `duration`; by bisection.
 template <class Normal>
 double sign_change(const Normal& normal, double mass, double depth, double duration) {
   const auto pushes = [&](double s) {
@@ -37,7 +38,7 @@ double sign_change(const Normal& normal, double mass, double depth, double durat
 }  // namespace
 
 bool is_cut_short(const Contact& contact, const NormalLaw& normal, double mass) {
-  // A passage of one or two steps may be on its way out when it is first seen.
+  // A contact of one or two steps may be separating already when it is first seen: hence the size.
   const double speed = std::max(std::abs(contact.entry_rate), 1e-9);  // m/s
   return contact.duration() < cut_short_below * undisturbed_time(normal, mass, speed);
 }

@@ -1,7 +1,7 @@
 // Appointments by the step in which they are due: a ring of buckets.
 //
-// A bucket is a chain of sheets from a common stock: together they take no more memory than the
-// most appointments that have stood in the calendar at one time, however they move around the ring.
+// A bucket is a chain of sheets from a common stock: so memory is needed for the largest number of
+// appointments in the calendar at one time, not for the largest in each bucket.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -18,12 +18,13 @@ namespace riesel {
 
 class Calendar {
 public:
-  /// How far ahead an appointment can be made; later ones are to be moved to the horizon.
+  /// Appointments can be made for less than this many steps ahead.
   static constexpr std::int64_t horizon = 1024;  // steps
 
   Calendar() : buckets_(horizon) {}
 
-  /// now <= due < now + horizon; what is due now must not have been asked for yet
+  /// Enters an appointment for step `due`: now <= due < now + horizon, and due_in(due) must not
+  /// have been called yet.
   void enter(std::uint32_t appointment, std::int64_t due) {
     Bucket& to = bucket(due);
     const std::uint32_t on_last = to.count % Sheet::room;
@@ -32,14 +33,15 @@ public:
     ++to.count;
   }
 
-  /// The appointments of this step, which leave the calendar.
+  /// Removes the appointments of `step` and returns them. Must be called for every step, in order;
+  /// the span is valid until the next call.
   std::span<const std::uint32_t> due_in(std::int64_t step) {
     Bucket& from = bucket(step);
     today_.clear();
     while (from.count > 0) {
       const Sheet& sheet = sheets_[from.last];
       const std::uint32_t on_it = (from.count - 1) % Sheet::room + 1;
-      // All of it, whatever is on it: so many words are copied at once.
+      // A whole sheet, full or not: a constant length is copied by a few instructions.
       std::copy_n(sheet.appointments.begin(), Sheet::room, today_.room_for(Sheet::room));
       today_.take(on_it);
       from.count -= on_it;
@@ -60,7 +62,7 @@ private:
     static constexpr std::uint32_t room = 15;  // so that it is one cache line
 
     std::array<std::uint32_t, room> appointments{};
-    std::uint32_t before = 0;  // the sheet filled before this one
+    std::uint32_t before = 0;  // the previous sheet of its bucket
   };
   struct Bucket {
     std::uint32_t count = 0;  // of appointments: all sheets but the last are full

@@ -13,19 +13,19 @@ struct SlotPair {
   std::uint32_t first, second;
 };
 
-/// Pairs of slots that can touch before the next sorting, ordered by the first but for those that
-/// have been added since they were listed. Arrays of equal size.
+/// Pairs of slots that can touch before the next sorting, ordered by `first`, except that pairs
+/// added later stand at the end. Arrays of equal size.
 struct CandidatePairs {
   AlignedVector<std::uint32_t> first, second;
-  /// Whether they are searched for those that overlap. Only then there is a reach2, which takes a
-  /// third of the memory.
+  /// Whether each step searches them for overlaps. If not, reach2 is empty, which saves a third of
+  /// the memory.
   bool searched = true;
-  /// m^2, (sum of radii)^2 plus the resolution of the coarse positions; negative while the pair is
-  /// in contact, so that nobody looks for it
+  /// m^2, CoarseUnits::generous_square() of the sum of radii; negative while the pair is in
+  /// contact, so that the search does not find it.
   AlignedVector<float> reach2;
 
   std::size_t size() const { return first.size(); }
-  /// In either order; a look at all.
+  /// Whether it has the pair, in either order. Linear search.
   bool has(std::uint32_t i, std::uint32_t j) const {
     for (std::size_t p = 0; p < size(); ++p)
       if ((first[p] == i && second[p] == j) || (first[p] == j && second[p] == i)) return true;

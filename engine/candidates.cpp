@@ -11,20 +11,20 @@ namespace riesel {
 
 namespace {
 
-/// If less than this part of the room for displacements is left, it is better to sort anew than to
-/// look at them again and again.
+/// If less than this part of the room for displacements is left, sorting anew is cheaper than
+/// measuring them again and again.
 constexpr double smallest_useful_part = 0.2;
 
-/// While slices are ahead of each other grains may need this part of that room, if nobody becomes
-/// more than twice as fast as the fastest, and another part is there in case somebody does.
+/// While slices are ahead of each other, grains may use up the first part of that room if none
+/// becomes more than twice as fast as the fastest; the second part is a reserve in case one does.
 constexpr double part_ahead = 0.25, part_in_case = 0.1;
 
-/// So many rows of cells in each slice are enough for pairs of neighbouring slices only, also of
-/// grains that have strayed by the height of a row.
+/// With more rows of cells than this between the first and the last grain of each slice, partners
+/// are in neighbouring slices only, even of grains that have strayed by the height of a row.
 constexpr std::size_t least_rows_of_slice = 4;
 
-/// Whole steps in which a fall from rest with `fall` (m per step^2) goes no farther than `room`
-/// (m).
+/// Number of whole steps in which a body that falls from rest by `fall` (m per step^2) goes no
+/// farther than `room` (m).
 std::int64_t steps_of_fall(double fall, double room) {
   constexpr double most = 0x1p40;
   const double steps = steps_to_go(room, 0.5 * fall, fall);
@@ -54,8 +54,8 @@ double largest_reach(const State& state) {
   return grain + partner;
 }
 
-/// So that none has a large speed relative to it; counted from the first grain, as velocities in
-/// the falling frame may wrap.
+/// The middle, so that no grain has a large speed relative to it. Differences from the first grain
+/// are compared, as velocities in the falling frame may wrap.
 Fixed middle_velocity(const Grains& grains) {
   Fixed least = 0, most = 0;
   for (const FixedVector& u : grains.u) {
@@ -80,9 +80,9 @@ Candidates::Candidates(State& state, const SlipLaw& slip, int threads, const Pur
   one_size_ = *least == *most;
   const double reach = largest_reach(state);
   const double diameter = mean_diameter(grains);
-  // A pair is listed at a distance of reach and skin at most, and until it is listed again each of
-  // the two may go half a skin farther away: the image that is listed has to stay the nearest one,
-  // or a new course would be foreseen of the other.
+  // A pair is listed at a distance of reach plus skin at most, and until the next listing each of
+  // the two may go half a skin farther away. The image that was listed must stay the nearest one,
+  // or a new course would be compared with another image.
   const double half_period = 0.499 * state.box.length;
   const double longest_skin =
       std::min(half_period - reach, 0.5 * (half_period - 2.0 * max_radius_));
@@ -143,7 +143,7 @@ void Candidates::count_way_past_walls(Slice& mine, const StepUnits& units) const
   const FixedVector common = wrapped_sum(drift_, units.fallen);
   const double own = std::sqrt(mine.fastest2);
   const auto add = [](double& way, double more) {
-    constexpr double up = 1.0 + 0x1p-51;  // so that a sum of many small ways is never too small
+    constexpr double up = 1.0 + 0x1p-51;  // rounds up: the sum of many small terms must be a bound
     way = (way + more) * up;
   };
   add(mine.way_past_walls.across, own + size({common.x, 0}));
@@ -174,7 +174,8 @@ std::int64_t Candidates::steps_ahead(std::int64_t step, std::int64_t wanted) con
   return way > 0.5 * skin_ ? 0 : std::clamp<std::int64_t>(hold_until_ - step + 1, 0, ahead.steps);
 }
 
-/// Sorts anew if somebody has gone so far that there is not enough room for what is ahead (m).
+/// Measures the true displacements, and sorts anew if too little room is left, or less than grains
+/// may go in the steps `ahead` (m).
 void Candidates::look_again(State& state, PackedPositions& coarse, std::span<Slice> share,
                             std::int64_t step, double ahead) {
   Profile& profile = share.front().profile;
@@ -208,7 +209,7 @@ void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t st
   wait(share);
   if (member_with(share) == 0) end_lost_contacts(state, step);
   wait(share);
-  for (Slice& mine : share) give_up(mine.lasting);  // the memory serves others meanwhile
+  for (Slice& mine : share) give_up(mine.lasting);  // memory that is not needed until next time
 }
 
 void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
@@ -232,8 +233,8 @@ void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) 
   wait(share);
 }
 
-/// What all slices share: who has which slots, and the common motion that does not count as
-/// displacement.
+/// Sets what all slices share: which has which slots, and the common motion, which does not count
+/// as displacement.
 void Candidates::start_over(const State& state, std::int64_t step) {
   const Grains& grains = state.grains;
   when_sorted_.resize(grains.size());
@@ -254,8 +255,8 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   drift_.y = given_drift_ ? *given_drift_ : middle_velocity(grains);  // a part may have no grains
 }
 
-/// First the pairs within the longest reach, a few at a time, then of them those within their own;
-/// which are all of them if all grains have one size.
+/// Finds the pairs within the longest reach plus skin, a few at a time, and keeps those within
+/// their own: all of them if all grains have one size.
 void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPair>& close) const {
   constexpr std::size_t slots_at_a_time = 1024;
   const Grains& grains = state.grains;
@@ -267,7 +268,8 @@ void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPai
     find_close(cells_, slots, when_sorted_, units_, farthest2, close);
     std::size_t found = mine.pairs.size();
     if (found + close.size() > mine.pairs.capacity()) {
-      // For all if the rest is like what has been seen, and not twice as much.
+      // Enough for the whole slice if the rest is like the beginning. resize() alone would double
+      // the memory.
       const double part =
           static_cast<double>(slots.end - mine.begin) / static_cast<double>(mine.end - mine.begin);
       mine.pairs.reserve(
@@ -280,7 +282,8 @@ void Candidates::list_pairs(const State& state, Slice& mine, std::vector<SlotPai
       for (const auto& [i, j] : close) {
         const double reach = grains.radius[i] + grains.radius[j];
         const float square = when_sorted_.squared_distance(i, j, units_);
-        // The next one is written over it if it is too far away: no branch to guess.
+        // Written in any case, and overwritten by the next pair if it is too far away: no branch
+        // that could be mispredicted.
         mine.pairs.set(found, i, j, units_.generous_square(reach));
         found += square < units_.generous_square(reach + skin_) ? 1U : 0U;
       }
@@ -302,7 +305,7 @@ void Candidates::list_near_walls(const State& state, Slice& mine) const {
   }
 }
 
-/// Whoever has a kick from the last step.
+/// Lists the grains of `mine` that have a kick from the last step.
 void Candidates::list_kicked(const Grains& grains, Slice& mine) {
   mine.kicked.clear();
   for (std::size_t i = mine.begin; i < mine.end; ++i)
@@ -320,7 +323,8 @@ double Candidates::distance(float squared_displacement) const {
   return std::sqrt(static_cast<double>(squared_displacement)) * (1.0 + 1e-6) + resolution;
 }
 
-/// m, of the displacements of the grains of `mine`, which are at place(slot).
+/// m, rounded up: the largest displacement of the grains of `mine`, whose coarse positions are
+/// place(slot).
 template <class Place>
 double Candidates::farthest(const Slice& mine, std::int64_t step, Place place) const {
   const CoarsePoint common = coarse_motion(step);
@@ -335,8 +339,8 @@ void Candidates::measure_displacements(const PackedPositions& coarse, Slice& min
   mine.farthest = farthest(mine, step, [&](std::size_t slot) { return coarse.at(slot); });
 }
 
-/// The candidates are about to be listed anew. Until now each grain was within half the skin, or
-/// went farther in the last step.
+/// To be called before the candidates are listed anew. While they held, each grain was within half
+/// the skin of where it was listed; only in the last step may it have gone farther.
 void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t step) const {
   const Grains& g = state.grains;
   const double went = farthest(mine, step, [&](std::size_t slot) {
@@ -347,8 +351,8 @@ void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t st
 
 double Candidates::wandered() const { return largest(slices_, &Slice::wandered) + 0.5 * skin_; }
 
-/// With or without the kicks in the store: those of a State the next step takes up, while steps are
-/// done velocities have them already.
+/// Takes the larger speed of those with and without the kick, as either may be the next one: in a
+/// State the kick is still to be added to u, during plain stepping u has it already.
 void Candidates::measure_speeds(const State& state, Slice& mine) const {
   const Grains& g = state.grains;
   const Speedometer speed = speedometer(state.box);

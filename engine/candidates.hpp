@@ -1,18 +1,20 @@
-// Who may touch whom before the grains have moved by the skin: sorting, candidate pairs, and the
-// guarantee.
+// Which pairs may touch before the next sorting: sorting, candidate pairs, and how long they hold.
 //
-// The pairs listed are those closer than the sum of radii plus a skin. They hold as long as no
-// grain has moved by half the skin, measured from the common motion of all grains, which brings no
-// two of them together: the common fall never triggers a renewal. Instead of looking at all grains
-// in every step, a bound is kept on the largest speed (only contacts raise it), and how far it may
-// have brought a grain is added up; when that is too far, the true displacements are looked at.
+// The pairs listed are those closer than the sum of radii plus a skin. They hold (no other pair can
+// touch) as long as no grain has moved by half the skin relative to the common motion of all
+// grains, which brings no two of them together: so the common fall never triggers a new listing.
+// Instead of measuring all grains in every step, a bound on the largest speed is kept (only
+// contacts raise it) and added up; only when this sum exceeds half the skin are the true
+// displacements measured.
 //
-// Slices may be ahead of each other by some steps (Askew). Nobody can sort meanwhile, and that the
-// candidates hold for so long is only expected. A grain that goes farther is a stray: plain
-// stepping looks for whoever it overlaps by itself, flights end the run if there is somebody.
+// Slices may be ahead of each other by some steps (Askew). No sorting is possible meanwhile, and
+// that the candidates hold for so long is only expected. A grain that goes farther is a stray:
+// plain stepping searches for whatever it overlaps one by one, flights end the run if there is
+// anything.
 //
-// To walls the common motion does bring grains, if gravity is not along them: what is listed as
-// near a wall has half a skin more for it, and holds as long as the common fall takes no more.
+// The common motion does bring grains closer to walls, if gravity has a component across them. So
+// grains are listed as near a wall up to half a skin farther away, and the candidates hold only
+// until the common fall has used that up.
 #pragma once
 
 #include "engine/cells.hpp"
@@ -31,115 +33,117 @@
 
 namespace riesel {
 
-/// m, between the centres of the largest bodies that touch.
+/// m, the largest sum of radii of two bodies of `state`, which must have grains.
 double largest_reach(const State& state);
 
-/// Quanta per step along y, half-way between the slowest and the fastest grain.
+/// Quanta per step along y, half-way between the slowest and the fastest grain (in the falling
+/// frame). There must be a grain.
 Fixed middle_velocity(const Grains& grains);
 
 class Candidates {
 public:
-  /// What serves those who use the candidates.
+  /// What depends on how the grains are stepped.
   struct Purpose {
-    /// More means more pairs to look at, less means more sortings.
+    /// Skin over the mean diameter. A larger one means more pairs, a smaller one more sortings.
     double skin_per_diameter;
     bool searched;  ///< as CandidatePairs::searched
   };
   static constexpr Purpose plain_stepping{.skin_per_diameter = 0.35, .searched = true};
-  /// As a part of the mean diameter: a period that leaves no room for this skin is too short.
+  /// Over the mean diameter: a period that leaves no room for such a skin is rejected.
   static constexpr double least_skin = 0.25;
 
   /// Sorts `state` and takes over its contacts. Throws std::invalid_argument if the box is too
   /// short for the nearest image to be unique, wall grains are too close together, or a contact of
-  /// the state cannot be one.
+  /// the state is between bodies that are no candidates.
   Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
              std::size_t slices_per_thread = 1);
 
-  /// The state has become another one, of the same system or of a part of it: starts from it anew,
-  /// as the constructor does. With a `drift` (quanta per step along y) displacements are counted
-  /// from that from now on.
+  /// Starts anew, as the constructor does, from a `state` that has changed: another one of the same
+  /// system or of a part of it. If `drift` is given (quanta per step along y), it is the common
+  /// motion from which displacements are measured from now on.
   void start_from(State& state, std::optional<Fixed> drift);
 
-  /// How many rows of cells plain stepping has, about.
+  /// About how many rows of cells plain stepping has.
   static double rows(const State& state);
 
   std::vector<Slice>& slices() { return slices_; }
   const std::vector<Slice>& slices() const { return slices_; }
-  /// The slices of one thread.
+  /// The slices of thread number `member`.
   std::span<Slice> share(std::size_t member) {
     const std::size_t each = slices_.size() / team_.members();
     return std::span(slices_).subspan(member * each, each);
   }
   /// Where the threads wait for each other.
   TeamBarrier& team() { return team_; }
-  /// There are three slices or more, and the second grain of each pair is in the slice of the first
-  /// or in the next.
+  /// Whether there are three slices or more, and the second grain of each pair is in the slice of
+  /// the first or in the next.
   bool slices_are_thick() const { return slices_are_thick_; }
   CoarseUnits units() const { return units_; }
-  /// The run cannot go on.
+  /// Whether the run cannot go on.
   bool in_trouble() const;
 
-  /// Tells the inner lists of `share` how all have been used: before the barrier of a step, when
-  /// nobody searches.
+  /// Tells the inner lists of `share` the use that all slices have made of theirs. To be called
+  /// before the barrier of a step, while no thread searches.
   void compare_inner_lists(std::span<Slice> share) const;
 
-  /// The grains of `mine` have moved by a step.
+  /// Adds a step to the bound on the displacements of `mine`: its grains have just moved.
   static void count_motion(Slice& mine) { mine.gone += std::sqrt(mine.fastest2); }
-  /// m per step, of any grain, relative to the drift.
+  /// m per step, bound on the speed of any grain relative to the drift.
   double fastest() const;
-  /// The grains of `mine` have moved by the step of `units`. Across, what walls do themselves does
-  /// not count.
+  /// Adds the step of `units`, by which the grains of `mine` have moved, to the bounds on how far
+  /// they may have gone past the walls. The one across the tube leaves out the motion of the walls:
+  /// WallLattice::reach() covers it.
   void count_way_past_walls(Slice& mine, const StepUnits& units) const;
 
-  /// For how many steps the candidates may be used before this is called again: at least `step`
-  /// itself, for which they hold for sure, at most `wanted`. Looks at the true displacements if
-  /// need be, and sorts anew if they are too large. If it is more than one step, the second grain
-  /// of a pair is in the slice of the first or in the next, and catch_strays() must be called
-  /// before each search: no look finds a grain that becomes faster than expected meanwhile. The
-  /// grains of `state` and `coarse`, their positions, must be those of `step`. To be called by all
-  /// threads of a team after a barrier; all get the same answer, and what it changes is complete
-  /// when it returns.
+  /// Returns for how many steps, 1 ... `wanted`, the candidates may be used before this is called
+  /// again. The first of them is `step` itself, for which they hold for sure. Measures the true
+  /// displacements if need be, and sorts anew if they are too large. If the answer is more than 1,
+  /// slices_are_thick(), and catch_strays() must be called before each search, as nothing else
+  /// finds a grain that becomes faster than expected meanwhile. The grains of `state`, and their
+  /// positions in `coarse`, must be those of `step`. To be called by all threads of the team after
+  /// a barrier; all get the same answer, and what it changes is complete when it returns.
   std::int64_t ready_for(State& state, PackedPositions& coarse, std::span<Slice> share,
                          std::int64_t step, std::int64_t wanted);
 
-  /// The same for `step` and those after it before anybody has moved to it: without a look, and 0
-  /// if that is needed. All must have completed the step before.
+  /// The same before any grain has moved to `step`, from the bounds alone; 0 if these do not
+  /// suffice. All slices must have completed the step before.
   std::int64_t steps_ahead(std::int64_t step, std::int64_t wanted) const;
 
-  /// Adds to the candidates of `mine` whoever overlaps a grain that has gone farther than they hold
-  /// for. The grains of `mine` and of `next`, the slice after it, are at this step.
+  /// Adds to the candidates of `mine` the pairs that overlap and have a stray: a grain that has
+  /// gone so far that the candidates do not hold for it. The grains of `mine` and of `next`, the
+  /// slice after it, must be at `step`.
   void catch_strays(const State& state, const PackedPositions& coarse, Slice& mine,
                     const Slice& next, std::int64_t step) const;
 
-  /// Sorts and lists all candidates anew. The grains of `state` are at this step. The coarse
-  /// positions are those of when_sorted() then. To be called by all threads of a team; what it
+  /// Sorts, and lists all candidates anew. The grains of `state` must be at `step`; when_sorted()
+  /// has their coarse positions afterwards. To be called by all threads of the team; what it
   /// changes is complete when it returns.
   void sort_anew(State& state, std::span<Slice> share, std::int64_t step);
 
-  /// Until the next sorting nobody asks for cells: gives their memory to others.
+  /// Frees the memory of the cells, which nothing needs before the next sorting.
   void forget_cells() { cells_.forget(); }
 
-  /// The candidates hold until this step, and while no grain has moved by half the skin from where
-  /// it was when they were listed, relative to a common motion: free fall with a displacement per
-  /// step of drift() in the falling frame.
+  /// The step until which the candidates hold, provided that no grain moves by half the skin from
+  /// where it was when they were listed, relative to the common motion: free fall with a
+  /// displacement per step of drift() in the falling frame.
   std::int64_t hold_until() const { return hold_until_; }
   double skin() const { return skin_; }                       ///< m
   double range() const { return 2.0 * max_radius_ + skin_; }  ///< m, the least height of a row
   const CoarsePositions& when_sorted() const { return when_sorted_; }
-  const FixedVector& drift() const { return drift_; }    ///< per step
+  const FixedVector& drift() const { return drift_; }    ///< quanta per step
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step
-  /// m, no grain has been farther from where it was when the first were listed, relative to the
-  /// drift that start_from() was given.
+  /// m, bound on how far any grain has been from where it was at start_from(), relative to the
+  /// drift given there.
   double wandered() const;
-  /// From when they were listed to `step`.
+  /// Quanta, the common motion from when the candidates were listed to `step`.
   FixedVector common_motion(std::int64_t step) const;
 
-  /// Tells speeds relative to the drift.
+  /// Measures speeds relative to the drift.
   struct Speedometer {
     FixedVector drift;
     double metre_x, metre_y;  ///< m per quantum
 
-    /// (m per step)^2, of a displacement per step (quanta).
+    /// (m per step)^2, of the displacement per step `u` (quanta).
     double squared(const FixedVector& u) const {
       const FixedVector relative = wrapped_difference(u, drift);
       const double vx = real(relative.x) * metre_x;
@@ -151,14 +155,14 @@ public:
     return {drift_, box.quantum_x(), box.quantum_y()};
   }
 
-  /// Calls visit(contact) for the contacts of all slices.
+  /// Calls visit(contact) for the present contacts of all slices.
   template <class Visit>
   void for_each_contact(Visit visit) const {
     for (const Slice& slice : slices_)
       for (const LiveContacts* live : {&slice.pair_contacts, &slice.wall_contacts})
         for (std::size_t i = 0; i < live->size(); ++i) visit(live->contact(i));
   }
-  /// Of all slices, ordered by name.
+  /// The present contacts of all slices, ordered by name.
   std::vector<Contact> contacts() const;
 
 private:
@@ -166,7 +170,7 @@ private:
     return static_cast<std::size_t>(share.data() - slices_.data()) / share.size();
   }
   void wait(std::span<const Slice> share) { team_.arrive_and_wait(member_with(share)); }
-  /// How many steps slices may go askew, and how far grains may go after the first of them (m).
+  /// How many steps slices may go askew, and how far grains are granted to go after the first (m).
   struct Lead {
     std::int64_t steps;
     double way;
@@ -218,10 +222,10 @@ private:
   bool slices_are_thick_ = false;
   std::vector<std::uint32_t> new_slot_;  // by slots before the last sorting
 
-  FixedVector fall_;                  // in a step
-  std::int64_t steps_to_walls_ = 0;   // that the common fall takes for the room it has at walls
+  FixedVector fall_;                  // quanta per step^2
+  std::int64_t steps_to_walls_ = 0;   // until the common fall has used up its room at walls
   std::optional<Fixed> given_drift_;  // along y, for all listings
-  FixedVector drift_{};               // across the tube: at rest when the candidates were listed
+  FixedVector drift_{};               // its x is that of a grain at rest when last sorted
   std::int64_t sorted_at_ = 0, hold_until_ = 0;  // steps
 };
 

@@ -37,8 +37,8 @@ void Cells::lay_out(const State& state, double range) {
     extent = quanta_from_left(rightmost->x);
   }
   const double width = extent * state.box.quantum_x();
-  // Cells may be larger than the range, and are where grains are few and small for the box: about
-  // as many as grains are enough.
+  // Where few small grains are in a large box, cells larger than the range keep the number of cells
+  // near that of the grains.
   const double enough = 64.0 + 4.0 * static_cast<double>(grains.size());
   const double size = std::max(range, std::sqrt(width * state.box.length / enough));
   const double least_rows = std::min(3.0, state.box.length / range);
@@ -49,7 +49,7 @@ void Cells::lay_out(const State& state, double range) {
   scratch_.resize(grains.size());
 }
 
-/// Never negative, and right even for grains that are about to be found lost.
+/// Never negative; right for any two x, even of grains that are about to be reported as lost.
 double Cells::quanta_from_left(Fixed x) const {
   return static_cast<double>(static_cast<std::uint64_t>(wrapped_difference(x, left_edge_)));
 }
@@ -62,7 +62,7 @@ std::uint32_t Cells::cell_at(const Grains& grains, std::size_t slot) const {
   return static_cast<std::uint32_t>(row * columns_ + std::min(column, columns_ - 1));
 }
 
-/// Counting sort.
+/// The counting sort itself, by one thread: where the grains of each cell go.
 void Cells::count() {
   const std::size_t n = scratch_.size();
   start_.assign(columns_ * rows_ + 1, 0);
@@ -80,8 +80,9 @@ void Cells::count() {
   }
 }
 
-/// Its part of the new values each thread first puts aside, until nobody needs the old ones.
-/// number(value) is the number in a value that goes to its new place.
+/// Moves values to their new slots. Each thread copies its part of the new values to scratch_ and
+/// writes them when no thread needs the old ones any more. number(value) refers to the number in a
+/// value that is moved: of vectors one coordinate at a time.
 template <class Values, class Number>
 void Cells::permute(Values& values, Number number, std::size_t member, TeamBarrier& team) {
   using T = std::remove_reference_t<decltype(number(values[0]))>;

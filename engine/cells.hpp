@@ -1,10 +1,10 @@
 // The linked-cell grid: sorts the grains by cell, so that a cell is a range of slots.
 //
-// Cells are numbered row by row, x first. Along y their number divides the period and the row of a
-// grain follows from its fixed-point y by a multiplication; the rows close into a ring. With cells
-// at least as long as the search range, all partners of a grain stand in its cell and the eight
-// around it; in sorted order the half of them that comes after the grain is only two ranges of
-// slots.
+// Cells are numbered row by row, x first. Rows divide the period equally, so that the row of a
+// grain follows from its fixed-point y by a multiplication, and they close into a ring. Cells are
+// at least as long as the search range, so that all partners of a grain are in its cell and the
+// eight around it. To find each pair once, half of these are searched: in sorted order only two
+// ranges of slots.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -23,11 +23,12 @@ struct SlotRange {
   std::size_t size() const { return end - begin; }
 };
 
-/// As many slots have a whole cache line of each array.
+/// A multiple of this many slots fills whole cache lines of every array with 4 bytes or more per
+/// slot.
 inline constexpr std::size_t slots_in_a_line = cache_line / sizeof(std::int32_t);
 
-/// Part number `part` of so many slots, shared out into `parts` nearly as equal as can be: no two
-/// of them have a cache line of an array in common, which threads would take from each other.
+/// Part number `part` of `slots` slots that are divided into `parts` nearly equal ranges. No two
+/// ranges share a cache line of an array, which threads would take from each other.
 inline SlotRange part_of(std::size_t slots, std::size_t part, std::size_t parts) {
   const auto end_of = [&](std::size_t count) {
     return count == parts ? slots : slots * count / parts / slots_in_a_line * slots_in_a_line;
@@ -37,16 +38,16 @@ inline SlotRange part_of(std::size_t slots, std::size_t part, std::size_t parts)
 
 class Cells {
 public:
-  /// Sorts the grains of `state` into cells of at least `range` (m): changes the slots, not the
-  /// grains. To be called by all members of the team, each with its number; all is done when it
-  /// returns.
+  /// Sorts the grains of `state` by cells of at least `range` (m) in either direction: changes
+  /// their slots only. To be called by all members of the team, each with its number; complete when
+  /// it returns.
   void sort(State& state, double range, TeamBarrier& team, std::size_t member);
-  /// Until the next sort() nobody asks any more: gives the memory to others.
+  /// Frees the memory. Nothing but sort() may be called afterwards.
   void forget();
 
-  /// Calls visit(SlotRange) for the ranges in which the later partners of `slot` stand: each
-  /// unordered pair of grains closer than the range comes up exactly once over all slots, if the
-  /// period is longer than two ranges.
+  /// Calls visit(SlotRange) for the ranges of slots to be searched for partners of `slot`: over all
+  /// slots, each unordered pair of grains closer than the range of sort() comes up exactly once, if
+  /// the period is longer than two such ranges.
   template <class Visit>
   void for_each_later_range(std::size_t slot, Visit visit) const {
     const std::size_t cell = cell_of_slot_[slot];
@@ -82,7 +83,7 @@ private:
   std::vector<std::uint32_t> cell_of_slot_;
   std::vector<std::uint32_t> start_;     // first slot of each cell, and one past the last
   std::vector<std::uint32_t> old_slot_;  // of each slot
-  // The cells of old slots, then the bits of the values being permuted.
+  // During sort(): first the cells of old slots, then the bits of the values being permuted.
   AlignedVector<std::uint64_t> scratch_;
 };
 

@@ -6,6 +6,7 @@ namespace riesel {
 
 namespace {
 
+/// The columns that the loop needs.
 struct Watched {
   const std::int64_t* second;  // place
   Fixed *x, *y;
@@ -14,19 +15,20 @@ struct Watched {
   const double *reach2, *far2;
 };
 
-/// What they are looked at with.
+/// The numbers of the step: the fall in it, and metres per quantum.
 struct Sight {
   FixedVector fallen;
   double metre_x, metre_y;
 };
 
-/// All bits are set if a grain at this place flies, none if it is deflected.
+/// -1 (all bits set) if `place` is that of a flying grain, 0 if it is that of a deflected one.
 [[gnu::always_inline]] inline Fixed flies(std::int64_t place) {
   static_assert(Courses::flying < 0);
   return place >> 63;
 }
 
-/// Whether pair k is due. Its second grain goes on along its course.
+/// Moves the second grain of pair k along its course if it flies, and tells whether the pair is
+/// due.
 template <class Numbers>
 [[gnu::always_inline]] inline bool is_due(const Watched& w, std::size_t k, const Sight& s) {
   const Fixed goes_on = flies(w.second[k]);
@@ -103,7 +105,7 @@ bool CloseWatch::holds(std::size_t i) const {
   return is_there(0) && is_there(1);
 }
 
-/// One by one: vectors are not faster at gathering.
+/// Reads the positions of the deflected grains; in a scalar loop, as vector gathers are not faster.
 void CloseWatch::look_up(const Bodies& bodies) {
   const Columns& c = columns_;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -131,7 +133,7 @@ const std::vector<std::uint32_t>& CloseWatch::due_in(const StepUnits& units,
                         .reach2 = c.reach2.data(),
                         .far2 = c.far2.data()};
   const Sight sight{.fallen = units.fallen, .metre_x = units.metre_x, .metre_y = units.metre_y};
-  constexpr std::size_t few = 5;  // a vector would have to wait for what has just been stored
+  constexpr std::size_t few = 5;  // so soon, a vector load would wait for the scalar stores
   if (count <= few) {
     for (std::size_t i = 0; i < count; ++i)
       if (is_due<ByConversion>(watched, i, sight)) due_.push_back(pairs_[i]);

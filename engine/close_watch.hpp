@@ -1,5 +1,5 @@
-// Pairs that are closer than a grain in contact may stray: nothing can be foreseen of them, and
-// they are looked at in every step, side by side, by vector instructions.
+// Pairs that are closer than a grain in contact may be off its course: nothing can be foreseen of
+// them, so that vector instructions look at all of them in every step.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -24,26 +24,28 @@ public:
   std::size_t size() const { return pairs_.size(); }
   std::uint32_t pair(std::size_t i) const { return pairs_[i]; }
 
-  /// Watches a pair from the next step on, as the last one. `first` is deflected, `second` may be;
-  /// `reach` is the sum of the radii, and beyond a distance of `far` nobody need watch it (m).
+  /// Watches a pair from the step after `step` on; it gets the number size() - 1. The grain in slot
+  /// `first` must be deflected, that in `second` may be. The pair becomes due when the distance of
+  /// the two is below `reach`, the sum of the radii, or above `far` (m).
   void add(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach, double far,
            std::int64_t step);
   /// Pair number i is not watched any more. The last pair gets its number.
   void remove(std::size_t i);
   void clear() { pairs_.clear(); }
 
-  /// Whether each grain of pair number i still is deflected, or flies, as it was when added. If not
-  /// the pair is to be removed: for the caller to ask when a grain has been deflected or let go.
+  /// Whether each grain of pair number i is still deflected, or flying, as when it was added. If
+  /// not, the caller must remove the pair: it has to ask when a grain has been deflected or let go.
   bool holds(std::size_t i) const;
 
-  /// The pairs that touch or are far apart. To be called once in every step, after `deflected` has
-  /// moved to it.
+  /// The pairs that are due. Must be called exactly once in every step, after `deflected` has moved
+  /// to it.
   const std::vector<std::uint32_t>& due_in(const StepUnits& units,
                                            const DeflectedGrains& deflected);
 
 private:
   using Due = LaneMasks<std::uint64_t>;
-  /// The grains of the pairs, and where the second is if it flies; else it is at 0 and stays there.
+  /// By number of the pair: slots and places of its grains, and position and velocity of the second
+  /// if it flies; if it is deflected these are 0.
   struct Columns {
     std::array<std::vector<std::uint32_t>, 2> slot;
     std::array<AlignedVector<std::int64_t>, 2> place;
@@ -57,7 +59,7 @@ private:
   const Courses& courses_;
   std::vector<std::uint32_t> pairs_;
   Columns columns_;                       // padded to whole blocks
-  AlignedVector<Fixed> rest_x_, rest_y_;  // where the second is if it stands, minus the first
+  AlignedVector<Fixed> rest_x_, rest_y_;  // (second if it is deflected, else 0) minus first
   Due are_due_;                           // in the last step
   std::vector<std::uint32_t> due_;
 };

@@ -17,16 +17,16 @@ double frequency_squared(const LinearContact& c) {
   return c.k_n / c.reduced_mass - 0.25 * c.gamma_n * c.gamma_n;
 }
 
-/// -ln e_N of a contact that may not pull, by its gamma_N t_col / 2: its force vanishes after
-/// 2/pi arctan(pi / decay) of t_col.
+/// -ln e_N of a contact that may not pull, as a function of decay = gamma_N t_col / 2: its force
+/// vanishes after the part 2/pi arctan(pi / decay) of t_col.
 double pushed_decay(double decay) { return 2.0 / pi * decay * std::atan2(pi, decay); }
 
 double slope_of_pushed_decay(double decay) {
   return 2.0 / pi * std::atan2(pi, decay) - 2.0 * decay / (pi * pi + decay * decay);
 }
 
-/// The gamma_N t_col / 2 with that pushed_decay(). Its slope falls, so that Newton's steps from
-/// below never lead too far, and have come to the end when they do not go up any more.
+/// The inverse of pushed_decay(), by Newton's method. As the slope falls, steps from below never
+/// overshoot; rounding ends them when they do not go up any more.
 double decay_by_pushed(double pushed) {
   double decay = pushed;
   while (true) {

@@ -17,15 +17,16 @@ struct LinearContact {
   double k_n, gamma_n, reduced_mass;
   Attraction attraction = Attraction::keep;
 
-  /// Below critical damping two bodies rebound; above they do not if the contact may pull, and
-  /// there is no t_col. (If it may not they do, with less than least_restitution_without_pull;
-  /// eq. (4) does not hold for that, and it counts as no rebound here.)
+  /// Whether the damping is below critical. Above, bodies whose contact may pull do not rebound,
+  /// and there is no t_col. (If it may not pull they do, with less than
+  /// least_restitution_without_pull; as eq. (4) does not hold for them, that does not count as a
+  /// rebound here.)
   bool rebounds() const;
   /// s, eq. (4). Throws std::domain_error, as restitution() does, for a contact that does not
   /// rebound.
   double collision_time() const;
-  /// e_N = exp(-gamma_N t_col / 2) if the contact may pull; larger if not, as damping then does no
-  /// more once the force has come down to zero.
+  /// e_N = exp(-gamma_N t_col / 2) if the contact may pull. Larger if not, as then the damping ends
+  /// when the force has come down to zero.
   double restitution() const;
 };
 
@@ -33,9 +34,9 @@ struct LinearContact {
 std::optional<LinearContact> linear_contact(const NormalLaw& normal, double reduced_mass,
                                             Attraction attraction = Attraction::keep);
 
-/// What critical damping leaves to a linear contact that may not pull: exp(-2). More damping leaves
-/// less: exp(-(beta/Omega) ln((beta + Omega)/(beta - Omega))), beta = gamma_N/2 and Omega^2 =
-/// beta^2 - k_N/m_red.
+/// Restitution at critical damping of a linear contact that may not pull: exp(-2). With more
+/// damping it is exp(-(beta/Omega) ln((beta + Omega)/(beta - Omega))), where beta = gamma_N/2 and
+/// Omega^2 = beta^2 - k_N/m_red.
 inline constexpr double least_restitution_without_pull = 0.13533528323661270;
 
 /// 1/s, the gamma_N below critical damping that gives restitution 0 < e_N <= 1 to a linear contact.
@@ -46,34 +47,34 @@ double damping_for_restitution(double restitution, double k_n, double reduced_ma
 /// The elastic part of any law.
 ElasticLine elastic_line(const NormalLaw& normal);
 
-/// s, duration of an undamped head-on contact under F = k xi^alpha that begins with the given speed
-/// (m/s). For alpha = 1 it does not depend on the speed; for others it has none at speed 0 (not a
-/// number).
+/// s, duration of an undamped head-on contact under F = k xi^alpha that begins with `speed` (m/s).
+/// For alpha = 1 it does not depend on the speed; for any other alpha it is NaN at speed 0.
 double elastic_collision_time(const ElasticLine& line, double reduced_mass, double speed);
 
-/// m, largest overlap of the same contact: a bound for the damped one.
+/// m, largest overlap of the same contact: an upper bound for a damped one.
 double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed);
 
-/// s, how long a head-on contact under `normal` lasts: eq. (4) for the linear law, else the elastic
-/// time. Throws std::domain_error for a linear contact that does not rebound.
+/// s, duration of a head-on contact under `normal`: eq. (4) for the linear law, else that without
+/// damping. Throws std::domain_error for a linear contact that does not rebound.
 double collision_time(const NormalLaw& normal, double reduced_mass, double speed);
 
-/// By what a tangential force changes the slip of two bodies more than if they did not rotate;
-/// their moment of inertia is `inertia` m r^2 (0: they do not).
+/// The factor by which a tangential force changes the slip of two bodies more than if they did not
+/// rotate. Their moment of inertia is `inertia` m r^2 (0: they do not rotate).
 double slip_gain_by_turning(double inertia);
 
 /// s, half a period of the tangential spring between two bodies whose moment of inertia is
 /// `inertia` m r^2 (0: they do not rotate); infinite for slip laws without a spring.
 double spring_time(const SlipLaw& slip, double inertia, double reduced_mass);
 
-/// m, chord of a straight passage at the given impact height through a circle of radius `reach`.
+/// m, chord of a straight passage at `impact_height` (m from the centre) through a circle of radius
+/// `reach` (m); NaN if it passes by.
 double chord(double reach, double impact_height);
 
-/// m, the chord of a body that has sunk in as deep as in a head-on contact of duration `t_col` (s)
-/// that begins with `speed` (m/s).
+/// m, the chord through a circle of radius `reach` at the depth to which a body sinks in a head-on
+/// contact of duration `t_col` (s) that begins with `speed` (m/s).
 double chord_of_impact(double reach, double speed, double t_col);
 
-/// m/s, v_crit: a body that passes the chord (m) faster is through before `t_col` (s) is over.
+/// m/s, v_crit: a body that passes the chord (m) faster is through before `t_col` (s) has passed.
 double critical_velocity(double chord, double t_col);
 
 }  // namespace riesel

@@ -1,6 +1,6 @@
-// The upper halves of the coordinates: half the memory, and the nearest image along y is still
-// integer overflow. As two arrays where grains next to each other are looked at, in one word where
-// pairs of them are picked out: loads are what that takes.
+// The upper 32 bits of the coordinates: half the memory, and the nearest image along y still
+// follows from integer overflow. Kept as two arrays for loops over consecutive grains, and with
+// both in one word for loops over pairs, which are limited by the number of loads.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -28,19 +28,19 @@ struct CoarseUnits {
         y(static_cast<float>(box.quantum_y() * 0x1p32)) {}
   float x, y;  ///< m
 
-  /// m^2, of a displacement in units. The one way to measure it: that no overlap is missed rests on
-  /// all who look getting the same.
+  /// m^2, squared length of a displacement in coarse units. All searches must use this function:
+  /// that no overlap is missed relies on their rounding alike.
   [[gnu::always_inline]] float square(std::int32_t dx, std::int32_t dy) const {
     const float metres_x = static_cast<float>(dx) * x, metres_y = static_cast<float>(dy) * y;
     return metres_x * metres_x + metres_y * metres_y;
   }
   [[gnu::always_inline]] float square(CoarsePoint p) const { return square(p.x, p.y); }
 
-  /// (reach + resolution)^2 in m^2, rounded up: no pair closer than `reach` (m) is farther in
-  /// coarse positions.
+  /// (reach + resolution)^2 in m^2, rounded up: square() of a pair closer than `reach` (m) is
+  /// always below it.
   float generous_square(double reach) const {
-    // Each coarse coordinate is cut by less than one unit; float arithmetic adds some 1e-7
-    // relative.
+    // A coarse coordinate is less than one unit too low, and single precision has a relative error
+    // of some 1e-7.
     const double padded = reach + 2.0 * (static_cast<double>(x) + static_cast<double>(y));
     return static_cast<float>(padded * padded * (1.0 + 1e-6));
   }
@@ -48,7 +48,7 @@ struct CoarseUnits {
 
 /// Upper halves of the positions of all grains, by slot.
 struct CoarsePositions {
-  /// So many elements more can be read, whatever they hold.
+  /// Extra elements at the end that vector loops may read; their values do not matter.
   static constexpr std::size_t padding = 16;
 
   AlignedVector<std::int32_t> x, y;
@@ -63,12 +63,13 @@ struct CoarsePositions {
   }
 };
 
-/// A coarse position in one word, as the number y 2^32 + x: one subtraction gives both coordinates
-/// of a difference, whatever is carried over. So they say where two grains are from each other
-/// whose x differ by less than 2^31 units, half of what can be represented.
+/// A coarse position in one word, as the number y 2^32 + x: one subtraction gives both differences,
+/// and unpacked() undoes the carry from x to y. Right if the x differ by less than 2^31 units, half
+/// of the representable range.
 class PackedPoint {
 public:
-  /// To the upper halves of x and y. Not by assignment, of which no vector loop can be made.
+  /// Sets the upper halves of x and y. A member function because loops that assign whole objects
+  /// are not vectorised.
   [[gnu::always_inline]] void set(Fixed x, Fixed y) {
     constexpr std::uint64_t upper = ~std::uint64_t{0} << 32;
     word_ = (static_cast<std::uint64_t>(y) & upper)
@@ -78,7 +79,7 @@ public:
     return {static_cast<std::int32_t>(static_cast<std::uint32_t>(word_) ^ x_origin),
             static_cast<std::int32_t>(word_ >> 32)};
   }
-  /// b - a as one word.
+  /// b - a as one word, for unpacked().
   [[gnu::always_inline]] static std::uint64_t difference(PackedPoint b, PackedPoint a) {
     return b.word_ - a.word_;
   }
@@ -88,11 +89,11 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t x_origin = 0x80000000U;  // x counts from the least, as unsigned
+  static constexpr std::uint32_t x_origin = 0x80000000U;  // makes x unsigned: 0 is the least x
   std::uint64_t word_ = 0;
 };
 
-/// Of all grains, by slot.
+/// The packed coarse positions of all grains, by slot.
 struct PackedPositions {
   AlignedVector<PackedPoint> points;
 

@@ -1,16 +1,16 @@
 // One contact in one step: from the geometry and the motion of two bodies to the force between
 // them.
 //
-// Normal damping and friction need the velocity at the full step, which is not known before the
-// force is. The prediction v(n) = w(n-1/2) + a(n-1) dt/2 makes them second order in dt.
+// Normal damping and friction need the velocity at the full step, which itself depends on the
+// force. The prediction v(n) = w(n-1/2) + a(n-1) dt/2 makes them second order in dt.
 //
 // Where the damping force jumps, as in eq. (1) when a contact begins and ends at full speed, a
 // sampled force would be first order: the kick of a step stands for the time from half a step
-// before to half a step after, and the jump falls anywhere. The extrapolated path tells when the
-// bodies met and will part; the damping is weighted with the time for which it acts. So the error
-// of a contact, averaged over where its ends fall within a step, is second order. What is left:
-// where an end falls within a hair of a full step, the extrapolation may take it for before instead
-// of after the step (1.5 % of the contacts at t_col/50), and half a step of damping is amiss.
+// before to half a step after, and the jump falls anywhere in between. So the path is extrapolated
+// to tell when the bodies met and will part, and the damping is weighted with the time for which it
+// acts. The error of a contact, averaged over where its ends fall within a step, is then second
+// order. One error remains: where an end falls very close to a full step, the extrapolation may put
+// it on the wrong side (1.5 % of the contacts at t_col/50), and half a step of damping is wrong.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -32,23 +32,25 @@ struct Encounter {
   double per_reduced_mass;  ///< 1/kg
 };
 
-/// The turning of two bodies in contact, seen from the first one. The surfaces meet on the line of
-/// centres, which the contact point divides as the radii do: so the two torques of a tangential
-/// force and that of the force pair on the orbit add up to zero, whatever the overlap.
+/// The rotation of two bodies in contact, seen from the first one. The contact point divides the
+/// line between the centres in the ratio of the radii: so angular momentum is conserved whatever
+/// the overlap, as the two torques of a tangential force cancel that of the force pair on the
+/// centres.
 struct Turning {
-  double roll, half_roll;  ///< 1/s, (r_i w_i + r_j w_j) / reach, at the full step and before
-  double spin, half_spin;  ///< rad/s, w_i - w_j, likewise
-  double inertia;          ///< moment of inertia of a grain over m r^2
-  double part_first, part_second;                ///< of the reach, which is each body's radius
+  double roll, half_roll;          ///< 1/s, (r_i w_i + r_j w_j) / reach, now and half a step before
+  double spin, half_spin;          ///< rad/s, w_i - w_j, likewise
+  double inertia;                  ///< moment of inertia of a grain over m r^2
+  double part_first, part_second;  ///< radius of each body over the reach
   double per_inertia_first, per_inertia_second;  ///< 1/(kg m^2); 0: a wall grain
   double rolling_arm;                            ///< m, largest rolling torque per normal force
 };
 
-/// Of grains that do not rotate.
+/// Stands for Turning where grains do not rotate.
 struct NoTurning {};
 
-/// The tangential spring of a contact; zero for laws that have none. Without default values, and
-/// handed on by value: else GCC 12 keeps it in memory, and no loop with it is vectorised.
+/// The tangential spring of a contact; zero for laws that have none. It has no default values and
+/// is passed by value because GCC 12 would otherwise keep it in memory and vectorise no loop with
+/// it.
 struct Stretch {
   double spring;  ///< m, its elongation a step before
   double time;    ///< s, for which the slip has stretched it since
@@ -63,8 +65,8 @@ struct Touch {
   double slip;  ///< m/s, of the surfaces, of the first relative to the second, along s = n turned
                 ///< by 90 degrees
   double centre_slip;     ///< m/s, that of the centres alone
-  double since;           ///< s, in touch since; dt if longer than the last step
-  double until;           ///< s, in touch for; dt if longer than the next step
+  double since;           ///< s, how long the bodies have touched; dt if longer than the last step
+  double until;           ///< s, how long they will touch; dt if longer than the next step
   double elastic_energy;  ///< J
   double normal_power;    ///< W, dissipated by the normal damping (negative where a clipped force
                           ///< gives back)
@@ -75,9 +77,9 @@ struct Touch {
   double rolling_torque;  ///< N m, on the first body; the second gets the opposite
 };
 
-/// J, what friction (N, on the first body) took from two bodies in the step before the present one.
-/// A step's friction works on the mean of the velocities before and after its kicks, which are
-/// those of all contacts of the two bodies: it is known only now.
+/// J, what friction (fx, fy in N, on the first body) took from two bodies in the step before the
+/// present one. The work of a step's friction is that on the mean of the velocities before and
+/// after the kicks of that step, by all contacts of the two bodies: so it is known only now.
 [[gnu::always_inline]] inline double loss_by_friction(double fx, double fy, const Encounter& e,
                                                       double dt) {
   const double mean_vx = 2.0 * e.half_vx - e.vx, mean_vy = 2.0 * e.half_vy - e.vy;
@@ -94,8 +96,9 @@ struct Touch {
 /// How much of the last and of the next time step two bodies spend in the overlap.
 struct Passage {
   double since, until;  ///< s, at most dt
-  /// s, for which the present kick stands: half of each of the two steps, unless the contact begins
-  /// (or ends) in it; then there is no other kick to stand for the rest.
+  /// s, the time that the present kick stands for: half of the last and half of the next step.
+  /// Where the contact begins (or ends) within one of them, all its time in that step, as there is
+  /// no other kick to stand for the rest.
   double kick_time;
 };
 
@@ -108,20 +111,21 @@ struct Passage {
   const double straight = closing * closing + (e.vx * e.vx + e.vy * e.vy) * depth2;
   const double root = std::sqrt(straight + (distance * e.per_reduced_mass * depth2) * force);
   const bool begins = depth2 < dt * (root + closing), ends = depth2 < dt * (root - closing);
-  // What could be 0/0, negative or not a number is not taken: then the bodies stay in touch.
+  // Where these are 0/0, negative or NaN they are not used: then the bodies stay in touch.
   const double since = depth2 / (root + closing), until = depth2 / (root - closing);
   return {.since = begins ? since : dt,
           .until = ends ? until : dt,
           .kick_time = (begins ? since : 0.5 * dt) + (ends ? until : 0.5 * dt)};
 }
 
-/// N, the least that a normal force may be: a bound for both kinds of attraction, as GCC 12 does
-/// not vectorise a branch.
+/// N, the least value that a normal force may have. A bound for either kind of attraction, because
+/// GCC 12 does not vectorise a branch between them.
 inline double least_force(Attraction attraction) {
   return attraction == Attraction::clip ? 0.0 : -std::numeric_limits<double>::infinity();
 }
 
-/// N, positive where it pushes: the mean over the step, in which the damping acts for `kick_time`.
+/// N, positive in repulsion: mean over the step, in which the damping acts for `kick_time` (s). Not
+/// below `least`.
 [[gnu::always_inline]] inline double mean_normal_force(double elastic, double damping, double least,
                                                        double kick_time, double per_dt) {
   const bool pulls = elastic + damping < least;
@@ -155,21 +159,21 @@ template <class Turn, class Normal, class Slip>
                                           const Normal& normal, const Slip& slip_law, double mu,
                                           Attraction attraction, double dt) {
   constexpr bool turns = std::is_same_v<Turn, Turning>;
-  // Contacts that are few wait for each other's results, not for units that compute: root and
-  // quotient side by side, and what does not depend on a late result put together before it.
+  // With few contacts the loop is limited by latency, not by throughput. So root and quotient are
+  // computed side by side, and factors that do not depend on a late result are combined before it.
   const double distance2 = e.x * e.x + e.y * e.y;
   const double distance = std::sqrt(distance2);
   const double per_distance = distance * (1.0 / distance2);
   const double nx = e.x * per_distance, ny = e.y * per_distance;
 
   const double overlap = e.reach - distance;
-  // What is nothing has no sign, or it would be that of whoever is first: hence 0 - x and x + 0.
+  // 0 - x and x + 0 turn -0 into +0: the sign of a zero would depend on which body is the first.
   const double closing = 0.0 - (e.x * e.vx + e.y * e.vy);
   const double rate = closing * per_distance;
   const double centre_slip = (e.vx * ny - e.vy * nx) + 0.0;
   double slip = centre_slip;
   double half_step_slip = e.half_vx * ny - e.half_vy * nx;
-  // The way slipped since the last step, with the distance that the bodies had on the way.
+  // The slip since the last step, computed with the distance half-way between the two steps.
   const double on_the_way = distance - 0.5 * dt * (e.half_vx * nx + e.half_vy * ny);
   double slipping = half_step_slip * (distance / on_the_way);
   if constexpr (turns) {

@@ -10,9 +10,9 @@ namespace riesel {
 
 namespace {
 
-/// Carries the motion of the second grain, as seen from the first, on by one step: gravity is the
-/// same for both, and integers add up to the bits that a look at both grains would give. What is
-/// new are the last kicks, of all contacts of the two.
+/// Advances the motion of the second grain relative to the first by one step. Gravity is the same
+/// for both, and integers give the same bits as a difference of the two grains would. The only new
+/// input are the last kicks of the two grains, by all their contacts.
 [[gnu::always_inline]] inline BodyMotion next_motion(ContactTile& c, std::size_t i) {
   const FixedVector kick = c.partner.kick.at(i);
   const FixedVector u = wrapped_sum(c.partner.u.at(i), kick);
@@ -36,7 +36,7 @@ motion_of_wall(ContactTile& c, std::size_t i, const Bodies& bodies, const StepUn
           .per_mass = c.per_mass[0][i] + c.per_mass[1][i]};
 }
 
-/// Looks at both bodies, where they are now.
+/// From the present motion of both bodies.
 template <class Numbers, Partner partner>
 [[gnu::always_inline]] inline Encounter encounter_of(ContactTile& c, std::size_t i,
                                                      const Bodies& bodies, const StepUnits& units) {
@@ -47,7 +47,7 @@ template <class Numbers, Partner partner>
     return encounter<Numbers>(motion_of_wall(c, i, bodies, units), reduced_pair(c, i), units);
 }
 
-/// The same in a contact that has been followed up to the step before.
+/// The same for a contact whose relative motion is known at the step before.
 template <class Numbers, Partner partner>
 [[gnu::always_inline]] inline Encounter
 next_encounter(ContactTile& c, std::size_t i, const Bodies& bodies, const StepUnits& units) {
@@ -74,7 +74,7 @@ template <class Numbers, Partner partner, class Turn>
   }
 }
 
-/// The spring is stretched from the very beginning of the contact on.
+/// In its first step a contact stretches its spring from `begin` on, not for the whole step.
 template <class Slip>
 [[gnu::always_inline]] inline Stretch stretch_of(ContactTile& c, std::size_t i,
                                                  const StepUnits& u) {
@@ -85,9 +85,9 @@ template <class Slip>
     return {.spring = 0.0, .time = 0.0};
 }
 
-/// What friction took in the step before, as Contact has it: without what went to the spring, with
-/// what is left in it when the contact is over. life(member) is as that step left it;
-/// `spring_energy` (J) is what is in the spring now.
+/// J, what friction dissipated in the step before, as Contact::friction_loss counts it: without
+/// what went into the spring. life(member) is as that step left it; `spring_energy` (J) is what is
+/// in the spring now, 0 when the contact is over: what was left in it counts as dissipated.
 template <class Life, class Turn, class Slip>
 [[gnu::always_inline]] inline double loss_before(const Life& life, const Encounter& e,
                                                  const Turn& turn, const Slip& slip,
@@ -101,8 +101,8 @@ template <class Life, class Turn, class Slip>
   return loss;
 }
 
-/// Carries the life of contact i on by one step, if it is one.
-/// The loss by friction in the step before is added even if it is over.
+/// Updates the life of contact i by one step if the bodies touch. The loss by friction in the step
+/// before is added even if the contact is over.
 template <Partner partner, class Turn, class Slip>
 [[gnu::always_inline]] inline void carry_on(ContactTile& c, std::size_t i, bool touching,
                                             const Encounter& e, const Turn& turn, const Touch& t,
@@ -138,8 +138,8 @@ template <Partner partner, class Turn, class Slip>
   }
 }
 
-/// Writes the kicks of contact i; returns the sum of their sizes, which is not a number if one of
-/// them is not.
+/// Writes the kicks of contact i; returns the sum of their sizes in quanta, which is NaN if one of
+/// them is.
 template <class Numbers, Partner partner>
 [[gnu::always_inline]] inline double kick_bodies(ContactTile& c, std::size_t i, bool touching,
                                                  const Touch& t, const StepUnits& u) {
@@ -157,7 +157,7 @@ template <class Numbers, Partner partner>
   return size;
 }
 
-/// Likewise for the torques, if the bodies turn.
+/// The same for the torques, where bodies rotate; else returns 0.
 template <class Numbers, Partner partner, class Turn>
 [[gnu::always_inline]] inline double twist_bodies(ContactTile& c, std::size_t i, bool touching,
                                                   const Turn& turn, const Touch& t,
@@ -180,8 +180,8 @@ template <class Numbers, Partner partner, class Turn>
   return size;
 }
 
-/// One step of the contacts of so many blocks, each as many lanes as there are masks in a vector: a
-/// tile, or half of one. Lanes that do not touch compute nonsense, which is not kept.
+/// One step of the contacts in `blocks` blocks of LaneMasks<Mask>::lanes lanes: whole tiles, or the
+/// first half of the only one. Lanes that do not touch compute nonsense, which is discarded.
 template <Partner partner, class Turn>
 struct StepLoop {
   template <class Numbers, class Mask, class Normal, class Slip>
@@ -190,8 +190,8 @@ struct StepLoop {
                                          Normal normal, Slip slip, double mu,
                                          double rolling_friction, Attraction attraction) {
     using Masks = LaneMasks<Mask>;
-    // Of copies only what is used is loaded, and once: what others refer to may change with each
-    // store.
+    // Copies, of which only what is used is loaded, and once: through the references it would have
+    // to be loaded again after each store.
     const Bodies b = bodies;
     const StepUnits u = units;
     for (std::size_t block = 0; block < blocks; ++block) {
@@ -207,7 +207,7 @@ struct StepLoop {
         carry_on<partner>(c, i, touching, e, turn, t, slip, u);
         const double size = kick_bodies<Numbers, partner>(c, i, touching, t, u)
                             + twist_bodies<Numbers, partner>(c, i, touching, turn, t, u);
-        // Kicks are integers: what is not a number, or beyond all bounds, must not become one.
+        // NaN, or a number that no 64-bit integer holds, must not be converted to a kick.
         const Mask bad = size < 0x1p62 ? 0 : 1;
         const Mask over = touching ? 0 : 1;
         mask |= Masks::bit_if(over, i, ContactFindings::apart)
@@ -218,9 +218,9 @@ struct StepLoop {
   }
 };
 
-/// Contacts get the last kicks of their grains: one by one, as vectors are slower at gathering.
-/// Those that have been added since the last step know nothing of their grains' motion yet: they
-/// get that of the step before.
+/// Gives the contacts the last kicks of their grains; in a scalar loop, as vector gathers are
+/// slower. Contacts that have been added since the last step also get the relative motion of their
+/// grains, taken back by one step.
 void follow_bodies(std::span<ContactTile> tiles, const ContactCounts& counts,
                    const Bodies& bodies) {
   const Bodies b = bodies;

@@ -1,5 +1,5 @@
-// One step of the contacts of tiles: from where the bodies are to kicks and longer lives, by vector
-// instructions.
+// One step of the contacts in tiles by vector instructions: from the motion of the bodies to the
+// kicks and the updated lives of the contacts.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -14,26 +14,28 @@
 
 namespace riesel {
 
-/// What the second body of a contact is.
+/// The kind of the second body of a contact.
 enum class Partner { grain, wall };
 
-/// The contacts of tiles, which fill their lanes in order.
+/// The numbers of contacts in tiles, whose lanes they fill in order.
 struct ContactCounts {
   std::size_t all;
-  std::size_t followed;  ///< those before have been stepped, the others added since
-  std::size_t lasting;   ///< those before last already, the others begin in this step
+  std::size_t followed;  ///< the first ones have been stepped before, the others added since
+  std::size_t lasting;   ///< the first ones have begun before, the others begin in this step
 };
 
-/// What a step finds of each contact: a vector of masks serves so few, or there are more.
+/// What a step finds out about each contact, as bits in masks. Few contacts are stepped in blocks
+/// of one vector of doubles, many in blocks of two (LaneMasks).
 class ContactFindings {
 public:
-  /// No overlap any more; a kick that is no usable number.
+  /// Numbers of the findings: the bodies do not overlap any more; the kick is not finite or too
+  /// large.
   static constexpr std::size_t apart = 0, unusable = 1;
 
   ContactFindings() { of_few_.resize(Few::lanes); }
 
   void resize(std::size_t tiles) { of_many_.resize(tiles * ContactTile::lanes); }
-  /// Calls use(masks) with those that serve `count` contacts.
+  /// Calls use(masks) with the masks for `count` contacts.
   template <class Use>
   void with_masks(std::size_t count, Use use) {
     if (count <= Few::lanes)
@@ -50,14 +52,15 @@ private:
   Many of_many_;
 };
 
-/// Computes the kicks of this step, carries the lives on and tells what it finds.
-/// `bodies` are at the step of `units`; the points of walls must be so, too. There is a contact.
+/// Computes the kicks of this step, updates the lives and writes what it finds to `found`.
+/// `bodies`, and the points of walls in the tiles, must be at the step of `units`. counts.all > 0.
 void step_tiles(Partner partner, std::span<ContactTile> tiles, const ContactCounts& counts,
                 const Bodies& bodies, const StepUnits& units, const ContactModel& model,
                 ContactFindings& found);
 
-/// For a contact that no step sees the end of: what friction took in its last step, and what is
-/// left in its spring. The meeting is that of name.grain and its partner, as meeting_of() has it.
+/// Completes the life of a contact whose end no step sees: adds to its friction_loss what friction
+/// took in its last step, and what is left in its spring. `meeting` must be that of meeting_of(),
+/// with name.grain as the first body.
 void add_last_loss(Contact& contact, const Meeting& meeting, const Bodies& bodies,
                    const SlipLaw& slip, const StepUnits& units);
 

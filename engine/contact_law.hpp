@@ -1,5 +1,5 @@
-// The contact laws: one small type each, with its formula and its source. They are values, inlined
-// into the one contact loop and chosen once per call of that loop.
+// The contact laws: one small type each, with its formula and its source. Their functions are
+// inlined into the one contact loop, which is compiled for each of them and chosen once per call.
 //
 // To add a normal law: write its type here and add it to NormalLaw (or keep it outside of the
 // library: OuterLaw, docs/extending.md). A type provides
@@ -11,8 +11,8 @@
 // slip law: the same with SlipLaw; a type provides
 //   force(sliding)                 N along s, on the first body
 //   has_spring                     whether its contacts have a history, the elongation of a spring;
-// and if they have
-//   elongation(sliding)            m, what sliding leaves of it
+// and if so
+//   elongation(sliding)            m, of the spring after this step, limited by friction
 //   stored_energy(elongation)      J
 //
 // Source, unless said otherwise: Schaefer and Wolf, Phys. Rev. E 51, 6154 (1995).
@@ -66,20 +66,21 @@ struct HertzKuwabaraKonoLaw {
 
 using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw, OuterLaw>;
 
-/// What a slip law sees of a contact. The slip is that of the surfaces, of the first body relative
-/// to the second, along s.
+/// What a slip law knows of a contact. The slip is the velocity of the surface of the first body
+/// relative to that of the second, along s (Contact).
 struct Sliding {
-  double limit;           ///< N, mu |F_N|, in the mean over the step
-  double present_limit;   ///< N, the same at this moment
+  double limit;           ///< N, mu |F_N|, mean over the step
+  double present_limit;   ///< N, mu |F_N| at the full step
   double slip;            ///< m/s, at the full step
   double half_step_slip;  ///< m/s, half a step before
-  double spring;          ///< m, elongation of the tangential spring by the slip so far
+  double spring;          ///< m, elongation of the tangential spring with the slip of this step
   double weight;          ///< the part of the step in which the bodies are in touch
   double reduced_mass;    ///< kg
-  double slip_mass;       ///< kg, inertia of the slip: m_red, and less where the bodies can turn
+  double slip_mass;       ///< kg, inertia of the slip: m_red, or less where the bodies rotate
   double per_dt;          ///< 1/s, of the time step
 };
 
+/// `force` restricted to [-limit, limit].
 [[gnu::always_inline]] inline double capped(double limit, double force) {
   return std::max(-limit, std::min(limit, force));
 }
@@ -95,7 +96,8 @@ struct CappedSlip {
   }
 };
 
-/// Eq. (2) taken literally: at zero slip the sign chatters by limit dt / m_red each step.
+/// Eq. (2) taken literally: near zero slip the sign alternates, and the slip jumps by limit dt /
+/// m_red in each step.
 struct LiteralSlip {
   static constexpr bool has_spring = false;
 
@@ -116,9 +118,9 @@ struct ViscousSlip {
 };
 
 /// F_S = -(k_t zeta + gamma_t m_red v_S), at most the limit: Cundall and Strack, Geotechnique 29,
-/// 47 (1979). The elongation zeta of the spring is the way slipped, cut off where the spring alone
-/// reaches the limit: the contact slides. So nothing is stored that was not given; a spring that is
-/// made longer or shorter to match the limit together with the damping may store what is not there.
+/// 47 (1979). The elongation zeta is the distance slipped, cut off where the spring alone reaches
+/// the limit: then the contact slides. So the spring stores no energy that it did not receive,
+/// which one that is adjusted so that spring and damping together match the limit might do.
 struct SpringSlip {
   static constexpr bool has_spring = true;
 
@@ -135,8 +137,8 @@ struct SpringSlip {
 
 using SlipLaw = std::variant<CappedSlip, LiteralSlip, ViscousSlip, SpringSlip>;
 
-/// Near the end of a contact the damping of eq. (1) pulls: either as the equation says, or cut off
-/// at zero.
+/// Near the end of a contact the damping of eq. (1) makes F_N negative, an attraction: this is kept
+/// as the equation says, or clipped to zero.
 enum class Attraction { keep, clip };
 
 /// All that two bodies in contact do to each other.

@@ -19,11 +19,11 @@ void begin_pairs(Slice& slice, const Grains& g, const StepUnits& units) {
   }
 }
 
-/// Begins the contacts of a grain with wall grains, and tells how far it may go until the next one
-/// (m).
+/// Begins the contacts of a grain with wall grains. Returns how far it may go (m) before it can
+/// touch another wall grain.
 double begin_at_wall(Slice& slice, const State& state, std::uint32_t place,
                      const StepUnits& units) {
-  constexpr double room_of_reach = 0.1;  // more lets it rest longer, and takes a longer look
+  constexpr double room_of_reach = 0.1;  // more means rarer looks at more wall grains
   const NearWall& near = slice.near_walls[place];
   const double reach = reach_at_wall(state, near), farthest = (1.0 + room_of_reach) * reach;
   double closest2 = farthest * farthest;
@@ -38,9 +38,9 @@ double begin_at_wall(Slice& slice, const State& state, std::uint32_t place,
   return (closest2 - reach * reach) / (farthest + reach);  // at most the distance less the reach
 }
 
-/// A grain that has been looked at is left alone until it may touch a wall grain.
+/// Begins the contacts with walls. Each grain is then left alone until it may touch a wall grain.
 void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
-  constexpr double rounding = 1e-9;  // of the radius
+  constexpr double rounding = 1e-9;  // allowance for rounding errors, over the radius
   const WayPastWalls way = slice.way_past_walls;
   for (std::uint32_t place = 0; place < slice.near_walls.size(); ++place) {
     NearWall& near = slice.near_walls[place];
@@ -57,7 +57,8 @@ void begin_at_walls(Slice& slice, const State& state, const StepUnits& units) {
   }
 }
 
-/// J per kg of the grain, along one axis; kicks and the wall's displacement `u` in quanta.
+/// Work of a wall along one axis, J per kg of the grain; the kicks and the displacement `u` of the
+/// wall are in quanta.
 double work_along(Fixed kick_of_grain, Fixed u, Fixed kick_of_wall, double to_velocity) {
   const double mean_velocity = (real(u) + 0.5 * real(kick_of_wall)) * to_velocity;
   return real(kick_of_grain) * to_velocity * mean_velocity;

@@ -1,4 +1,5 @@
-// From candidates that may touch to the kicks of contacts: beginning, lasting, end.
+// The contacts of a slice in one step, from candidates that may touch to kicks: which begin, which
+// last and which have ended.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -11,16 +12,16 @@
 
 namespace riesel {
 
-/// A grain near a wall in contact with grain `k` of it.
+/// The meeting of grain number `near_wall` in slice.near_walls with grain `k` of that wall.
 Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t near_wall,
                         std::int64_t k);
 
-/// The contact lasts: nobody needs to look for it.
+/// Marks the candidate as in contact: searches leave it out from now on.
 void note_lasting(Slice& slice, const Meeting& meeting);
-/// It has ended.
+/// Takes that mark away: the contact has ended.
 void note_over(Slice& slice, const Meeting& meeting);
 
-/// Begins in the step that is being done.
+/// Adds, counts and marks a contact that begins in the present step.
 void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting);
 
 /// m, between the centres of a grain and a wall grain that touch.
@@ -28,9 +29,9 @@ inline double reach_at_wall(const State& state, const NearWall& near) {
   return state.grains.radius[near.slot] + state.wall(near.wall).radius;
 }
 
-/// Calls visit(k, from_grain) for the wall grains that `near`, which is at `place`, has within
-/// `room` (m), and a few more, but for those that it is in contact with; `from_grain` leads to
-/// them.
+/// Calls visit(k, from_grain) for all wall grains that the grain of `near`, at position `place`,
+/// would touch if it were `room` (m) larger, and perhaps for a few more, but not for those that it
+/// is in contact with. `from_grain` (quanta) is the vector from the grain to wall grain k.
 template <class Visit>
 void for_each_free_wall_grain(const State& state, const NearWall& near, const FixedVector& place,
                               const StepUnits& units, double room, Visit visit) {
@@ -45,8 +46,8 @@ void for_each_free_wall_grain(const State& state, const NearWall& near, const Fi
   });
 }
 
-/// Completes the step of `contacts` that is that of `units`: tells trouble, counts those that have
-/// ended and removes them; calls ended(i) before contact i goes.
+/// Completes the step of `contacts`, which is that of `units`: reports trouble to the slice, counts
+/// the contacts that have ended and removes them; calls ended(i) before contact i is removed.
 template <class Ended>
 void complete_step(Slice& slice, LiveContacts& contacts, const StepUnits& units, Ended ended) {
   if (const auto& contact = contacts.trouble())
@@ -61,21 +62,21 @@ void complete_step(Slice& slice, LiveContacts& contacts, const StepUnits& units,
   }
 }
 
-/// Counts the work that moving walls do in this step, on the mean velocities before and after its
-/// kicks, as loss_by_friction() does.
+/// Adds the work (J) that moving walls do in this step to the tally of the slice. It is that on the
+/// mean of the velocities before and after the kicks, as in loss_by_friction().
 void count_work_of_walls(Slice& slice, const StepUnits& units);
 
-/// Calls kick(place, body_kick) for what the last step of the contacts of `slice` gives to their
-/// bodies; the place is that in the Bodies of that step.
+/// Calls kick(place, body_kick) for each kick by the last step of the contacts of `slice`; `place`
+/// is the index of the body in the Bodies of that step.
 template <class GiveKick>
 void for_each_kick(const Slice& slice, GiveKick kick) {
   slice.pair_contacts.for_each_kick(kick);
   slice.wall_contacts.for_each_kick(kick);
 }
 
-/// One step of the contacts of `slice`: those that last, and those that begin among its hits and
-/// its grains near walls. The grains that these concern are at the step of `units`; the kicks are
-/// in the contacts then.
+/// Does one step of the contacts of `slice`: of those that last, and of those that begin among its
+/// hits and its grains near walls. All grains concerned must be at the step of `units`. Afterwards
+/// the kicks are in the contacts: see for_each_kick().
 void resolve_contacts(Slice& slice, const State& state, const StepUnits& units,
                       const ContactModel& model);
 

@@ -1,4 +1,4 @@
-// Contacts side by side, as vector loops take them.
+// The memory layout of contacts for vector loops.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -14,8 +14,9 @@
 
 namespace riesel {
 
-/// Sixteen contacts, a lane of each row: all that a loop needs of them stands together, at known
-/// distances. Lanes that are no contacts have zeros, but for the bodies.
+/// Sixteen contacts. Contact number i has lane i of each row: so all that a loop needs of a vector
+/// of contacts is close together, at constant offsets. Lanes without a contact hold zeros, except
+/// in `body`, which names a body that may be read.
 struct alignas(cache_line) ContactTile {
   static constexpr std::size_t lanes = 16;
   template <class T>
@@ -32,7 +33,7 @@ struct alignas(cache_line) ContactTile {
     }
   };
 
-  /// As a BodyMotion.
+  /// The members of BodyMotion for each lane.
   struct Motions {
     Vectors position, u, kick;
   };
@@ -42,18 +43,18 @@ struct alignas(cache_line) ContactTile {
   static constexpr std::size_t life_members = (sizeof(Contact) - life_begin) / sizeof(double);
   static_assert(life_begin + life_members * sizeof(double) == sizeof(Contact));
 
-  std::array<Row<std::int64_t>, 2> body;  ///< places of first and second in Bodies
-  /// Of the point of a wall, or of the second grain as seen from the first, which kicks alone
-  /// change from step to step.
+  std::array<Row<std::int64_t>, 2> body;  ///< index of the first and the second body in Bodies
+  /// At a wall the motion of the point that is touched; else that of the second grain relative to
+  /// the first, which the loop carries on from step to step.
   Motions partner;
   Row<double> reach, reduced_mass;              ///< m, kg
   std::array<Row<double>, 2> per_mass, radius;  ///< 1/kg and m, of first and second
-  std::array<Row<double>, life_members> life;
-  std::array<Vectors, 2> kick;          ///< of first and second, in the last step
-  std::array<Row<Fixed>, 2> spin_kick;  ///< likewise
+  std::array<Row<double>, life_members> life;   ///< see RIESEL_LIFE
+  std::array<Vectors, 2> kick;                  ///< of first and second, in the last step
+  std::array<Row<Fixed>, 2> spin_kick;          ///< likewise
 };
 
-/// The row of a tile's `life` that holds this member of Contact.
+/// Index of the row of a tile's `life` that holds this member of Contact.
 #define RIESEL_LIFE(member)                                                                        \
   ((offsetof(Contact, member) - offsetof(Contact, begin)) / sizeof(double))
 

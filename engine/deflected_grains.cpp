@@ -10,13 +10,14 @@ namespace riesel {
 
 namespace {
 
-// The loops below go along each axis by itself: of whole vectors GCC makes no vector loops.
+// The loops below treat each axis separately, because GCC does not vectorise loops over
+// FixedVectors.
 
-/// `count` is a multiple of `lanes`.
+/// Moves `count` grains, a multiple of `lanes`, to the next step.
 template <std::size_t lanes>
 RIESEL_VECTOR_KERNEL void move_lanes(std::size_t count, FixedVector* position, FixedVector* u,
                                      const FixedVector* kick, const FixedVector& fallen) {
-  const FixedVector f = fallen;  // what others refer to may change with each store
+  const FixedVector f = fallen;  // through the reference it would be loaded anew after each store
   for (std::size_t block = 0; block < count; block += lanes) {
 #pragma omp simd
     for (std::size_t i = block; i < block + lanes; ++i) {
@@ -29,8 +30,8 @@ RIESEL_VECTOR_KERNEL void move_lanes(std::size_t count, FixedVector* position, F
   }
 }
 
-/// Carries on by the next step what places are off their courses, and finds where that leads beyond
-/// the tolerance (quanta) along an axis.
+/// Extrapolates how far grains are off their courses to the next step, and finds those that will be
+/// beyond the tolerance (quanta) along an axis.
 template <class Strays>
 RIESEL_VECTOR_KERNEL void find_strays(std::size_t count, FixedVector* off, FixedVector* off_u,
                                       const FixedVector* kick, Fixed tolerance_x, Fixed tolerance_y,

@@ -1,7 +1,8 @@
-// The grains in contact while all others fly: stepped side by side by vector instructions.
+// The deflected grains of a slice: those in contact while all others fly, stepped by vector
+// instructions.
 //
-// A grain stands here at a fixed place as long as it is deflected. The store meanwhile holds its
-// course, for which its appointments were made (Courses).
+// As long as a grain is deflected its motion is here, at a fixed index, its place. The store
+// meanwhile holds its course, for which its appointments were made (Courses).
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -23,11 +24,11 @@ public:
   /// `inertia` as in Grains.
   explicit DeflectedGrains(double inertia) : inertia_(inertia) {}
 
-  /// Takes up a grain that is on its course. Returns its place.
+  /// Adds a grain that is on its course, and moves like this. Returns its place.
   Place take(std::uint32_t slot, const Motion& motion);
-  /// What stands there moves like this now, on its course.
+  /// Sets the motion of the grain at `place`, which is on its course now.
   void put(Place place, const Motion& motion);
-  /// The grain leaves; its place will be given to another.
+  /// Removes the grain; its place may be given to another.
   void release(Place place);
   void clear();
 
@@ -43,7 +44,8 @@ public:
   /// The number of contacts that the grain has.
   std::int32_t& contacts(Place place) { return contacts_[place]; }
 
-  /// From one step to the next: velocities take up the kicks. `fallen` is the fall in this step.
+  /// Moves all grains to the next step: velocities take up the kicks. `fallen` (quanta per step) is
+  /// StepUnits::fallen of that step.
   void move(const FixedVector& fallen);
   void clear_kicks();
   void add_kick(std::int64_t place, const BodyKick& kick) {
@@ -52,10 +54,10 @@ public:
     if (kick.spin != 0) spin_kick_[at] = wrapped_sum(spin_kick_[at], kick.spin);
   }
 
-  /// From here on the course is the present motion, the kick included.
+  /// To be called when the grain gets a new course: the present motion, the kick included.
   void set_course(Place place);
-  /// The grains that will be farther from their course than this (quanta, along either axis) in the
-  /// next step. To be asked once in each step, when all kicks have been added.
+  /// The grains that will be farther from their courses than the tolerance along an axis (quanta)
+  /// in the next step. Must be called exactly once in each step, when all kicks have been added.
   const std::vector<Place>& straying(Fixed tolerance_x, Fixed tolerance_y);
 
 private:
@@ -71,7 +73,8 @@ private:
 
   std::vector<std::uint32_t> slots_;
   std::vector<std::int32_t> contacts_;
-  // By place; free places and padding are motionless. off_...: actual minus course.
+  // By place; u, kick and off_... are 0 at free places and in the padding, whose positions mean
+  // nothing. off_...: actual motion minus course.
   AlignedVector<FixedVector> position_, u_, kick_, off_, off_u_;
   Strays strays_;  // of places
   std::vector<Place> free_, straying_;

@@ -12,7 +12,7 @@ namespace {
 constexpr int cell_bits = 10;
 constexpr std::size_t cells = std::size_t{1} << cell_bits;
 
-/// cos(2 pi i / cells), as the waves in all cells are made of it.
+/// Table of cos(2 pi i / cells), which has all values that the waves take in the cells.
 const std::vector<double>& cosines() {
   static const std::vector<double> table = [] {
     std::vector<double> values(cells);
@@ -29,7 +29,7 @@ struct Occupied {
   double grains;
 };
 
-/// The cells in which there are grains: of a single one, as in an impact, few.
+/// The cells that have grains: few where there are few grains, as in an impact.
 std::vector<Occupied> occupied_cells(const Grains& grains) {
   std::vector<std::int64_t> counts(cells);
   for (const FixedVector& at : grains.position)

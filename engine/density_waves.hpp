@@ -3,8 +3,8 @@
 //
 // The measure is the static structure factor along y,
 //     S_n = |sum over grains of exp(-i k_n y)|^2 / N,   k_n = 2 pi n / length,
-// which is 1 in the mean for grains that know nothing of each other, below 1 where they keep apart
-// evenly (a dense fluid resists compression), and N where all stand together.
+// which has the mean 1 for grains placed independently, is below 1 where they are spaced evenly (a
+// dense fluid resists compression), and N where all are at one place.
 #pragma once
 
 #include "engine/state.hpp"
@@ -14,11 +14,11 @@
 
 namespace riesel {
 
-/// n = 1 ... 4.
+/// Number of waves: n = 1 ... 4.
 inline constexpr std::size_t density_waves = 4;
 
-/// S_1 ... S_4; the same bits for any order of the slots. The places are rounded to 1/1024 of the
-/// length, so that grains can be counted instead of summed: sqrt(S_n) is off by about 0.001 n.
+/// S_1 ... S_4; the same bits for any order of the slots. The positions are rounded to 1/1024 of
+/// the length, so that grains can be counted instead of summed: sqrt(S_n) is off by about 0.001 n.
 std::array<double, density_waves> axial_structure_factor(const Grains& grains);
 
 }  // namespace riesel

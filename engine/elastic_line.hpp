@@ -1,4 +1,4 @@
-// The elastic part of a normal law as a power of the overlap: what collision times follow from.
+// The elastic part of a normal law as a power of the overlap, from which collision times follow.
 #pragma once
 
 namespace riesel {

@@ -10,13 +10,14 @@
 
 namespace riesel {
 
-/// Position and motion of a body in a step, in quanta: `u` is the displacement in the step, `kick`
-/// what the next one has more.
+/// Position and motion of a body at a step, in quanta: `u` is the displacement in that step, and
+/// `kick` what that in the next step will be larger by.
 struct BodyMotion {
   FixedVector position, u, kick;
 };
 
-/// The numbers of the current step: those that turn quanta into SI units and back, and the walls.
+/// The numbers that the work on a step needs: factors between quanta and SI units, the time, and
+/// the motion of the walls.
 struct StepUnits {
   explicit StepUnits(const State& state)
       : box(state.box),
@@ -46,16 +47,16 @@ struct StepUnits {
 
   Box box;
   double dt;                      ///< s
-  FixedVector fall;               ///< in a step
+  FixedVector fall;               ///< quanta per step^2
   double metre_x, metre_y;        ///< m per quantum
   double velocity_x, velocity_y;  ///< m/s per quantum per step
   double kick_x, kick_y;          ///< quanta per step^2 over m/s^2
   double spin;                    ///< rad/s per quantum of angle per step
   double spin_kick;               ///< quanta per step^2 over rad/s^2
 
-  double step;         ///< steps done
+  double step;         ///< number of the step, exact up to 2^53
   double time;         ///< s
-  FixedVector fallen;  ///< so far
+  FixedVector fallen;  ///< quanta per step, velocity of the falling frame in this step
 
   bool walls_move = false;
   std::array<WallMotion, WallImpulses::most_walls> motion{};
@@ -73,7 +74,8 @@ private:
   }
 };
 
-/// The motion of bodies, by place in these arrays; as in Grains.
+/// The motion of bodies, in arrays as those of Grains. The index of a body in them is its place:
+/// the slot in the store, or the place in DeflectedGrains.
 struct Bodies {
   const FixedVector *position, *u, *kick;
   const Fixed *spin, *spin_kick;  ///< null where they do not rotate
@@ -82,7 +84,8 @@ struct Bodies {
   bool rotate() const { return inertia > 0.0; }
 };
 
-/// What the contacts of a step add to the displacement and to the turn per step of a body, quanta.
+/// What the contacts of a step add to the displacement per step (quanta) and to the angle per step
+/// (quanta of angle) of a body.
 struct BodyKick {
   FixedVector by;
   Fixed spin;
@@ -97,7 +100,7 @@ inline Bodies bodies(const Grains& g) {
           .inertia = g.inertia};
 }
 
-/// Of body j as seen from body i.
+/// The motion of body j relative to body i.
 [[gnu::always_inline]] inline BodyMotion relative_motion(const Bodies& b, std::int64_t i,
                                                          std::int64_t j) {
   return {.position = wrapped_difference(b.position[j], b.position[i]),
@@ -105,7 +108,7 @@ inline Bodies bodies(const Grains& g) {
           .kick = wrapped_difference(b.kick[j], b.kick[i])};
 }
 
-/// Of a wall grain as seen from body i.
+/// The motion of a wall grain relative to body i. The wall is not in the falling frame.
 [[gnu::always_inline]] inline BodyMotion
 relative_motion(const Bodies& b, std::int64_t i, const BodyMotion& wall, const StepUnits& units) {
   return {.position = wrapped_difference(wall.position, b.position[i]),
@@ -113,14 +116,15 @@ relative_motion(const Bodies& b, std::int64_t i, const BodyMotion& wall, const S
           .kick = wrapped_difference(wall.kick, wrapped_sum(b.kick[i], units.fall))};
 }
 
-/// What of two bodies does not change, for their relative motion.
+/// The constants of two bodies that their relative motion depends on.
 struct ReducedPair {
   double reach;     ///< m, sum of the radii
   double mass;      ///< kg, the reduced mass
   double per_mass;  ///< 1/kg
 };
 
-/// The kick of the step before takes the velocity from the half step to the full one.
+/// Converts a relative motion to SI units. Half of the kick of the step before takes the velocity
+/// from the half step to the full one.
 template <class Numbers = ByConversion>
 [[gnu::always_inline]] inline Encounter encounter(const BodyMotion& m, const ReducedPair& pair,
                                                   const StepUnits& units) {
@@ -149,19 +153,20 @@ template <class Numbers = ByConversion>
   return {half + 0.5 * (Numbers::real(b.spin_kick[i]) * units.spin), half};
 }
 
-/// What does not change of two bodies while they are in contact.
+/// The constants of two bodies that their rotation depends on.
 struct BodyPair {
   double radius_first, radius_second;      ///< m; 0 for the second: a smooth wall
   double per_mass_first, per_mass_second;  ///< 1/kg; 0: a wall grain
 };
 
-/// `inertia` is the moment of inertia over m r^2. The same bits for the bodies exchanged, but for
-/// the signs of `spin` and `half_spin`.
+/// `inertia` is the moment of inertia over m r^2. Exchanging the bodies changes no bit but the
+/// signs of `spin` and `half_spin`, and swaps the members named first and second.
 [[gnu::always_inline]] inline Turning turning(const BodyPair& b, const Spin& first,
                                               const Spin& second, double inertia,
                                               double rolling_friction) {
   const double reach = b.radius_first + b.radius_second;
-  // Only the first turns on a plane, whatever is put for the second, and rolls with its radius.
+  // A plane has no radius and does not turn: the contact rolls with the radius of the first body.
+  // The radius put for the second only avoids a division by zero.
   const bool plane = b.radius_second == 0.0;
   const double radius_second = plane ? b.radius_first : b.radius_second;
   const double rolling_radius = plane ? b.radius_first : b.radius_first * b.radius_second / reach;
@@ -185,8 +190,9 @@ struct BodyPair {
   return dx * dx + dy * dy;
 }
 
-/// Whether two bodies that are `apart` touch: the one test that decides about the beginning and the
-/// end of a contact.
+/// Whether two bodies touch whose centres are `apart` (quanta), with the sum of radii `reach` (m).
+/// The one test that decides about the beginning of a contact; the contact kernel ends it by the
+/// same formula.
 [[gnu::always_inline]] inline bool overlapping(const FixedVector& apart, double reach,
                                                const StepUnits& units) {
   return squared_length(apart, units) < reach * reach;

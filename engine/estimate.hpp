@@ -1,11 +1,11 @@
-// A measured number.
+// A measured number with its error.
 #pragma once
 
 #include <limits>
 
 namespace riesel {
 
-/// What stands for a number that is not known.
+/// Stands for a number that is not known: NaN.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A number and its 68 % error; either may be unknown.

@@ -2,9 +2,9 @@
 //
 // Each term is rounded once, to a multiple of 2^-90 of its unit; the sum of the multiples is a
 // 128-bit integer and exact. So a number reported of many grains or contacts does not depend on how
-// the threads shared them. Range: |sum| < 2^37 = 1.4e11 units, resolution 8e-28 units: with SI
-// values of grains (energies of 1e-15 ... 1e3 J) both ends are far away. Of boulders they are not:
-// whoever adds sees to it that sums stay below largest_sum, beyond which they might wrap.
+// the threads shared them. Range: |sum| < 2^37 = 1.4e11 units, resolution 8e-28 units: far from the
+// SI values of grains (energies of 1e-15 ... 1e3 J) at both ends, but not from those of boulders.
+// Callers must keep sums below largest_sum: nothing here detects an overflow.
 #pragma once
 
 #include <bit>
@@ -16,7 +16,7 @@ __extension__ using Int128 = __int128;
 
 class ExactSum {
 public:
-  /// Half of the range.
+  /// Half of the range, in units: the bound that runs check their sums against.
   static constexpr double largest_sum = 0x1p36;
 
   /// Adds a finite term, |term| < 1e11.
@@ -40,7 +40,7 @@ private:
   static constexpr int bits_of_fraction = 90;
   static constexpr double unit_per_quantum = 0x1p-90;
 
-  /// Rounded towards zero: what a conversion of term * 2^90 gives, without a call.
+  /// term * 2^90 rounded towards zero, read off the bits: the conversion would be a library call.
   static Int128 quanta(double term) {
     constexpr int mantissa_bits = 52, bias = 1023;
     const auto bits = std::bit_cast<std::uint64_t>(term);

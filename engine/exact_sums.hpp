@@ -1,9 +1,9 @@
-// Several exact sums that grow together: the same as so many ExactSum, bit by bit, but added to by
-// vector instructions.
+// Several exact sums that grow together: the same bits as so many ExactSum, but added to by vector
+// instructions.
 //
-// For loops over all grains: a sum over 128 bits is slow to add to, as the carry goes from word to
-// word. Here the quanta of each term are three numbers of the same sign, which are summed apart and
-// put together in the end.
+// For loops over all grains: adding to a 128-bit integer is slow, as the carry goes from word to
+// word. Here the quanta of each term are split into three numbers of the same sign, which are
+// summed separately and combined at the end.
 #pragma once
 
 #include "engine/exact_sum.hpp"
@@ -17,11 +17,12 @@ namespace riesel {
 template <std::size_t n>
 class ExactSums {
 public:
-  /// Adds a term to each sum, as ExactSum::add() does. For at most 2^31 terms.
+  /// Adds terms[i] to sum i, as ExactSum::add() does. At most 2^31 times: the partial sums of 32
+  /// bits would leave 64 bits.
   [[gnu::always_inline]] void add(const std::array<double, n>& terms) {
 #pragma omp simd
     for (std::size_t i = 0; i < n; ++i) {
-      // Exact: a double has 53 bits, and what is cut off has those that are left.
+      // Exact: a double has 53 bits, and each remainder holds the bits not yet taken.
       const double whole = terms[i] * 0x1p26;
       const auto high = static_cast<std::int64_t>(whole);
       const double rest = (whole - static_cast<double>(high)) * 0x1p32;
@@ -41,7 +42,7 @@ public:
   }
 
 private:
-  std::array<std::int64_t, n> high_{}, middle_{}, low_{};  // of 2^-26, 2^-58 and 2^-90
+  std::array<std::int64_t, n> high_{}, middle_{}, low_{};  // in units of 2^-26, 2^-58 and 2^-90
 };
 
 }  // namespace riesel

@@ -21,15 +21,15 @@ namespace riesel {
 /// A coordinate, or a displacement per time step, in quanta of its axis.
 using Fixed = std::int64_t;
 
-/// Along both axes. They stand together where single grains are looked up, out of order: that is
-/// one line of memory instead of two.
+/// Both coordinates. They are stored side by side because contacts and courses look up single
+/// grains in random order, which then costs one cache line instead of two.
 struct FixedVector {
   Fixed x, y;
 
   friend bool operator==(const FixedVector&, const FixedVector&) = default;
 };
 
-/// 2^-64: the length quantum of an axis is its range times this.
+/// The length quantum of an axis is its range times this.
 inline constexpr double two_to_minus_64 = 0x1p-64;
 
 /// rad, the quantum of angles: a whole turn is 2^64 of them.
@@ -67,17 +67,17 @@ constexpr Fixed from_upper(std::int32_t upper) {
   return static_cast<Fixed>(static_cast<std::uint64_t>(upper) << 32);
 }
 
-/// floor(parts y / period), 0 <= result < parts, for a y of the ring that is shared out equally:
-/// exact.
+/// floor(parts * y / period), exact: which of `parts` equal parts of the ring holds y, counted from
+/// y = 0. `parts` > 0.
 constexpr std::int64_t part_of_ring(Fixed y, std::int64_t parts) {
   __extension__ using Wide = unsigned __int128;
   return static_cast<std::int64_t>(
       (static_cast<Wide>(static_cast<std::uint64_t>(y)) * static_cast<Wide>(parts)) >> 64);
 }
 
-/// Nearest integer to `quanta` (ties to even); |quanta| must be below 2^63. What llrint() gives,
-/// in additions that vectorise everywhere: a number is rounded by adding 1.5 * 2^52, which leaves
-/// no bits for fractions, first its upper part, then what remains.
+/// Nearest integer to `quanta` (ties to even), as llrint() gives it; |quanta| must be below 2^63.
+/// Uses only additions, which vectorise everywhere: adding 1.5 * 2^52 leaves no bits for a
+/// fraction and so rounds. This is done first to the upper part of the number, then to the rest.
 [[gnu::always_inline]] inline Fixed nearest_fixed(double quanta) {
   constexpr double shift = 0x1.8p52;
   const auto integer = [=](double shifted) {
@@ -88,28 +88,29 @@ constexpr std::int64_t part_of_ring(Fixed y, std::int64_t parts) {
   return wrapped_sum(wrapped_product(integer(upper), Fixed{1} << 26), integer(lower));
 }
 
-/// `quanta` without its fraction, to the nearest (ties to even). Beyond 2^52, where a double has
-/// none, to the nearest 2, 4 and so on.
+/// `quanta` rounded to an integer (ties to even). A double beyond 2^52 is an integer already; there
+/// the result may be a neighbouring multiple of 2, 4 and so on.
 [[gnu::always_inline]] inline double rounded(double quanta) {
   const double shift = std::copysign(0x1p52, quanta);  // away from zero: so the sum is whole
   return (quanta + shift) - shift;
 }
 
-/// How integers become doubles, and back, by the instructions that there are for it. With AVX-512
-/// vectors have them, too.
+/// Converts between integers and doubles by the processor's own instructions, which exist for
+/// vectors only from AVX-512 on.
 struct ByConversion {
   /// The nearest double.
   [[gnu::always_inline]] static double real(Fixed a) { return static_cast<double>(a); }
-  /// rounded(quanta). What is beyond 2^63 or not a number becomes any integer, as x86 does it: it
-  /// is for the caller to see.
+  /// rounded(quanta). Beyond 2^63, or for NaN, the result is an arbitrary integer (as on x86): the
+  /// caller must detect that.
   [[gnu::always_inline]] static Fixed whole(double quanta) {
     return static_cast<Fixed>(rounded(quanta));
   }
 };
 
-/// The same bits, in additions that vectorise everywhere.
+/// Gives the same bits by additions, which vectorise everywhere.
 struct ByAddition {
-  /// The halves of the number are put where the exponents 2^84 and 2^52 make them worth 2^32 and 1.
+  /// Each 32-bit half becomes the mantissa of a double whose exponent (2^84 or 2^52) gives its last
+  /// bit the value 2^32 or 1; subtracting the offsets leaves the sum of the halves.
   [[gnu::always_inline]] static double real(Fixed a) {
     constexpr double upper_origin = 0x1p84, lower_origin = 0x1p52, sign = 0x1p63;
     const auto bits = static_cast<std::uint64_t>(a);
@@ -126,17 +127,19 @@ struct ByAddition {
 /// The nearest double, outside of vector loops.
 [[gnu::always_inline]] inline double real(Fixed a) { return ByConversion::real(a); }
 
-/// (since + 1) + (since + 2) + ... + now: how often the fall per step^2 adds to y in these steps,
-/// in a frame that falls since step 0. 0 <= since <= now < 2^62. Exact modulo 2^64.
+/// (since + 1) + (since + 2) + ... + now: the factor of the fall per step^2 in the displacement
+/// from step `since` to `now`, for velocities in the frame that falls since step 0. 0 <= since <=
+/// now < 2^62. Exact modulo 2^64.
 [[gnu::always_inline]] inline std::int64_t sum_of_steps(std::int64_t since, std::int64_t now) {
-  // Half the product of two numbers, of which one is even.
+  // Half the product of two numbers, one of which is even: the even one is halved.
   const auto steps = static_cast<std::uint64_t>(now - since);
   const auto ends = static_cast<std::uint64_t>(since + 1 + now);
   return static_cast<std::int64_t>(steps % 2 == 0 ? steps / 2 * ends : ends / 2 * steps);
 }
 
-/// Quanta, from step `since` to `now`, of who goes by `u` per step in the frame that falls since
-/// step 0; `fall` is what each step adds there. Steps as in sum_of_steps().
+/// Displacement in quanta from step `since` to `now` of a body in free flight. `u` is its
+/// displacement per step in the frame that falls since step 0, `fall` the fall per step^2. Steps as
+/// in sum_of_steps().
 [[gnu::always_inline]] inline FixedVector way_of_flight(FixedVector u, FixedVector fall,
                                                         std::int64_t since, std::int64_t now) {
   return wrapped_sum(wrapped_product(now - since, u),

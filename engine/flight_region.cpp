@@ -10,9 +10,9 @@ namespace riesel {
 
 namespace {
 
-/// How far a grain in contact may leave its course, in steps of the fastest grain and as a part of
-/// the mean diameter: more means fewer new courses, but more neighbours to look at in every step.
-/// The faster grains meet, the farther they leave their courses in a contact.
+/// The tolerance is what the fastest grain goes in this many steps, as faster grains leave their
+/// courses farther in a contact; clamped to these parts of the mean diameter. A larger one means
+/// fewer new courses, but more neighbours to be looked at in every step.
 constexpr double steps_of_fastest = 4.0, least_per_diameter = 0.0002, most_per_diameter = 0.004;
 
 double fastest_shaking(const State& state) {
@@ -65,7 +65,8 @@ void FlightRegion::start_over(std::int64_t step, const Leeway& leeway) {
   appointments_.start_over(leeway.tolerance);
 }
 
-/// The grains that contacts have deflected, or whose last kick is not yet in their velocity.
+/// Grains with a last kick are taken up even without a contact: the kick may not be in their
+/// velocity yet.
 void FlightRegion::take_up_contacts(std::int64_t step) {
   border_.list_border();
   const Grains& g = airspace_.state.grains;
@@ -73,7 +74,7 @@ void FlightRegion::take_up_contacts(std::int64_t step) {
     const BodyKick by{g.kick[slot], g.spin_kick_of(slot)};
     deflected_.add_kick(deflect(slot, step), by);
   }
-  give_up(slice_.kicked);  // from now on kicks are where the deflected grains are
+  give_up(slice_.kicked);  // from now on the deflected grains have the kicks
   for (LiveContacts* contacts : {&slice_.pair_contacts, &slice_.wall_contacts})
     for (std::size_t i = 0; i < contacts->size(); ++i) take_up(*contacts, i, step);
 }
@@ -116,7 +117,7 @@ void FlightRegion::collide(std::int64_t step) {
   step_contacts(step);
 }
 
-/// A grain that has been let go flies on, if no contact is left.
+/// Lets a grain of which a contact has ended fly on, if it has no other contact.
 inline void FlightRegion::let_fly(DeflectedGrains::Place place, std::int64_t step) {
   if (!deflected_.in_use(place) || deflected_.contacts(place) > 0) return;
   if (!is_guest(place)) set_course(place, step);
@@ -135,7 +136,7 @@ void FlightRegion::settle(std::int64_t step) {
 void FlightRegion::settle_inside(std::int64_t step) {
   profile_.done(Profile::Phase::forces);
   let_go_.keep_if([&](DeflectedGrains::Place place) {
-    if (at_border(place)) return true;  // perhaps others do something to it
+    if (at_border(place)) return true;  // other slices may have kicks for it
     let_fly(place, step);
     return false;
   });
@@ -191,7 +192,7 @@ inline FixedVector FlightRegion::position(std::uint32_t slot, std::int64_t step)
   return place == Courses::flying ? courses.position(slot, step) : deflected_.position(place);
 }
 
-/// Looks at the candidates that are due: which contacts begin?
+/// Looks at the candidates that are due, and begins the contacts of those that touch.
 void FlightRegion::keep_appointments(std::int64_t step) {
   appointments_.keep(
       step, units_, deflected_, [&](std::uint32_t pair) { look_at_pair(pair, step); },
@@ -207,7 +208,7 @@ void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
   const double reach = g.radius[i] + g.radius[j];
   if (!overlapping(apart, reach, units_)) {
     const int strays = strays_of_pair(slice_, airspace_.courses, pair);
-    // So close together there is nothing to be foreseen.
+    // So close together, a contact may begin in any of the next steps.
     if (strays > 0 && overlapping(apart, reach + strays * leeway_.tolerance, units_))
       look_again(pair, step, reach, strays);
     else
@@ -218,20 +219,22 @@ void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
   take_up(slice_.pair_contacts, slice_.pair_contacts.size() - 1, step);
 }
 
-/// A pair with a grain in contact, closer than it may stray, is looked at in every step.
+/// Has a pair looked at in every step: one that is closer than its deflected grains may be off
+/// their courses. `reach` (m) is the sum of the radii.
 void FlightRegion::look_again(std::uint32_t pair, std::int64_t step, double reach, int strays) {
   const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
   if (!border_.owns(j)) {
     appointments_.make_for_next_step(pair, step, strays);
     return;
   }
-  constexpr double far_per_stray = 3.0;  // else it would come and go
+  constexpr double far_per_stray = 3.0;  // more than 1, so that pairs do not come and go
   const double far = reach + far_per_stray * strays * leeway_.tolerance;
   const bool first_deflected = airspace_.courses.deflected(i);
   appointments_.watch(pair, first_deflected ? i : j, first_deflected ? j : i, reach, far, step);
 }
 
-/// A grain that touches a wall is looked at in every step: it may touch a second wall grain.
+/// Begins the contacts of a grain near a wall with wall grains. While it touches one it is looked
+/// at in every step, as it may touch a second one.
 void FlightRegion::look_at_near_wall(std::uint32_t near_wall, std::int64_t step) {
   const State& state = airspace_.state;
   const NearWall& near = slice_.near_walls[near_wall];
@@ -246,7 +249,8 @@ void FlightRegion::look_at_near_wall(std::uint32_t near_wall, std::int64_t step)
   appointments_.reconsider_near_wall(near_wall);
 }
 
-/// Kicks of this step by the contacts of the slice; those that have ended let their grains go.
+/// Computes the kicks of this step by the contacts of the slice, removes those that have ended, and
+/// notes their grains in let_go_.
 void FlightRegion::step_contacts(std::int64_t step) {
   for (const DeflectedGrains::Place guest : guests_)
     deflected_.put(guest, border_.foreign_motion(deflected_.slot(guest), step, units_.fallen));
@@ -274,7 +278,7 @@ void FlightRegion::step_contacts(std::int64_t step) {
   }
 }
 
-/// What the contacts of other slices do to grains of this one.
+/// Takes up what contacts of other slices do to grains of this one.
 void FlightRegion::suffer(std::int64_t step) {
   border_.mine().new_courses.clear();
   border_.for_each_before([&](const Announcement& other) {
@@ -288,7 +292,7 @@ void FlightRegion::suffer(std::int64_t step) {
   });
 }
 
-/// Gives a new course to grains that go too far from the old one.
+/// Gives a new course to grains that would be beyond the tolerance in the next step.
 void FlightRegion::correct_courses(std::int64_t step) {
   for (const DeflectedGrains::Place place : deflected_.straying(leeway_.x, leeway_.y))
     if (!is_guest(place)) set_course(place, step);
@@ -302,7 +306,7 @@ void FlightRegion::announce(std::int64_t step) {
   border_.announce_motion(deflected_, step);
 }
 
-/// The grains of a contact are stepped from now on.
+/// Makes the grains of a new contact deflected ones or guests, and tells the contact their places.
 void FlightRegion::take_up(LiveContacts& contacts, std::size_t contact, std::int64_t step) {
   const auto place_of = [&](std::int64_t body) {
     const auto slot = static_cast<std::uint32_t>(body);
@@ -314,10 +318,11 @@ void FlightRegion::take_up(LiveContacts& contacts, std::size_t contact, std::int
   const Meeting& meeting = contacts.meeting(contact);
   if (!meeting.with_wall()) appointments_.begin_contact(meeting.candidate);
   change_contacts(first, 1);
-  if (second != first) change_contacts(second, 1);  // it is no wall grain
+  if (second != first) change_contacts(second, 1);  // at a wall they are equal
 }
 
-/// The appointments that counted on its keeping to the course are made anew.
+/// Returns the place of the own grain in `slot` among the deflected ones, which it joins if it
+/// flies: then the appointments that relied on its keeping to the course are made anew.
 DeflectedGrains::Place FlightRegion::deflect(std::uint32_t slot, std::int64_t step) {
   Courses& courses = airspace_.courses;
   if (!courses.deflected(slot)) {
@@ -328,7 +333,7 @@ DeflectedGrains::Place FlightRegion::deflect(std::uint32_t slot, std::int64_t st
   return static_cast<DeflectedGrains::Place>(courses.place(slot));
 }
 
-/// A place for a foreign grain.
+/// Returns the place of the foreign grain in `slot`, which becomes a guest if it is none yet.
 DeflectedGrains::Place FlightRegion::invite(std::uint32_t slot) {
   const auto there =
       std::find_if(guests_.begin(), guests_.end(),
@@ -358,7 +363,8 @@ void FlightRegion::release(DeflectedGrains::Place place) {
   deflected_.release(place);
 }
 
-/// From here, with the velocity of the next step if it brought no other kick.
+/// Gives an own grain a new course from its present position. With Kicks::to_come, its velocity is
+/// the present one plus the last kick.
 void FlightRegion::set_course(DeflectedGrains::Place place, std::int64_t step, Kicks kick) {
   const std::uint32_t slot = deflected_.slot(place);
   Motion course = deflected_.motion(place);

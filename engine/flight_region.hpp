@@ -1,8 +1,9 @@
 // The flights of one slice, and the parts of a step.
 //
-// A region steps the contacts of its slice and the grains of it that are deflected. A foreign grain
-// in such a contact stands among them as a guest: its motion is taken from its own slice in each
-// step, and what the contact does to it is told there (Border).
+// A region steps the contacts of its slice and the deflected grains of the slice. If the second
+// grain of such a contact is foreign (of another slice), a copy of it stands among the deflected
+// grains as a guest: its motion is read from its own slice in each step, and what the contact does
+// to it is reported there (Border).
 #pragma once
 
 #include "engine/appointments.hpp"
@@ -22,11 +23,12 @@
 
 namespace riesel {
 
-/// How far grains may be from where they are expected, until the candidates are listed again.
+/// How far grains may be from where they are expected. Constant until the candidates are listed
+/// again.
 struct Leeway {
   double tolerance;  ///< m, of a deflected grain from its course
-  Fixed x, y;        ///< quanta, of it along each axis
-  double room;       ///< m, that grains have in the skin on their courses
+  Fixed x, y;        ///< quanta, the tolerance along each axis
+  double room;       ///< m, how far courses may lead within the skin (room_in_skin())
 };
 
 /// What the regions share.
@@ -39,7 +41,7 @@ struct Airspace {
   Courses courses;
   std::vector<Announcement> announcements;  // one for each slice
   const double diameter;                    ///< m, mean
-  const double shaking;                     ///< m per step, of the wall that shakes fastest
+  const double shaking;                     ///< m per step, largest speed of an oscillating wall
 
   /// For grains as fast as they were when the candidates were listed.
   Leeway leeway() const;
@@ -47,57 +49,63 @@ struct Airspace {
 
 class alignas(cache_line) FlightRegion {
 public:
-  /// Keeps references. The time that a step takes is noted in `profile`.
+  /// For slice number `index`. Keeps references. Adds the time that steps take to `profile`.
   FlightRegion(Airspace& airspace, std::size_t index, Profile& profile);
   FlightRegion(const FlightRegion&) = delete;
   FlightRegion& operator=(const FlightRegion&) = delete;
   ~FlightRegion() = default;
 
-  // Each of these is to be called for all regions, by the thread that has the slice. Where the
-  // threads wait for each other in between, flights.cpp says, and what slices wait for that are
-  // askew.
+  // Each of these functions is to be called for all regions, by the thread that has the slice.
+  // Where threads, or slices that go askew, must wait for each other in between, is in flights.cpp.
 
-  /// The candidates have just been listed, at `step`, that of all grains. `leeway` is the same for
-  /// all regions.
+  // After the candidates have been listed at `step`, when all grains are at this step, these four
+  // are called in this order:
+
+  /// Forgets all about the former candidates. `leeway` must be the same for all regions.
   void start_over(std::int64_t step, const Leeway& leeway);
+  /// Takes up the deflected grains: those of contacts, and those with a kick.
   void take_up_contacts(std::int64_t step);
-  /// The last kicks: in the velocities already, as in the middle of a step, when all have moved, or
-  /// to be taken up by the next step.
+  /// Whether the last kicks are in the velocities already, as in the middle of a step, when all
+  /// grains have moved, or are to be added by the next step.
   enum class Kicks { taken_up, to_come };
+  /// Gives the deflected grains their courses, and announces.
   void set_out(std::int64_t step, Kicks kicks);
+  /// Makes the appointments of all candidates: none before `earliest`, none after `hold_until`.
   void make_all_appointments(std::int64_t step, std::int64_t earliest, std::int64_t hold_until);
 
-  /// All grains have landed at `step`, the origin of courses, and go on from there.
+  /// Goes on from `step`, at which all grains have landed and which is the origin of courses now.
   void set_out_again(std::int64_t step);
 
-  /// One step, to this one, of all that does not fly. First everything but guests moves on;
+  // A step, to step number `step`, is move(), collide(), settle() and foresee().
+
+  /// Moves the deflected grains, except guests.
   void move(std::int64_t step);
-  /// then what is due is looked at, and contacts give their kicks;
+  /// Looks at the candidates that are due, and computes the kicks of contacts.
   void collide(std::int64_t step);
-  /// kicks of other slices come in, and courses change;
+  /// Takes up kicks by other slices, and gives new courses where needed.
   void settle(std::int64_t step);
-  /// appointments are made with the new courses, none for after `hold_until`.
+  /// Makes appointments according to the new courses, none for after `hold_until`.
   void foresee(std::int64_t step, std::int64_t hold_until);
 
-  /// What can be done of these two before, while others are waited for, or left to them: grains
-  /// that are foreign to none and have been let go, or have been guests, fly on; candidates that
-  /// have no foreign grain get their appointments.
+  /// The parts of settle() and foresee() that do not depend on other slices, for the time of
+  /// waiting for them; optional, as settle() and foresee() do the rest. Grains that have been let
+  /// go and are foreign to no other slice fly on, and guests without contacts leave; candidates
+  /// without a foreign grain get their appointments.
   void settle_inside(std::int64_t step);
   void foresee_inside(std::int64_t step, std::int64_t hold_until);
 
-  /// Brings what steps need of the slice from memory into the caches.
+  /// Loads what steps need of the slice into the caches.
   void fetch() const;
 
-  /// The store becomes the state of `step`: the courses of deflected grains are given up for their
-  /// motion.
+  /// Replaces the courses in the store by the motion of the grains at `step`, as a State has it.
   void land(std::int64_t step);
 
-  /// From now on a grain is a stray for which the candidates do not hold until this step. If nobody
-  /// asks for that, somebody else watches how long they hold.
+  /// From now on a grain is a stray if the candidates do not hold for it until `step`. With
+  /// nobody_asks there are no strays: the steps are done together, and hold_until is obeyed.
   static constexpr std::int64_t nobody_asks = INT64_MIN;
   void need_candidates_until(std::int64_t step);
-  /// To be called after collide() while candidates are needed: ends the run if a stray has gone to
-  /// where nobody looks for it.
+  /// To be called after collide() while slices are askew: ends the run if a stray has come so close
+  /// to a body that is no candidate, or has gone so far, that a contact may be missed.
   void watch_strays(std::int64_t step);
 
 private:
@@ -138,9 +146,9 @@ private:
   Border border_;
   DeflectedGrains deflected_;
   std::vector<DeflectedGrains::Place> guests_;
-  Selection let_go_;  // places, of this step: a contact has ended
+  Selection let_go_;  // places of grains of which a contact has ended in this step
   SkinGuard skin_guard_;
-  std::int64_t needed_until_ = nobody_asks;  // step, the candidates
+  std::int64_t needed_until_ = nobody_asks;  // see need_candidates_until()
   Appointments appointments_;
   Profile& profile_;
 };

@@ -1,8 +1,9 @@
-// Grains of flights that have gone farther than the candidates hold for, while slices are askew.
+// Strays of flights: grains that have gone farther than the candidates hold for while slices are
+// askew.
 //
-// That takes a grain that becomes so fast within a few steps as nobody expects of contacts that
-// steps resolve: touches with candidates are found as ever, and others end the run. So nothing here
-// is made for speed.
+// For that a grain must become faster, within a few steps, than resolved contacts make it. Its
+// contacts with candidates are found as ever, any other one ends the run. So nothing here is made
+// for speed.
 #include "engine/flight_region.hpp"
 
 #include <cmath>
@@ -11,7 +12,7 @@ namespace riesel {
 
 void FlightRegion::watch_strays(std::int64_t step) {
   for (const Stray& stray : border_.mine().strays) {
-    // Farther than a row of cells it may be where no neighbour of its slice looks.
+    // Beyond the height of a row of cells it may be past the slices that are searched here.
     if (skin_guard_.gone(stray.slot, airspace_.courses.motion(stray.slot, step), step)
         > airspace_.candidates.range())
       lose(stray, step);
@@ -32,7 +33,8 @@ void FlightRegion::lose(const Stray& stray, std::int64_t step) {
   slice_.lost = first_of(slice_.lost, LostGrain{step, id, true});
 }
 
-/// Courses are known of all, and nobody is farther from them than the tolerance.
+/// Ends the run if the stray may touch a grain of `among` with which it forms no candidate. Tests
+/// courses, as these are known of all grains, and none is farther from its own than the tolerance.
 void FlightRegion::look_around(const Stray& stray, SlotRange among, std::int64_t step) {
   if (step < stray.step) return;
   const Courses& courses = airspace_.courses;

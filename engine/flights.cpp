@@ -32,7 +32,7 @@ void Flights::start_over() {
 void Flights::advance(std::size_t number, std::int64_t now, std::int64_t last) {
   Member& member = members_[number];
   take_off(member, now);
-  member.ill_cut = false;  // whoever gave these slices has thought about it
+  member.ill_cut = false;  // the caller has just decided on the number of slices
   while (!member.trouble && !member.ill_cut && now < last) {
     const std::int64_t steps = steps_askew(member, now, last);
     member.profile.begin_steps(now + 1, steps);
@@ -50,7 +50,9 @@ void Flights::for_each_region(const Member& member, Do something) {
   for (std::size_t i = member.begin; i < member.end; ++i) something(*regions_[i]);
 }
 
-/// What is done with the regions meanwhile concerns nobody else, and can be done later.
+/// Waits for the other threads, and meanwhile calls something(region) for each region of the
+/// member. That must touch nothing that other threads use, and be work that can also be done later:
+/// a team of one skips it.
 template <class Do>
 void Flights::wait_and_meanwhile(const Member& member, Do something) {
   TeamBarrier& barrier = airspace_.candidates.team();
@@ -76,8 +78,8 @@ void Flights::take_off(Member& member, std::int64_t step) {
   for_each_region(member, [&](FlightRegion& r) { r.foresee(step, member.hold_until); });
 }
 
-/// Makes the appointments of all candidates, which have just been listed. All grains are at `step`;
-/// in the middle of it, when kicks are taken up, candidates can be due in this very one.
+/// Makes the appointments of all candidates, which have just been listed. All grains are at `step`.
+/// If kicks are taken up already, in the middle of a step, candidates can be due in this same step.
 void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks) {
   if (member.begin == 0) {
     airspace_.courses.start_over(step);
@@ -104,7 +106,7 @@ void Flights::land(Member& member, std::int64_t step) {
   if (member.begin == 0) airspace_.state.step = step;
 }
 
-/// The candidates do not hold any more.
+/// Sorts and lists anew, as the candidates do not hold any more; the grains have moved to `step`.
 void Flights::renew(Member& member, std::int64_t step) {
   member.profile.begin_build();
   land(member, step);
@@ -113,7 +115,7 @@ void Flights::renew(Member& member, std::int64_t step) {
   member.profile.done_build();
 }
 
-/// What all slices have told until the last barrier.
+/// Combines what all slices have announced before the last barrier.
 void Flights::heed(Member& member) const {
   const auto& all = airspace_.announcements;
   member.hold_until = all.front().hold_until;
@@ -125,8 +127,8 @@ void Flights::heed(Member& member) const {
   }
 }
 
-/// Whether the slices would better be more, or one for each thread: all members get the same answer
-/// from what was told when the candidates were listed.
+/// Whether several slices per thread would be better, or only one, by the numbers of contacts that
+/// were announced when the candidates were listed. All members get the same answer.
 bool Flights::ill_cut() const {
   if (!may_go_askew_) return false;
   std::size_t contacts = 0;
@@ -135,9 +137,9 @@ bool Flights::ill_cut() const {
   return askew_.flights_gain(contacts, airspace_.state.grains.size(), askew) != askew;
 }
 
-/// What a step is, in the order in which it happens. Between the barriers all take up what others
-/// have done to their grains, and may change what others know of them, which nobody looks at then.
-/// What concerns grains inside of a slice, which are most, is done while news is under way.
+/// One step of all regions together. Between the two barriers each takes up what others have done
+/// to its grains, and changes what others know of them, which nobody reads then. What concerns only
+/// grains inside of a slice, which are most, is done while waiting at the barriers.
 void Flights::step_together(Member& member, std::int64_t step) {
   for_each_region(member, [&](FlightRegion& region) { region.move(step); });
   if (step >= member.hold_until) renew(member, step);
@@ -150,13 +152,13 @@ void Flights::step_together(Member& member, std::int64_t step) {
   member.profile.done(Profile::Phase::appointments);
 }
 
-/// How many steps slices may be askew from `now` on; all members get the same answer. If it is
-/// better to sort first, the candidates hold no longer.
+/// How many steps slices may go askew from `now` on; all members get the same answer. If sorting
+/// first is better, sets hold_until so that the next step sorts.
 ///
-/// Nobody can sort meanwhile, and how fast grains will be is not known. It is expected that none
-/// becomes more than twice as fast as the fastest, or than a wall that shakes makes it, and a part
-/// of the room is left in case one does. The first step after a sorting is done together: grains
-/// from which a run begins may overlap and have no contacts yet.
+/// No sorting is possible meanwhile, and how fast grains will be is not known. It is expected that
+/// none becomes more than twice as fast as the fastest, or as an oscillating wall makes it, and a
+/// part of the room is left in case one does. The first step after a sorting is done together, as
+/// grains at the start of a run may overlap and have no contacts yet.
 std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t last) const {
   const std::int64_t steps = std::min(most_steps_askew_, last - now);
   const std::int64_t age = now - airspace_.courses.sorted_at();
@@ -170,7 +172,7 @@ std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t
   return 1;
 }
 
-/// From step `now`, which all slices have completed, to step `last`.
+/// Goes askew from step `now`, which all slices have completed, to step `last`.
 void Flights::step_askew(Member& member, std::int64_t now, std::int64_t last) {
   for (std::size_t i = member.begin; i < member.end; ++i) {
     Progress& p = progress_[i];
@@ -192,10 +194,10 @@ void Flights::step_askew(Member& member, std::int64_t now, std::int64_t last) {
   });
 }
 
-/// Does what this slice can do now, up to its part of step `last`; false if that is nothing.
+/// Does all that this slice can do now, up to step `last`; returns false if that is nothing.
 ///
-/// Two things of a step are needed by others: how a slice has collided, by the slice after it, and
-/// how it has settled, by the one before it. None goes on before both know.
+/// Other slices need two things of a step: the slice after this one its collisions, and the slice
+/// before it how it has settled. A slice does not begin another step before both have had them.
 bool Flights::go_on(const Member& member, std::size_t slice, std::int64_t last) {
   const auto [before, after] = PlaceInRing(slice, progress_.size());
   FlightRegion& region = *regions_[slice];

@@ -8,17 +8,18 @@
 //
 // A grain in contact leaves its course. Most appointments are made with a tolerance: they hold as
 // long as both grains stay that close to their courses, in contact or not. Those of pairs that are
-// too close for that are exact, and made anew when one of the two is deflected; closer than a
-// deflected grain may stray, a pair is watched in every step (CloseWatch). A grain that goes
+// too close for that are exact, and made anew when one of the two is deflected. A pair closer than
+// a deflected grain may be off its course is watched in every step (CloseWatch). A grain that goes
 // beyond the tolerance, or whose last contact ends, gets a new course and new appointments. So no
-// contact is missed, and the steps done here are the same, bit by bit, as those of plain stepping.
+// contact is missed, and the results are the same, bit by bit, as those of plain stepping.
 //
-// Each slice of the candidates has a region, stepped by one thread. Each thread has one, and all do
-// the same step, where the grains fit into the caches; else it has many, which go askew (Askew).
-// What regions tell each other is in border.hpp.
+// Each slice of the candidates has a region, stepped by one thread. Where the grains fit into the
+// caches, each thread has one region, and all do the same step; else it has many, which go askew
+// (Askew). What regions tell each other is in border.hpp.
 //
-// See docs/performance-log.md for the figures and docs/architecture.md for how this compares with
-// fixed windows.
+// "Take off" means that the store changes from a State to courses, "land" that it changes back. See
+// docs/performance-log.md for measurements, and docs/architecture.md for a comparison with fixed
+// windows.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -39,18 +40,19 @@ namespace riesel {
 
 class Flights {
 public:
-  /// Pairs far apart cost no more than an appointment.
+  /// A wider skin than in plain stepping: pairs far apart cost no more than an appointment.
   static constexpr Candidates::Purpose purpose{.skin_per_diameter = 0.65, .searched = false};
 
-  /// Nobody else uses the candidates afterwards. Keeps references.
+  /// Keeps references. Nothing else may step with these candidates.
   Flights(State& state, const ContactModel& model, Candidates& candidates, const Askew& askew);
 
-  /// The candidates have started from another state.
+  /// To be called after Candidates::start_from().
   void start_over();
 
-  /// From step `now`, that of the state, to `last`, or until the slices should be others (Askew),
-  /// or until the run cannot go on: then perhaps some steps beyond the trouble. To be called by all
-  /// threads of a team with the same steps; `number` is that of the thread.
+  /// Steps the state from step `now`, which must be its own, to `last`, or until another number of
+  /// slices is better (Askew), or until the run cannot go on: then it may be some steps beyond the
+  /// trouble. To be called by all threads of the team with the same steps; `number` is that of the
+  /// thread.
   void advance(std::size_t number, std::int64_t now, std::int64_t last);
 
 private:
@@ -62,10 +64,10 @@ private:
     Profile& profile;
     std::int64_t hold_until = 0;  // step until which the candidates of all slices hold for sure
     double fastest2 = 0.0;        // (m per step)^2 relative to the drift, of any grain
-    bool trouble = false;         // of any slice
-    bool under_way = false;       // appointments are made
-    bool ill_cut = false;         // the slices should be others
-    Leeway leeway = {};           // since they were
+    bool trouble = false;         // in any slice: the run cannot go on
+    bool under_way = false;       // appointments are made: the next take-off goes on with them
+    bool ill_cut = false;         // another number of slices is better
+    Leeway leeway = {};           // since the candidates were listed
   };
 
   /// The last step that a slice that goes askew has done each part of; on a cache line of its own.
@@ -95,7 +97,7 @@ private:
   Airspace airspace_;
   const Askew askew_;
   const std::int64_t most_steps_askew_;
-  const bool may_go_askew_;  // all threads have several slices, or may have
+  const bool may_go_askew_;  // the threads have several slices each, or may get them
   std::vector<std::unique_ptr<FlightRegion>> regions_;
   std::vector<Member> members_;
   std::vector<Progress> progress_;  // of regions

@@ -15,16 +15,16 @@ constexpr double never = 1e18;  // steps
 
 constexpr double cautious = 1.0 / generous;
 
-/// Fewer steps than this are not worth a generous answer.
+/// An answer that grants all grains the tolerance is used if it gives at least this many steps.
 constexpr double few_steps = 4.0;
 
-/// The first s with |(x, y) + s (ux, uy)| = reach: 0 if they are closer already.
+/// The first s >= 0 with |(x, y) + s (ux, uy)| <= reach; `never` if there is none.
 [[gnu::always_inline]] inline double first_touch(double x, double y, double ux, double uy,
                                                  double reach) {
   const double apart = x * x + y * y - reach * reach;
   const double closing = -(x * ux + y * uy);
   const double root2 = closing * closing - (ux * ux + uy * uy) * apart;
-  const double steps = apart / (closing + std::sqrt(root2));  // not a number if never
+  const double steps = apart / (closing + std::sqrt(root2));  // NaN if they never meet
   const double meeting = root2 > 0.0 ? steps : never;
   const double later = closing > 0.0 ? meeting : never;
   return apart > 0.0 ? later : 0.0;
@@ -97,7 +97,8 @@ struct SieveLoop {
   }
 };
 
-/// The pairs on their courses in `step`, into the first places of the columns.
+/// Fills the input columns of `to` with the relative motion of the pairs on their courses in
+/// `step`.
 void gather(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
             const Courses& courses, std::int64_t step, Forecast& to) {
   const Paths c = paths_of(state.grains);
@@ -144,7 +145,7 @@ void foresee(const Slice& slice, std::span<const std::uint32_t> which, const Sta
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result) {
   gather(slice, which, state, courses, now, result);
   const Metres metres{state.box.quantum_x(), state.box.quantum_y()};
-  constexpr std::size_t few = 4;  // a vector would have to wait for what has just been stored
+  constexpr std::size_t few = 4;  // so soon, a vector load would wait for the scalar stores
   if (which.size() <= few)
     ForesightLoop::run<ByConversion>(which.size(), metres, tolerance, &result);
   else

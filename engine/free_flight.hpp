@@ -1,4 +1,4 @@
-// When can two grains touch that keep to their courses, or nearly so? Computed for many pairs at
+// When two grains that keep to their courses, or nearly so, can touch: computed for many pairs at
 // once by vector instructions.
 #pragma once
 
@@ -16,35 +16,36 @@
 
 namespace riesel {
 
-/// Bounds are rounded to the safe side by this factor, which is far above the error of the
-/// arithmetic.
+/// Factor by which bounds are rounded to the safe side; far above the rounding errors.
 inline constexpr double generous = 1.0 + 1e-9;
 
-/// The time of pairs until they may touch. Columns by pair.
+/// For each of up to most_pairs pairs, the number of steps until it may touch. A column has an
+/// element for each pair.
 struct Forecast {
-  /// Pairs that are foreseen together: enough for vectors to be full, not so many that they leave
-  /// the cache.
+  /// Pairs that are foreseen together: enough for vectors to be full, few enough to stay in the
+  /// cache.
   static constexpr std::size_t most_pairs = 256;
   template <class T>
   using Column = std::array<T, most_pairs>;
 
-  /// A number of steps that never pass.
+  /// Stands for any larger number of steps.
   static constexpr std::int64_t forever = std::int64_t{1} << 30;
 
-  alignas(cache_line) Column<std::int64_t> free_steps;  ///< no contact before this step from now
-  Column<std::int64_t> exact;  ///< 1 if only as long as the grains stray no farther than now
+  /// The pair cannot touch before this many steps from now.
+  alignas(cache_line) Column<std::int64_t> free_steps;
+  Column<std::int64_t> exact;  ///< 1 if that holds only until another grain of it is deflected
 
-  /// How the second grain of each pair moves, as seen from the first: gathered one by one, as
-  /// vectors are not faster at that.
+  /// Input: the motion of the second grain of each pair relative to the first; gathered by a scalar
+  /// loop, as vector gathers are not faster.
   Column<Fixed> x, y, ux, uy;   ///< quanta, and per step
   Column<double> reach;         ///< m, generous
   Column<std::int64_t> strays;  ///< strays_of_pair()
 
-  /// The first whole step that is not before `steps`, at most one too early; `forever` if beyond.
+  /// `steps` rounded up to a whole number, or at most one less; at most `forever`, also for NaN.
   template <class Numbers = ByConversion>
   [[gnu::always_inline]] static std::int64_t whole_steps(double steps) {
     constexpr auto most = static_cast<double>(forever);
-    constexpr double nearly_half = 0.499;  // up to the next whole step, but never beyond it
+    constexpr double nearly_half = 0.499;  // never beyond the next whole number
     return Numbers::whole(steps < most ? steps + nearly_half : most);
   }
 };
@@ -52,34 +53,33 @@ struct Forecast {
 /// The most grains of a pair that may be off their courses.
 inline constexpr int most_strays = 2;
 
-/// How many grains of a pair may be off their courses. Whether a second grain that is not in the
-/// slice is deflected is not known here.
+/// How many grains of a pair may be off their courses. Counts a second grain of another slice in
+/// any case, as whether it is deflected is not known here.
 inline int strays_of_pair(const Slice& slice, const Courses& courses, std::uint32_t pair) {
   const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
   return (courses.deflected(i) ? 1 : 0) + (!slice.owns(j) || courses.deflected(j) ? 1 : 0);
 }
 
-/// Whether what is foreseen for a pair with so many strays holds only as long as no other grain of
-/// it is deflected.
+/// Whether what is foreseen for a pair of which `strays` grains may be off their courses holds only
+/// until the other one is deflected.
 inline bool is_exact(std::int64_t strays) { return strays < most_strays; }
 
-/// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on.
-/// `which` are Forecast::most_pairs at most.
-/// A deflected grain may be off its course by `tolerance` (m). Where there is time enough, all
-/// grains are granted as much, deflected or not, so that the answer outlives the beginning of
-/// contacts.
+/// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on,
+/// for at most Forecast::most_pairs pairs. A deflected grain may be off its course by `tolerance`
+/// (m). If the pair is free for some steps even when both grains are granted that, deflected or
+/// not, they are, so that the answer stays right when a contact begins.
 void foresee(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result);
 
-/// Indices of candidate pairs.
+/// The candidate pairs with these indices, begin <= index < end.
 struct PairRange {
   std::size_t begin, end;
 };
 
-/// Adds those of the pairs to `may_touch` that may touch within `steps`; none is overlooked as long
-/// as no grain is farther than `tolerance` (m) from its course. All courses have just been set.
-/// Most pairs that have just been listed stay apart until they are listed again, and to know that
-/// takes less than to know when they touch.
+/// Adds to `may_touch` the indices of those pairs of `range` that may touch within `steps`; none is
+/// missed as long as no grain is farther than `tolerance` (m) from its course. The present step
+/// must be the origin of the courses. Most pairs stay apart until they are listed again, and
+/// finding that out is cheaper than finding out when they touch.
 void sift(const Slice& slice, PairRange range, const State& state, std::int64_t steps,
           double tolerance, Selection& may_touch);
 

@@ -1,5 +1,5 @@
-// 64-bit FNV-1a over plain values: tells equal results from unequal ones. No protection against
-// intent.
+// 64-bit FNV-1a over the bytes of plain values: tells equal results from unequal ones, on machines
+// of the same byte order. Not a cryptographic hash.
 #pragma once
 
 #include <array>

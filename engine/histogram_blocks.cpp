@@ -28,7 +28,7 @@ void for_each_histogram(const Tally& t, Visit visit) {
         t.visits.entry_slips);
 }
 
-/// All counts, one histogram after the other.
+/// The counts of all histograms, one after the other: the columns of the blocks.
 std::vector<double> counts_of(const Tally& tally) {
   std::vector<double> counts;
   for_each_histogram(tally, [&](auto, auto, auto, const auto& histogram) {
@@ -38,7 +38,7 @@ std::vector<double> counts_of(const Tally& tally) {
   return counts;
 }
 
-/// Of one column of the blocks, 1/s.
+/// Rate of one bin in 1/s, from its column of the blocks.
 Estimate rate(const TimeBlocks& blocks, std::size_t column, std::int64_t first, double interval) {
   const std::vector<double> means = blocks.means(column, first + 1);
   if (means.empty()) return {unknown, unknown};

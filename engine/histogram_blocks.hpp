@@ -1,9 +1,9 @@
 // The histograms of a tally with error bars: how often contacts and visits of each kind came.
 //
-// Contacts come in bunches (a cluster at the wall, a burst on the way), so that the square root of
-// a count is less than its error. What ended between two samples is counted in blocks of time, like
-// the sums of the profiles, and the errors come from the slowest motions of these counts
-// (estimate_mean), which know of bunches and of correlations.
+// Contacts come in bunches (a cluster at the wall, a burst on the way), so that the error of a
+// count is larger than its square root. What ended between two samples is counted in blocks of
+// time, like the sums of the profiles. The errors are taken from the slowest variations of these
+// counts (estimate_mean), and so include bunches and correlations.
 #pragma once
 
 #include "engine/estimate.hpp"
@@ -27,10 +27,11 @@ struct HistogramTable {
 class HistogramBlocks {
 public:
   HistogramBlocks();
-  /// As it was when these were its blocks. Throws std::invalid_argument if they cannot be.
+  /// Restores the object that had these blocks. Throws std::invalid_argument if they have another
+  /// number of columns.
   explicit HistogramBlocks(TimeBlocks blocks);
 
-  /// A sample: what has ended since the last one.
+  /// Adds a sample: what has ended since the last one. `tally` is that since step 0.
   void add(const Tally& tally);
 
   const TimeBlocks& blocks() const { return blocks_; }

@@ -16,17 +16,17 @@ namespace riesel {
 
 namespace {
 
-/// It is looked whether an impact is over every so many steps, or before a grain that is very fast
-/// may have gone so far (a grain that flies on leaves the system in the end).
+/// Whether an impact is over is checked after this many steps, or sooner if a fast grain may go
+/// this many reaches in fewer: it must not leave the box, which would end the run.
 constexpr std::int64_t most_steps_between_looks = 16;
 constexpr double reaches_between_looks = 8.0;
 
-/// An impact is given up after so many collision times, plus the time to cross so many wall grains
-/// and to get to the wall.
+/// An impact is given up after the time to get to the wall, plus this many collision times, plus
+/// the time to go this many reaches.
 constexpr double patience_in_collisions = 2000.0;
 constexpr double patience_in_reaches = 50.0;
 
-/// Periodic along y far beyond the grain's reach, so that a single wall grain is alone.
+/// Period along y (and width) of the box: so long that the images of a single wall grain are far.
 constexpr double period_in_reaches = 64.0;
 
 State start(const ImpactSetup& setup, const Impact& impact) {
@@ -68,7 +68,8 @@ bool gone(const ImpactSetup& setup, const State& state, const Grain& grain) {
   return grain.x * grain.vx + y * grain.vy > 0.0;
 }
 
-/// s, that the grain takes to the wall's line in free flight: it touches the wall before.
+/// s, the time that the grain takes to the line of the wall in free flight: an upper bound of the
+/// time to the first contact.
 double time_to_wall(const ImpactSetup& setup, const Impact& impact) {
   if (setup.single_wall_grain()) return std::hypot(impact.x, impact.y) / speed_of(impact);
   return impact.v_x > 0.0 ? impact.x / impact.v_x : 0.0;
@@ -133,7 +134,8 @@ std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector
 
 namespace {
 
-/// Of a body of the reduced mass, on another so large that overlaps do not matter.
+/// The head-on impact of a body of the reduced mass, with radii so large that the overlap is small
+/// against them.
 ImpactSetup head_on(const ContactModel& model, double reduced_mass, double speed) {
   constexpr double radius_in_overlaps = 20.0;
   const ElasticLine line = elastic_line(model.normal);
@@ -160,12 +162,12 @@ std::optional<double> restitution(const ContactModel& model, double reduced_mass
   try {
     const ImpactResult result = follow(setup, impact);
     const double restitution = result.dv_x / speed - 1.0;
-    // What is overdamped creeps apart, or makes these steps overshoot.
+    // Overdamped bodies creep apart, or are pushed apart by errors of steps too long for them.
     const bool rebounds = result.end == ImpactEnd::away && restitution > least_restitution
                           && result.energy_error < most_error;
     return rebounds ? std::optional(restitution) : std::nullopt;
   } catch (const RunFailure&) {
-    return {};  // likewise
+    return {};  // the steps are too long for the damping
   }
 }
 

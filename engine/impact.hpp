@@ -1,4 +1,5 @@
-// A single grain thrown at a wall: the set-ups of Figs. 2 to 5 of Schaefer and Wolf.
+// A single grain thrown at a wall: the set-ups of Figs. 2 to 5 of Schaefer and Wolf, Phys. Rev. E
+// 51, 6154 (1995).
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -19,7 +20,7 @@ struct ImpactSetup {
   double wall_spacing;       ///< m; a value <= 0 stands for a single wall grain
   ContactModel model;
   double inertia = 0.0;   ///< moment of inertia of the grain over m r^2; 0: it does not rotate
-  double collision_time;  ///< s, of a head-on contact: the scale for giving up
+  double collision_time;  ///< s, of a head-on contact: sets when an impact is given up
 
   double reach() const { return grain_radius + wall_grain_radius; }  ///< m
   bool single_wall_grain() const { return wall_spacing <= 0.0; }
@@ -36,24 +37,24 @@ struct Impact {
 enum class ImpactEnd {
   away,    ///< the grain has left the wall for good
   passed,  ///< it went through the wall
-  stuck    ///< it still was at the wall when we gave up
+  stuck    ///< it was still at the wall when the impact was given up
 };
 
 struct ImpactResult {
-  double dv_x;          ///< m/s, v_x after, away from the wall, plus v_x before, towards it
+  double dv_x;          ///< m/s, v_x after (away from the wall) plus v_x before (towards it)
   double dv_y;          ///< m/s, loss of axial velocity
   double contacts;      ///< number of overlaps begun
   double contact_time;  ///< s, sum of the durations of those that have ended
   double max_overlap;   ///< m
   double cut_short;     ///< number of contacts cut short, see brake.hpp
-  /// kg m/s, impulse against y of the contacts that brake, and of those among them cut short.
+  /// kg m/s, impulse along -y of the contacts that brake, and of those of them that were cut short.
   double braking, braking_cut_short;
   double energy_error;  ///< see energy_error_ratio()
   ImpactEnd end;
   std::int64_t steps;
 };
 
-/// m, at which an impact may begin at most: the width of its box.
+/// m, the largest |x| at which an impact may begin: the width of its box.
 double greatest_height(const ImpactSetup& setup);
 
 /// Follows one impact to its end. Throws std::invalid_argument for a grain at rest, and what
@@ -64,12 +65,13 @@ ImpactResult follow(const ImpactSetup& setup, const Impact& impact);
 std::vector<ImpactResult> follow_all(const ImpactSetup& setup, const std::vector<Impact>& impacts,
                                      int threads);
 
-/// Where a grain that comes from upstream along y at height x stands just before it touches wall
-/// grain 0: m. Throws std::invalid_argument if it touches none.
+/// m, the y of a grain that comes along +y at height `x` (m) just before it touches wall grain 0.
+/// Throws std::invalid_argument if |x| is beyond the reach (and a small gap).
 double just_upstream(const ImpactSetup& setup, double x);
 
-/// e_N of two bodies, `reduced_mass` in kg, that meet head-on with `speed` (m/s), under any law, in
-/// steps so fine that they hardly count (measured: 5e-4). Nothing if they do not come apart.
+/// e_N of two bodies with `reduced_mass` (kg) that meet head-on with `speed` (m/s), under any law.
+/// It is simulated, with steps so short that their error is small (measured: 5e-4). Nothing if the
+/// bodies do not rebound.
 std::optional<double> restitution(const ContactModel& model, double reduced_mass, double speed);
 
 /// 64-bit hash of all results.

@@ -9,15 +9,16 @@ namespace riesel {
 
 namespace {
 
-/// Parts of the candidates' skin.
+/// The longest, first and shortest inner skin, over that of the candidates.
 constexpr double longest = 0.5, first = 0.1, shortest = 5e-4;
 
-/// So many tests of pairs between two lists are best, for each candidate: found by trying. A look
-/// at a candidate takes as long as two tests; and as the number of pairs grows about with the root
-/// of the skin, longer lists cost half as much more as rarer ones save.
+/// The best number of pair tests between two listings, per candidate; measured. It agrees with an
+/// estimate: listing takes as long as two tests per candidate, and as the number of pairs grows
+/// about as the root of the skin, the cost of longer lists grows half as fast as that of rarer
+/// listing falls.
 constexpr double tests_per_candidate = 4.0;
 
-/// A list that has served for so many times the best number is too long.
+/// A list with which this many times the best number of tests has been done is too long.
 constexpr double most_patience = 4.0;
 
 }  // namespace
@@ -28,7 +29,8 @@ void InnerPairs::start_over(double outer_skin) {
   stale_ = true;
 }
 
-/// Tests between two lists grow as the skin (steps) times its root (pairs).
+/// The tests between two listings grow as skin^(3/2): the number of steps as the skin, the number
+/// of pairs as its root.
 void InnerPairs::adapt_skin() {
   const double ratio = of_all_.worth_listing / of_all_.tests;
   skin_ *= std::clamp(std::cbrt(ratio * ratio), 0.5, 2.0);

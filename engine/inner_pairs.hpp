@@ -1,12 +1,12 @@
 // Those of the candidate pairs that may touch soon: the inner one of two Verlet lists.
 //
-// The search of plain stepping tests pairs in every step, and most candidates are too far apart for
-// that. The inner list has those closer than the sum of radii plus a skin of its own, at most half
-// of that of the candidates and mostly far less. It is made by one look at all candidates, and
-// holds as long as no grain has moved by half of its skin. The skin follows the motion of the
-// grains: lists are made so often that this costs as much as it saves.
+// Plain stepping tests pairs in every step, and most candidates are too far apart to be worth that.
+// The inner list has those closer than the sum of radii plus a skin of its own, at most half of
+// that of the candidates and mostly far less. It is made by one pass over all candidates, and holds
+// as long as no grain has moved by half of its skin. The skin adapts to the motion of the grains,
+// so that making lists costs about as much as testing them.
 //
-// Which pairs are in it changes no result: those that are not cannot touch.
+// Its choice changes no result: pairs that are not in it cannot touch.
 #pragma once
 
 #include "engine/candidate_pairs.hpp"
@@ -20,42 +20,45 @@ namespace riesel {
 
 class InnerPairs {
 public:
-  /// There are new candidates, which have a skin of `outer_skin` (m): the list holds no longer.
+  /// To be called when new candidates have been listed, with a skin of `outer_skin` (m): the list
+  /// is out of date.
   void start_over(double outer_skin);
 
-  /// A step has been done in which no grain of the candidates has moved farther than this (m),
-  /// relative to a motion common to all.
+  /// To be called after each step: no grain of the candidates has moved farther in it than `motion`
+  /// (m), relative to the drift.
   void spend(double motion) {
     budget_ -= motion;
     ++age_;
   }
 
-  /// What a list has cost so far, in tests of pairs.
+  /// What lists have cost since they were made, in tests of pairs.
   struct Use {
-    double tests = 0.0;          ///< since it was made, with those of the step to come
-    double worth_listing = 0.0;  ///< as many as would be best between two lists
+    double tests = 0.0;          ///< so far, with those of the step to come
+    double worth_listing = 0.0;  ///< the best number between two listings
   };
   Use use() const {
     return {.tests = static_cast<double>(age_ + 1) * static_cast<double>(pairs_.size() + 1),
             .worth_listing = tests_worth_listing_};
   }
-  /// Where slices do each step together, the use that all have made of their lists decides when all
-  /// make new ones: in the same step, so that none waits for another. To be told before each step.
+  /// To be called before each step with the use on which keep_up() decides. Where slices do each
+  /// step together that is the sum over all of them: so all make new lists in the same step, and
+  /// none waits for another.
   void heed(const Use& of_all) { of_all_ = of_all; }
 
-  /// Lists anew what is close at `positions`, the present ones, if the list holds no longer, or if
-  /// a shorter one pays. `candidates` are those of the last start_over().
+  /// Makes a new list from the present `positions` if the old one does not hold any more, or is so
+  /// long that a shorter one pays. `candidates` are those of the last start_over().
   void keep_up(const CandidatePairs& candidates, const PackedPositions& positions,
                CoarseUnits units);
 
-  /// In no order. Of pairs in contact reach2 is negative, as in the candidates.
+  /// The list, in no particular order. reach2 of pairs in contact is negative, as in the
+  /// candidates.
   const CandidatePairs& pairs() const { return pairs_; }
-  /// The index among the candidates of a pair of the list.
+  /// Index among the candidates of pair number `pair` of the list.
   std::uint32_t candidate(std::size_t pair) const { return candidate_[pair]; }
 
-  /// This pair of the list has come into contact.
+  /// To be called when this pair of the list has come into contact: it is not searched any more.
   void leave_out(std::size_t pair) { pairs_.reach2[pair] = -pairs_.reach2[pair]; }
-  /// The contact of this candidate has ended.
+  /// To be called when the contact of this candidate has ended: the pair is searched again.
   void take_back(const CandidatePairs& candidates, std::uint32_t candidate);
 
 private:
@@ -64,7 +67,7 @@ private:
   CandidatePairs pairs_;
   std::vector<std::uint32_t> candidate_;  // of each pair
   double outer_skin_ = 0.0, skin_ = 0.0;  // m
-  double budget_ = 0.0;                   // m, motion that leaves the list valid
+  double budget_ = 0.0;                   // m, further motion for which the list holds
   std::int64_t age_ = 0;                  // steps that the list has served
   double tests_worth_listing_ = 0.0;
   Use of_all_;

@@ -1,4 +1,5 @@
-// Contacts outlive a sorting: those of candidates go on with their slices, the others have ended.
+// How contacts outlive a sorting: those between candidates go on in the slices that have these, the
+// others have ended.
 #include "engine/candidates.hpp"
 #include "engine/contact_loop.hpp"
 
@@ -21,7 +22,7 @@ std::optional<std::uint32_t> pair_in(const Slice& slice, std::uint32_t first,
   return std::nullopt;
 }
 
-/// Likewise.
+/// Index among the grains near walls of `slice`, which have just been listed.
 std::optional<std::uint32_t> near_wall_in(const Slice& slice, std::uint32_t slot,
                                           std::int32_t wall) {
   const auto& near = slice.near_walls;
@@ -33,31 +34,31 @@ std::optional<std::uint32_t> near_wall_in(const Slice& slice, std::uint32_t slot
   return std::nullopt;
 }
 
-/// Where the grains of a contact stand.
+/// The slots of the grains of a contact, whose bodies are still those in the store.
 ContactSlots slots_of(const Meeting& m) {
   const auto first = static_cast<std::uint32_t>(m.first);
   const auto second = static_cast<std::uint32_t>(m.second);
   return m.turned ? ContactSlots{second, first} : ContactSlots{first, second};
 }
 
-/// The slice that owns `slot`, or none.
+/// The slice of `share` that owns `slot`, or nullptr.
 Slice* owner_in(std::span<Slice> share, std::uint32_t slot) {
   const auto owner = std::partition_point(share.begin(), share.end(),
                                           [&](const Slice& slice) { return slice.end <= slot; });
   return owner != share.end() && owner->owns(slot) ? &*owner : nullptr;
 }
 
-/// The candidate that `contact` is, if it is one of `slice`.
+/// Index of the candidate of `slice` that `contact` is, if it is one.
 std::optional<std::uint32_t> candidate_in(const Slice& slice, const Contact& contact,
                                           ContactSlots slots) {
   if (contact.name.wall != no_wall) return near_wall_in(slice, slots.grain, contact.name.wall);
-  // Most often the first has the lower slot.
+  // The first grain of a pair usually has the lower slot, except across the seam.
   const auto [low, high] = std::minmax(slots.grain, slots.partner);
   const auto found = slice.owns(low) ? pair_in(slice, low, high) : std::nullopt;
   return !found && slice.owns(high) ? pair_in(slice, high, low) : found;
 }
 
-/// Goes on with it if it is one of `mine`.
+/// Adds `contact` to those of `mine` if it is one of its candidates.
 void keep_one(const State& state, Slice& mine, const Contact& contact, ContactSlots slots) {
   const auto candidate = candidate_in(mine, contact, slots);
   if (!candidate) return;
@@ -88,7 +89,7 @@ void Candidates::set_contacts_aside(Slice& mine) {
   mine.kept = 0;
 }
 
-/// Goes on with those of the contacts that belong to the slices of `share`; their slots are those
+/// Adds those of `contacts` that belong to slices of `share` to these; `before` has their slots
 /// before the sorting.
 void Candidates::keep(const State& state, std::span<Slice> share,
                       std::span<const ContactSlots> before,
@@ -107,8 +108,8 @@ std::size_t Candidates::kept() const {
                          [](std::size_t sum, const Slice& slice) { return sum + slice.kept; });
 }
 
-/// A contact whose bodies are no candidates any more has ended: the grain is so fast that it left
-/// in a single step.
+/// Ends and counts the contacts whose bodies are no candidates any more: of grains so fast that
+/// they left their partners by more than the skin in a single step.
 void Candidates::end_lost_contacts(const State& state, std::int64_t step) {
   std::size_t lasting = 0;
   for (const Slice& slice : slices_) lasting += slice.lasting.size();

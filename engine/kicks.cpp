@@ -8,21 +8,21 @@ namespace riesel {
 
 namespace {
 
-/// Whether `giver` may have given something to grains of `mine`.
+/// Whether `giver`, another slice, may have kicks for grains of `mine`.
 bool concerns(const Slice& giver, const Slice& mine) {
   return &giver != &mine && !giver.given_away.empty() && giver.given_first < mine.end
          && giver.given_last >= mine.begin;
 }
 
-/// The grains of a slice, who collect what contacts give them. What each kick needs stands here
-/// instead of where it comes from, so that it can stay in registers.
+/// Adds kicks to the grains of a slice. Has copies of all that a kick needs, so that the compiler
+/// can keep them in registers.
 struct Receiver {
   FixedVector *kick, *u;
   Fixed *spin_kick, *spin;  // null where grains do not rotate, and no kick has a spin
   std::size_t begin, size;  // slots
   Candidates::Speedometer speed;
   double fastest2;        // as in the slice
-  std::uint32_t* kicked;  // where the next one is listed
+  std::uint32_t* kicked;  // where the next kicked slot is written
 
   template <class Quanta>
   static void add(Quanta& sum, const Quanta& more) {
@@ -42,7 +42,7 @@ struct Receiver {
   }
 };
 
-/// And spins.
+/// u = change(u, kick) for all grains of the slice, and likewise for the spins.
 template <class Change>
 void change_velocities(Grains& g, const Slice& mine, Change change) {
   for (std::size_t i = mine.begin; i < mine.end; ++i) g.u[i] = change(g.u[i], g.kick[i]);

@@ -1,8 +1,8 @@
 // How the kicks of contacts reach the velocities in plain stepping.
 //
-// In a State the velocity is that of the last displacement, and a kick waits for the next step to
-// take it up. While plain stepping goes on it is added to both the kick and the velocity of a grain
-// at once: who is kicked is looked at but once in a step.
+// In a State the velocity is that of the last displacement, and the kick is still to be added by
+// the next step. During plain stepping the kicks of a step are added to the kick and to the
+// velocity of a grain at the same time, so that a kicked grain is accessed only once in a step.
 #pragma once
 
 #include "engine/candidates.hpp"
@@ -13,17 +13,17 @@
 
 namespace riesel {
 
-/// The velocities of the grains of `mine` take up the kicks that a State has.
+/// Adds the kicks to the velocities of the grains of `mine`: from a State to plain stepping.
 void take_up_kicks(Grains& grains, const Slice& mine);
-/// The velocities are again those of a State.
+/// Subtracts them again: from plain stepping to a State.
 void give_back_kicks(Grains& grains, const Slice& mine);
 
-/// Lists what the contacts of `mine` gave to grains of other slices in this step, for whoever steps
-/// them; there are so many others.
+/// Lists the kicks that the contacts of `mine` gave to grains of other slices in this step, in
+/// mine.given_away, where these slices find them. `others` is the number of other slices.
 void give_away_kicks(Slice& mine, std::size_t others);
 
-/// The kicks of the last step are forgotten; kicks and velocities of the grains of `mine` take up
-/// what contacts of `mine` and of the givers gave them in this step.
+/// Replaces the kicks of the grains of `mine` by those that the contacts of `mine` and of the
+/// givers gave in this step, and adds these to the velocities.
 void receive_kicks(State& state, const Candidates& candidates, std::span<const Slice> givers,
                    Slice& mine);
 

@@ -1,7 +1,7 @@
-// What a vector loop finds of lanes, for those who look at the few that matter one by one.
+// Bit masks by which a vector loop reports the few lanes that need a closer look, one by one.
 //
-// The loop goes block by block and makes a mask of each, with a bit for each lane: the many blocks
-// without one take one look.
+// The loop goes block by block and makes a mask for each, with a bit for each lane: so a block
+// without a finding costs a single test.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -14,16 +14,16 @@
 
 namespace riesel {
 
-/// A loop over 64-bit numbers takes as many lanes at once as fit into a vector of masks: with masks
-/// of 32 bits these are two vectors of numbers side by side, one of which goes on while the other
-/// waits for a root. That pays where a lane takes long and there are many. A mask has room for two
-/// findings.
+/// A block is as many lanes as there are masks in a vector of 64 bytes. With masks of 64 bits a
+/// block of doubles is one vector; with masks of 32 bits it is two, one of which goes on while the
+/// other waits for a root: that pays where a lane takes long and there are many. A mask has room
+/// for two findings per lane.
 template <class Mask>
 struct LaneMasks {
-  /// Of a block, which is a vector of masks.
+  /// Lanes of a block.
   static constexpr std::size_t lanes = cache_line / sizeof(Mask);
 
-  /// Of each lane.
+  /// The bit of each lane.
   static constexpr std::array<Mask, lanes> bits = [] {
     std::array<Mask, lanes> all{};
     for (std::size_t lane = 0; lane < lanes; ++lane) all[lane] = Mask{1} << lane;
@@ -32,21 +32,21 @@ struct LaneMasks {
 
   AlignedVector<Mask> of_blocks;
 
-  /// That hold `count` lanes.
+  /// The number of blocks that hold `count` lanes.
   static constexpr std::size_t blocks(std::size_t count) { return (count + lanes - 1) / lanes; }
   /// `count` rounded up to whole blocks.
   static constexpr std::size_t padded(std::size_t count) { return blocks(count) * lanes; }
   void resize(std::size_t count) { of_blocks.resize(blocks(count)); }
 
-  /// The bit of a lane for finding number 0 or 1, if it was made. To be given 0 or 1: GCC 12 makes
-  /// no vectors of a selection between the bit and nothing. The bit is looked up: a shift by the
-  /// lane is by a number of 32 bits, as which so many lanes go at once that with masks of 64 bits
-  /// they need two vectors.
+  /// The bit of a lane for finding number 0 or 1 if `found` is 1, no bit if it is 0. An integer and
+  /// no bool, because GCC 12 does not vectorise the choice between the bit and 0. The bit comes
+  /// from a table because a shift by the lane makes GCC count lanes in 32 bits, and then masks of
+  /// 64 bits take two vectors.
   [[gnu::always_inline]] static constexpr Mask bit_if(Mask found, std::size_t lane,
                                                       std::size_t finding = 0) {
     return (0 - found) & (bits[lane] << (finding * lanes));
   }
-  /// Calls visit(lane) for those of the first `count` lanes of which this was found, in order.
+  /// Calls visit(lane), in order, for those of the first `count` lanes that have this finding.
   template <class Visit>
   void for_each_found(std::size_t count, Visit visit, std::size_t finding = 0) const {
     for (std::size_t block = 0; block < count; block += lanes) {

@@ -8,14 +8,16 @@ namespace riesel {
 
 namespace {
 
-/// From the friction on name.grain to that on the first body, or back. Nothing has no sign.
+/// Converts between the friction on name.grain and that on the first body, where these differ. 0 -
+/// x instead of -x, which would make -0 of 0.
 void see_from_the_other(Contact& contact) {
   contact.friction_x = 0.0 - contact.friction_x;
   contact.friction_y = 0.0 - contact.friction_y;
   contact.rolling_torque = 0.0 - contact.rolling_torque;
 }
 
-/// All of a lane goes to another, and leaves zeros. Rows are of 64-bit words, whatever these mean.
+/// Moves the content of a lane to another one and leaves zeros. Relies on a tile consisting of rows
+/// of 64-bit words only.
 void move_lane(ContactTile& from, std::size_t lane, ContactTile& to, std::size_t new_lane) {
   using Row = ContactTile::Row<std::uint64_t>;
   auto* const old_words = reinterpret_cast<std::byte*>(&from) + lane * sizeof(std::uint64_t);
@@ -32,8 +34,8 @@ void move_lane(ContactTile& from, std::size_t lane, ContactTile& to, std::size_t
 
 Contact LiveContacts::contact(std::size_t i) const {
   Contact contact{.name = meetings_[i].name};
-  // Word by word where they stay: an array of them would be copied in wider words, and these wait
-  // until their parts are written.
+  // Each word is written where it stays. By way of an array, which is copied in wider words, the
+  // copy would have to wait until the narrower stores are complete.
   auto* const life = reinterpret_cast<std::byte*>(&contact) + ContactTile::life_begin;
   for (std::size_t m = 0; m < ContactTile::life_members; ++m)
     std::memcpy(life + m * sizeof(double), &tile(i).life[m][lane(i)], sizeof(double));
@@ -41,8 +43,8 @@ Contact LiveContacts::contact(std::size_t i) const {
   return contact;
 }
 
-/// The state is to be kept, for a look at it: without the kicks and the numbers of a contact that
-/// are none.
+/// Removes the kicks and all numbers that are not finite from contact `i`, so that the state that
+/// is left by a run that fails can be kept and inspected.
 void LiveContacts::make_harmless(std::size_t i) {
   ContactTile& t = tile(i);
   for (auto& kicks : t.kick) kicks.set(lane(i), {});
@@ -51,7 +53,8 @@ void LiveContacts::make_harmless(std::size_t i) {
     if (!std::isfinite(member[lane(i)])) member[lane(i)] = 0.0;
 }
 
-/// The points of smooth walls go along with their grains, those of moving walls with the walls.
+/// Updates the points of walls: those of smooth walls follow their grains, those of moving walls
+/// the walls.
 void LiveContacts::follow_walls(const Bodies& bodies, const StepUnits& units) {
   for (std::size_t i = 0; i < size(); ++i) {
     const BodyMotion point = wall_point(meetings_[i], bodies, first(i), units);

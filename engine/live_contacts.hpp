@@ -1,9 +1,8 @@
-// The contacts that last: stepped from beginning to end in place, side by side, by vector
-// instructions.
+// The present contacts of a slice: each stays in a lane of a tile from beginning to end, where
+// vector instructions step it.
 //
-// Whoever steps the grains finds out which contacts begin; from then on nobody looks for them. A
-// contact costs its force and the book-keeping of its life, both in one loop over tiles, and its
-// end is noticed there.
+// Plain stepping or flights find out which contacts begin; from then on no search looks for them.
+// One loop over the tiles computes the forces, updates the lives and notices which contacts end.
 #pragma once
 
 #include "engine/contact.hpp"
@@ -24,8 +23,8 @@ class LiveContacts {
 public:
   explicit LiveContacts(Partner partner) : partner_(partner) {}
 
-  /// Tiles are filled up with lanes that are no contacts. These look at the body in this place
-  /// instead of the first of all, which others may be changing.
+  /// Sets the body that lanes without a contact read: one of this slice, as another thread may be
+  /// writing to body 0.
   void pad_with(std::int64_t place);
 
   std::size_t size() const { return meetings_.size(); }
@@ -33,10 +32,10 @@ public:
   Contact contact(std::size_t i) const;
   std::int64_t first(std::size_t i) const { return tile(i).body[0][lane(i)]; }
   std::int64_t second(std::size_t i) const { return tile(i).body[1][lane(i)]; }
-  /// What the last step() gives to the bodies.
+  /// The kick that contact i gives to its first, or second, body in the last step().
   BodyKick kick_of_first(std::size_t i) const { return kick_of(tile(i), 0, lane(i)); }
   BodyKick kick_of_second(std::size_t i) const { return kick_of(tile(i), 1, lane(i)); }
-  /// Calls give(place, kick) for all of them.
+  /// Calls give(place, kick) for the kicks of all contacts; `place` is the index in Bodies.
   template <class Give>
   void for_each_kick(Give give) const {
     if (turning_)
@@ -46,31 +45,31 @@ public:
   }
 
   void clear();
-  /// A contact that lasts already.
+  /// Adds a contact that has begun before.
   void add(const Meeting& meeting, const Contact& contact);
-  /// A contact that begins in the step that is done next.
+  /// Adds a contact that begins in the next step().
   void begin(const Meeting& meeting) {
     add(meeting, {.name = meeting.name});
     ++beginning_;
   }
-  /// Its bodies stand elsewhere now.
+  /// Tells where the bodies of contact i are in Bodies from now on.
   void move(std::size_t i, std::int64_t first, std::int64_t second) {
     tile(i).body[0][lane(i)] = first;
     tile(i).body[1][lane(i)] = second;
   }
 
-  /// Computes the kicks of this step and carries the lives on. `bodies` are at the step of `units`.
-  /// What has ended then stands in ended() and gives no kick.
+  /// Computes the kicks of this step and updates the lives. `bodies` must be at the step of
+  /// `units`. Contacts that have ended are then in ended() and give no kick.
   void step(const Bodies& bodies, const StepUnits& units, const ContactModel& model);
 
-  /// Indices of the contacts that the last step() found apart, decreasing; to be removed in this
-  /// order before the next.
+  /// Indices of the contacts that the last step() found apart, decreasing. They must be removed in
+  /// this order before anything else is added or stepped.
   const std::vector<std::size_t>& ended() const { return ended_; }
-  /// The last contact takes the place of contact `i`.
+  /// Removes contact `i`. The last contact gets its index.
   void remove(std::size_t i);
 
-  /// The first by name of the contacts whose kick in the last step() was no usable number, so that
-  /// it gave none.
+  /// The first by name of the contacts whose kick in the last step() was not finite or too large:
+  /// these gave no kick.
   const std::optional<ContactName>& trouble() const { return trouble_; }
 
 private:
@@ -93,8 +92,8 @@ private:
 
   Partner partner_;
   std::size_t beginning_ = 0;  // contacts at the end that begin in the next step
-  std::size_t followed_ = 0;   // so many have been stepped; the others have been added since
-  bool any_level_ = false;     // with smooth walls
+  std::size_t followed_ = 0;   // the first ones have been stepped; the others added since
+  bool any_level_ = false;     // some contact is with a smooth wall
   bool turning_ = false;       // the bodies rotate
   std::vector<Meeting> meetings_;
   std::int64_t padding_body_ = 0;

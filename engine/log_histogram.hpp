@@ -1,7 +1,8 @@
-// How often positive values of any size came, with a resolution of a fifth of the value.
+// A histogram of positive values over many orders of magnitude, with bins about a fifth of the
+// value wide.
 //
-// The bins are quarters of an octave, read off the bits of the number: no logarithm, no rounding,
-// and counts that can be merged in any order.
+// The bins are quarters of an octave, found from the bits of the number: without logarithm and
+// rounding. Counts can be merged in any order.
 #pragma once
 
 #include <algorithm>
@@ -34,13 +35,14 @@ public:
     return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
   }
 
-  /// Where the bin begins: 1, 1.25, 1.5, 1.75 times a power of two.
+  /// The lower edge of a bin: 1, 1.25, 1.5 or 1.75 times a power of two.
   static double lower_edge(std::size_t bin) {
     return std::bit_cast<double>((first_quarter + bin) << bits_below_a_quarter);
   }
 
-  /// The lower edge of the bin that holds the value below which this part of all lies, 0 <= part <
-  /// 1; 0 if that is the first bin, which holds all that is smaller, or if there are none.
+  /// The lower edge of the bin of the quantile: the value below which this part of all values lies,
+  /// 0 <= part < 1. 0 if that is the first bin, which also holds all smaller values, or if there
+  /// are no values.
   double quantile(double part) const {
     const double wanted = part * static_cast<double>(total());
     double below = 0.0;
@@ -54,8 +56,8 @@ public:
   bool operator==(const LogHistogram&) const = default;
 
 private:
-  // A positive double, taken as an integer, grows with its value; all but the upper two bits of the
-  // mantissa are cut off. The exponent of 1 stands as 1023.
+  // The bits of a positive double, read as an integer, grow with its value; all but the upper two
+  // bits of the mantissa are cut off. The exponent of 1 is stored as 1023.
   static constexpr int bits_below_a_quarter = 50;
   static constexpr std::uint64_t first_quarter = std::uint64_t{4} * (1023 + lowest);
 

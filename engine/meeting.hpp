@@ -1,4 +1,4 @@
-// Two bodies that meet: who they are, and what does not change while they are in contact.
+// Two bodies that meet: which they are, and what does not change while they are in contact.
 #pragma once
 
 #include "engine/contact.hpp"
@@ -13,18 +13,18 @@ namespace riesel {
 
 struct Meeting {
   ContactName name;
-  std::uint32_t candidate;     ///< index among the candidates, for whoever looks for contacts
+  std::uint32_t candidate;     ///< index in Slice::pairs, or in Slice::near_walls
   std::int64_t first;          ///< place of the first body in Bodies, at the beginning
   std::int64_t second;         ///< of the second body; that of the first for a wall grain
-  Fixed line, y;               ///< where the wall grain is before its wall moves; unused for free
-                               ///< grains, y for smooth walls
+  Fixed line, y;               ///< x and y of the wall grain before its wall moves; unused for free
+                               ///< grains, y also for smooth walls
   double radius_first;         ///< m
   double radius_second;        ///< m
   double mass_first;           ///< kg
   double mass_second;          ///< kg; unused for a wall grain
-  std::uint64_t wall_bit = 0;  ///< of the wall grain (WallLattice::bit_of), for those who look
+  std::uint64_t wall_bit = 0;  ///< WallLattice::bit_of() the wall grain
   bool turned = false;         ///< the first body is not name.grain, but name.partner
-  bool level = false;          ///< the second body is level with the first: a smooth wall
+  bool level = false;          ///< the second body always has the y of the first: a smooth wall
 
   bool with_wall() const { return name.wall != no_wall; }
   double reach() const { return radius_first + radius_second; }  ///< m
@@ -45,7 +45,7 @@ struct Meeting {
   }
 };
 
-/// Two free grains, in slots i and j.
+/// The meeting of two free grains, in slots i and j.
 inline Meeting meeting_of_grains(const Grains& g, std::uint32_t i, std::uint32_t j,
                                  std::uint32_t candidate) {
   const bool turned = g.id[j] < g.id[i];
@@ -62,7 +62,7 @@ inline Meeting meeting_of_grains(const Grains& g, std::uint32_t i, std::uint32_t
           .turned = turned};
 }
 
-/// The free grain in `slot` and grain `k` of a wall.
+/// The meeting of the free grain in `slot` with grain `k` of a wall.
 inline Meeting meeting_with_wall(const State& state, std::uint32_t slot, std::int32_t wall,
                                  std::int64_t k, std::uint32_t candidate) {
   const WallLattice& lattice = state.wall(wall);
@@ -81,12 +81,12 @@ inline Meeting meeting_with_wall(const State& state, std::uint32_t slot, std::in
           .level = lattice.smooth()};
 }
 
-/// Where the free grains of a contact stand in the store; at a wall there is no second one.
+/// The slots of the free grains of a contact; at a wall `partner` is `grain`.
 struct ContactSlots {
   std::uint32_t grain, partner;
 };
 
-/// slots[id] is where a grain stands, as slots_by_id() has it.
+/// `slots` as slots_by_id() returns it.
 inline ContactSlots contact_slots(const ContactName& name, std::span<const std::size_t> slots) {
   const auto slot = [&](std::int32_t id) {
     return static_cast<std::uint32_t>(slots[static_cast<std::size_t>(id)]);
@@ -94,7 +94,7 @@ inline ContactSlots contact_slots(const ContactName& name, std::span<const std::
   return {slot(name.grain), slot(name.wall == no_wall ? name.partner : name.grain)};
 }
 
-/// The bodies of a contact.
+/// The meeting of a contact, without a candidate. name.grain is the first body.
 inline Meeting meeting_of(const ContactName& name, const State& state, ContactSlots slots) {
   constexpr std::uint32_t none = 0;  // nobody looks for it
   return name.wall == no_wall
@@ -102,8 +102,8 @@ inline Meeting meeting_of(const ContactName& name, const State& state, ContactSl
              : meeting_with_wall(state, slots.grain, name.wall, name.partner, none);
 }
 
-/// Where the wall grain is, and how it moves, in the step of `units`; `first` is where the first
-/// body stands in `b`.
+/// Position and motion of the wall grain in the step of `units`; `first` is the place of the first
+/// body in `b`.
 inline BodyMotion wall_point(const Meeting& m, const Bodies& b, std::int64_t first,
                              const StepUnits& units) {
   BodyMotion point = units.walls[static_cast<std::size_t>(m.name.wall)];
@@ -112,7 +112,8 @@ inline BodyMotion wall_point(const Meeting& m, const Bodies& b, std::int64_t fir
   return point;
 }
 
-/// Seen from the first body; `b` holds the bodies where the meeting says.
+/// The encounter of the two bodies, seen from the first; `b` must have them at m.first and
+/// m.second.
 inline Encounter encounter(const Meeting& m, const Bodies& b, const StepUnits& units) {
   const BodyMotion motion =
       m.with_wall() ? relative_motion(b, m.first, wall_point(m, b, m.first, units), units)
@@ -120,7 +121,7 @@ inline Encounter encounter(const Meeting& m, const Bodies& b, const StepUnits& u
   return encounter(motion, m.reduced(), units);
 }
 
-/// The same of bodies that rotate.
+/// Likewise their turning, if they rotate.
 inline Turning turning(const Meeting& m, const Bodies& b, double rolling_friction,
                        const StepUnits& units) {
   const Spin second = m.with_wall() ? Spin{} : spin_of(b, m.second, units);

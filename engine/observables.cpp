@@ -17,8 +17,8 @@ struct GrainSums {
   std::int64_t outside;
 };
 
-/// m, between the wall lines where they are now; where there is no wall a grain cannot be beyond
-/// it.
+/// m, the range of x between the lines of the walls where these are now; infinite on a side without
+/// a wall.
 struct Gap {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -55,14 +55,14 @@ RIESEL_VECTOR_KERNEL GrainSums sum_over_grains(const State& state) {
   return {value(0), value(1), value(2), value(3), value(4), value(5), value(6), value(7), outside};
 }
 
-/// Sums over all grains, 0 if they do not rotate.
+/// Sums over all grains; 0 if they do not rotate.
 struct SpinSums {
   double spin, temperature, energy;
 };
 
 SpinSums sum_over_spins(const State& state) {
   ExactSum temperature, energy;
-  Int128 half_quanta = 0;  // of angle per step: spins of small grains leave the range of ExactSum
+  Int128 half_quanta = 0;  // of angle per step: spins of small grains may exceed ExactSum's range
   const GrainView grains(state);
   for (std::size_t i = 0; state.grains.rotate() && i < state.grains.size(); ++i) {
     const Grain g = grains[i];
@@ -76,7 +76,8 @@ SpinSums sum_over_spins(const State& state) {
   return {spin, temperature.value(), energy.value()};
 }
 
-/// The tally with the lasting contacts in it, as if they ended now.
+/// The tally of contacts with walls, or of those between grains, to which the present contacts are
+/// added as if they ended now.
 ContactTally all_contacts(const State& state, bool of_walls) {
   ContactTally sum = of_walls ? state.tally.walls : state.tally.grains;
   for (const Contact& contact : state.contacts)
@@ -84,7 +85,7 @@ ContactTally all_contacts(const State& state, bool of_walls) {
   return sum;
 }
 
-/// With what the lasting contacts have given so far.
+/// The impulses of the walls, with what the present contacts have given so far.
 WallImpulses all_impulses(const State& state) {
   WallImpulses impulses = state.tally.impulses;
   for (const Contact& contact : state.contacts)
@@ -92,10 +93,10 @@ WallImpulses all_impulses(const State& state) {
   return impulses;
 }
 
-/// J. Across the tube it follows from where the grains are. Along the tube they have come round we
-/// do not know how often; but contacts between grains do not change the momentum, so the way of the
-/// centre of mass follows from its start, from free fall, and from the impulses of the walls, of
-/// which one given at time s acts for t - s.
+/// J. Across the tube it follows from the positions of the grains. Along the tube these do not tell
+/// how often grains have gone round; but contacts between grains do not change the momentum, so the
+/// displacement of the centre of mass follows from the momentum at the start, from free fall, and
+/// from the impulses of the walls: one given at time s has acted for t - s.
 double work_of_gravity(const State& state, const GrainSums& sums, const ContactTally& walls) {
   const double t = state.time();
   const double mass_times_way =
@@ -111,8 +112,8 @@ double stored_energy(const State& state) {
   return sum.value();
 }
 
-/// kg m/s along y. Velocities have half of the kicks that act now, and grains set out with all of
-/// them: what lacks is half of what the walls give, as those of grains on each other cancel out.
+/// kg m/s along y: half of the present kicks. Velocities at the full step include only the other
+/// half, but the motion goes on with all of it. Kicks of grains on each other cancel in the sum.
 double half_of_kicks(const State& state) {
   ExactSum sum;
   for (std::size_t i = 0; i < state.grains.size(); ++i)
@@ -121,7 +122,7 @@ double half_of_kicks(const State& state) {
   return sum.value();
 }
 
-/// Of n values, from their sum and the sum of their squares.
+/// Standard deviation of n values, from their sum and the sum of their squares.
 double standard_deviation(double sum, double sum_of_squares, double n) {
   const double mean = sum / n;
   return std::sqrt(std::max(0.0, sum_of_squares / n - mean * mean));
@@ -160,7 +161,7 @@ FastestGrain fastest_grain(const State& state) {
 
 namespace {
 
-/// As largest_sum(): of the grains as they are, by plain sums, which cannot wrap.
+/// The part of largest_sum() over grains, by sums in floating point, which cannot wrap.
 double largest_sum_over_grains(const State& state) {
   double mass = 0.0, moment = 0.0, kinetic = 0.0;
   const GrainView grains(state);
@@ -175,8 +176,8 @@ double largest_sum_over_grains(const State& state) {
   return std::max({mass, moment, kinetic});
 }
 
-/// Likewise of the contacts that last. The elastic force times the distance is about twice the
-/// energy, times the distance over the overlap.
+/// The part over the present contacts. The elastic force times the distance is about twice the
+/// elastic energy times the distance over the overlap.
 double largest_sum_over_contacts(const State& state) {
   const auto& radii = state.grains.radius;
   const double distance = radii.empty() ? 0.0 : 2.0 * *std::ranges::max_element(radii);

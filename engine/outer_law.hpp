@@ -1,9 +1,9 @@
-// A normal law from outside of the library, such as NormalLaw can hold: known by its functions
-// instead of by its type.
+// A normal law from outside of the library, in a form that NormalLaw can hold: pointers to its
+// functions instead of its type.
 //
 // The kernel of the contact loop is compiled once for each law of the library, and once for all
-// laws from outside: there it calls functions for each contact, and is not vectorised.
-// docs/extending.md tells what that costs. Laws of the library pay nothing for it.
+// laws from outside. That version calls functions for each contact and is not vectorised: for the
+// cost see docs/extending.md. Laws of the library pay nothing for it.
 #pragma once
 
 #include "engine/elastic_line.hpp"
@@ -18,8 +18,8 @@ namespace riesel {
 
 class OuterLaw {
 public:
-  /// Any type with the functions that contact_law.hpp wants of a normal law, if its values are a
-  /// few numbers.
+  /// Wraps any trivially copyable type of at most 64 bytes that has the functions which
+  /// contact_law.hpp lists for a normal law.
   template <class Law>
   explicit OuterLaw(const Law& law) : functions_(&functions_of<Law>) {
     static_assert(std::is_trivially_copyable_v<Law> && sizeof(Law) <= sizeof(values_));

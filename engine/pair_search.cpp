@@ -10,11 +10,11 @@ namespace riesel {
 
 namespace {
 
-/// Pairs tested at a time: so many that their answers come at the cost of one, so few that hardly a
-/// block has a pair that may overlap.
+/// Pairs tested at a time: enough for vectors to be full, few enough that hardly any block has a
+/// pair that may overlap, so that one test usually deals with all of it.
 constexpr std::size_t block = 64;
 
-/// Some pairs next to each other: where the second grain is from the first.
+/// Up to `block` consecutive pairs: the coarse position of each second grain relative to the first.
 class PairBlock {
 public:
   [[gnu::always_inline]] PairBlock(const CandidatePairs& pairs, std::size_t begin,
@@ -31,7 +31,7 @@ public:
   }
 
 private:
-  /// One by one: vectors are slower at gathering.
+  /// Scalar on purpose: vector gathers are slower.
   RIESEL_SCALAR_KERNEL void look(const std::uint32_t* first, const std::uint32_t* second,
                                  const PackedPoint* points) {
     for (std::size_t p = 0; p < count; ++p)
@@ -50,12 +50,12 @@ private:
   return any != 0;
 }
 
-/// Whether each pair of a block is one of those that are looked for.
+/// For each pair of a block 1 if it is looked for, else 0.
 using Flags = std::array<std::uint8_t, block>;
 
-/// Writes the numbers of those that are to `list`, where there must be room for all; returns how
-/// many there are. Every pair is written, and the next one over it unless it is one of them: no
-/// branch to guess, also where half of the pairs are.
+/// Writes the indices begin + p of the flagged pairs to `list`, which must have room for `count`;
+/// returns their number. Every index is written and overwritten by the next one unless its flag is
+/// set: no branch that could be mispredicted.
 [[gnu::always_inline]] inline std::size_t list_flagged(const Flags& flags, std::size_t count,
                                                        std::size_t begin, std::uint32_t* list) {
   std::size_t found = 0;
@@ -82,12 +82,12 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const PackedPo
   }
 }
 
-/// Writes the pairs that are near to `near`, where there must be room for all; returns their
-/// number.
+/// Writes the indices of the pairs that are near to `near`, which must have room for all pairs;
+/// returns their number.
 RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
                                            const PackedPositions& positions, CoarseUnits units,
                                            float skin, std::uint32_t* near) {
-  constexpr float rounded = 1.0F + 2e-6F;  // what is rounded here, and more
+  constexpr float rounded = 1.0F + 2e-6F;  // more than the rounding errors here
   std::size_t found = 0;
   alignas(cache_line) Flags is_near;
   for (std::size_t begin = 0; begin < pairs.size(); begin += block) {
@@ -103,8 +103,9 @@ RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
   return found;
 }
 
-/// Writes the pairs of grain i with those of the slots that are close to it to `close`, where there
-/// must be room for one more than all; returns their number. A vector of slots is tested at a time.
+/// Writes the pairs of grain i with the grains of `range` that are close to it to `close`, which
+/// must have room for one more than range.size(); returns their number. Tests a vector of slots at
+/// a time, and so reads up to CoarsePositions::padding elements beyond the end.
 [[gnu::always_inline]] inline std::size_t find_close_in(SlotRange range, std::size_t i,
                                                         const CoarsePositions& positions,
                                                         CoarseUnits units, float farthest2,
@@ -123,7 +124,7 @@ RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
               ? 1
               : 0;
     const std::size_t count = std::min(lanes, range.end - j);
-    // As list_flagged() does.
+    // Without a branch, as in list_flagged().
     for (std::size_t lane = 0; lane < count; ++lane) {
       close[found] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j + lane)};
       found += result[lane];

@@ -1,7 +1,7 @@
 // Which of the candidate pairs overlap? The innermost loop of plain stepping.
 //
-// It looks only at coarse positions. The answer errs on the side of a hit by a few of their units;
-// the contact loop then decides with all bits.
+// It compares coarse positions only, and so may report pairs that are a few coarse units too far
+// apart, but misses none; the contact loop then decides with all bits.
 #pragma once
 
 #include "engine/candidate_pairs.hpp"
@@ -14,13 +14,13 @@
 
 namespace riesel {
 
-/// All pairs closer than the square root of `farthest2` (m^2), with the first grain among `slots`,
-/// replace those in `close`.
+/// Replaces the content of `close` by all pairs closer than the square root of `farthest2` (m^2)
+/// whose first grain is among `slots`.
 void find_close(const Cells& cells, SlotRange slots, const CoarsePositions& positions,
                 CoarseUnits units, float farthest2, std::vector<SlotPair>& close);
 
 /// Replaces `near` by the indices of those of `pairs`, not in contact, that are closer than the sum
-/// of their radii plus `skin` (m); some more may be there.
+/// of their radii plus `skin` (m), and perhaps some that are a little farther apart.
 void find_near(const CandidatePairs& pairs, const PackedPositions& positions, CoarseUnits units,
                double skin, std::vector<std::uint32_t>& near);
 

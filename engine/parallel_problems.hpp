@@ -1,4 +1,4 @@
-// Many small problems, each of one thread, solved side by side.
+// Many small problems, each solved by one thread, side by side.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,9 @@
 
 namespace riesel {
 
-/// solve(problem) for each of them, in their order, on `threads` threads: each as if alone. Throws
-/// what the first of them threw, in this order.
+/// The results of solve(problem) for all problems, in their order; on `threads` > 0 threads.
+/// solve() must be safe to call from several threads. Throws what the first problem that failed, in
+/// this order, threw, when all have been tried.
 template <class Problem, class Solve>
 auto solve_all(const std::vector<Problem>& problems, int threads, Solve solve) {
   std::vector<std::invoke_result_t<Solve, const Problem&>> solutions(problems.size());

@@ -20,7 +20,7 @@ void Part::cut(const State& whole, std::span<const std::unique_ptr<Part>> parts,
                  [&](const Contact& contact) { return knows(contact.name); });
 }
 
-/// The own ones first.
+/// Lists the grains of the part and its margins: the own ones first, then the copies.
 void Part::choose(const Grains& all, const Extent& extent) {
   places_.clear();
   places_of_copies_.clear();

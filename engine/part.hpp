@@ -22,8 +22,8 @@ namespace riesel {
 struct Extent {
   std::uint64_t begin, length, margin;
 
-  /// How far `y` is from the part; 0 only within it, where it begins but not where it ends. Nothing
-  /// is within a part without length.
+  /// Distance of `y` from the part along the ring; 0 only for begin <= y < begin + length. A part
+  /// of length 0 has nothing within.
   std::uint64_t distance(Fixed y) const {
     const std::uint64_t from_begin = static_cast<std::uint64_t>(y) - begin;
     if (from_begin < length) return 0;
@@ -33,32 +33,34 @@ struct Extent {
 
 class Part {
 public:
-  /// Takes all of the grains to begin with. Keeps a reference to the model. Throws as Stepper does.
+  /// Starts with a copy of the whole, until the first cut(). Keeps a reference to the model. Throws
+  /// what Stepper throws.
   Part(State whole, const ContactModel& model, bool by_flights);
 
-  /// Takes the grains of this extent, as they are in `whole`, and of the contacts that `parts` have
-  /// kept those between them.
+  /// Takes the grains of this extent and its margins from `whole`, and, of the contacts that
+  /// `parts` have kept, those between these grains.
   void cut(const State& whole, std::span<const std::unique_ptr<Part>> parts, const Extent& extent);
-  /// From there up to step `last`. Displacements are counted from `drift`, quanta per step along y.
+  /// Steps from there up to step `last`. `drift` (quanta per step along y) as for
+  /// Candidates::start_from(); it must be the same for all parts.
   void advance(std::int64_t last, Fixed drift);
-  /// The own grains as they have become, to their places.
+  /// Writes the own grains, as they are now, to their slots in the whole.
   void write(Grains& next) const;
 
   bool in_trouble() const { return stepper_.candidates().in_trouble(); }
-  /// Whether the candidates of the beginning did not hold until the end.
+  /// Whether the candidates listed at the beginning did not hold until the end of advance().
   bool has_sorted() const { return stepper_.candidates().sorted_at() > began_; }
   double skin() const { return stepper_.candidates().skin(); }  ///< m
   /// m, as Candidates::wandered().
   double wandered() const { return stepper_.candidates().wandered(); }
-  /// Whether the copies of grains no farther than this from the part (quanta of y) have become what
-  /// their originals have.
+  /// Whether the copies of grains that began no farther than `farthest` (quanta of y) from the part
+  /// have the same bits as their originals in `next`.
   bool agrees(const Grains& next, std::uint64_t farthest) const;
 
-  /// What was done since cut() stands: counts it, and keeps the contacts of the own grains.
+  /// Accepts what was done since cut(): takes over the tally, and keeps the contacts of own grains.
   void keep();
-  /// Keeps these contacts, and no others.
+  /// Keeps these contacts instead of any others.
   void keep(std::vector<Contact>&& contacts) { contacts_ = std::move(contacts); }
-  /// What was kept and counted since the last call goes to the whole.
+  /// Moves the contacts, the tally and the profile that were kept since the last call to the whole.
   void hand_over(State& whole, Profile& profile);
 
   void start_profile() { stepper_.start_profile(); }
@@ -77,12 +79,12 @@ private:
   Stepper stepper_;
   std::int64_t began_ = 0;                       // step
   std::size_t own_ = 0;                          // grains; those that follow are copies
-  std::vector<std::uint32_t> places_;            // of the grains in the whole
-  std::vector<std::uint32_t> places_of_copies_;  // while they are chosen
+  std::vector<std::uint32_t> places_;            // slots in the whole of the grains here
+  std::vector<std::uint32_t> places_of_copies_;  // scratch of choose()
   std::vector<std::uint64_t> distances_;         // quanta of y, of the copies from the part
-  std::vector<std::uint32_t> slots_;             // of the grains here, in the order of the places
+  std::vector<std::uint32_t> slots_;             // slots here of the same grains, after advance()
   static constexpr std::uint32_t not_here = UINT32_MAX;
-  std::vector<std::uint32_t> rank_;   // of a grain in that order, or not_here; by id
+  std::vector<std::uint32_t> rank_;   // by id: index in places_, or not_here
   std::vector<std::uint8_t> is_own_;  // by id
   std::vector<Contact> contacts_;     // kept
   Tally tally_;

@@ -13,14 +13,16 @@ namespace riesel {
 
 namespace {
 
-/// So much longer a stretch is than the last: until it is known how long candidates hold, as long
-/// as they do, and if they did not.
+/// Factors from the length of a stretch to that of the next: until it is known how long candidates
+/// hold; afterwards, if they held for the whole stretch; if they did not.
 constexpr double longer_at_first = 1.5, longer = 1.005, shorter = 0.95;
 
-/// So much more, or less, buffer a margin has after a stretch that was in vain, or not.
+/// Factors of the buffer after a stretch that was in vain, and after any other; the least buffer in
+/// mean diameters.
 constexpr double wider = 1.4, narrower = 0.998, least_buffer = 1.0;
 
-/// If the buffers are a larger part of the tube than this, shorter stretches are better.
+/// If the buffers take a larger part of the tube than the first number, a stretch in vain makes
+/// stretches shorter by this factor instead of buffers wider, but not shorter than the last number.
 constexpr double largest_buffers = 0.2, much_shorter = 0.6, fewest_steps = 32.0;
 
 }  // namespace
@@ -92,7 +94,7 @@ void Parts::plan(std::int64_t last) {
   if (over_) return;
   constexpr std::int64_t stretches_per_order = 64;
   if (stretches_ % stretches_per_order == 0) sort();
-  // Equal stretches, so that none is short at the end.
+  // Stretches of equal length, so that the last one is not short.
   const auto steps = static_cast<double>(last - state_.step);
   cut_short_ = steps <= habits_.steps;
   until_ =
@@ -102,14 +104,15 @@ void Parts::plan(std::int64_t last) {
   share_out();
 }
 
-/// So that the grains of a part stand close together: nobody else writes to their cache lines.
+/// Sorts the grains so that those of a part are consecutive: threads then hardly share cache lines
+/// when they write their results.
 void Parts::sort() {
   TeamBarrier alone(1);
   Cells().sort(state_, reach_, alone, 0);
   next_ = state_.grains;
 }
 
-/// Borders between the parts, so that each gets its share of the grains.
+/// Places the borders between the parts so that each gets its share of the grains.
 void Parts::share_out() {
   constexpr int bits = 12;
   std::array<std::size_t, std::size_t{1} << bits> count{};  // of grains, along the ring
@@ -126,7 +129,7 @@ void Parts::share_out() {
   }
 }
 
-/// The last ends where the first begins.
+/// The last part ends where the first begins: borders_.back() is 0, a whole turn.
 Extent Parts::extent_of(std::size_t part) const {
   return {
       .begin = borders_[part], .length = borders_[part + 1] - borders_[part], .margin = margin_};
@@ -136,7 +139,7 @@ std::uint64_t Parts::quanta(double metres) const {
   return static_cast<std::uint64_t>(std::min(metres / state_.box.quantum_y(), 0x1p63));
 }
 
-/// Quanta of y: no grain of a part can have met one farther from the part.
+/// Quanta of y: no grain of a part can have met one that began farther from the part than this.
 std::uint64_t Parts::farthest_met() const {
   double wandered = 0.0;
   for (const auto& part : parts_) wandered = std::max(wandered, part->wandered());
@@ -172,7 +175,7 @@ void Parts::learn_from_success() {
   else if (!cut_short_)
     habits_.steps *= habits_.steps_known ? longer : longer_at_first;
   habits_.buffer = std::max(least_buffer, habits_.buffer * narrower);
-  // Slowly, as much of what makes a part slow is chance.
+  // By little in each stretch, as much of what makes a part slow is chance.
   constexpr double least_change = 0.98, largest_change = 1.02;
   const double mean =
       std::accumulate(seconds_.begin(), seconds_.end(), 0.0) / static_cast<double>(seconds_.size());
@@ -194,7 +197,8 @@ void Parts::learn_from_failure() {
   }
 }
 
-/// The stretch that was in vain, and more the more of them there were in a row.
+/// Repeats the stretch that was in vain with all grains on one thread, and goes on for longer the
+/// more stretches in a row were in vain.
 void Parts::do_together(std::int64_t last, Profile& profile) {
   constexpr int most_doublings = 6;
   const std::int64_t steps = (until_ - state_.step) << std::min(failures_ - 1, most_doublings);

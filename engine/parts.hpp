@@ -1,11 +1,12 @@
-// The tube in parts: each thread does many steps with a part of its own, without a word to others.
+// The tube in parts: each thread does many steps with a part of its own without communication.
 //
-// For that it has, besides the grains of its part, copies of those in a margin. At the end of such
-// a stretch it compares: if the copies close to the part have come to the same bits as their
-// originals, nothing that the part does not know of has reached it, and its own grains are right.
-// Else nothing of the stretch is kept, and one thread does it with all grains.
+// For that it has, besides the grains of its part, copies of those in a margin on either side. At
+// the end of such a stretch the copies close to the part are compared with their originals: if they
+// have the same bits, nothing that the part does not know of has reached it, and its own grains are
+// right. Else the stretch was in vain: nothing of it is kept, and one thread repeats it with all
+// grains.
 //
-// Why that is enough: docs/architecture-parallel.md. What it gives: docs/performance.md.
+// Why that is enough: docs/architecture-parallel.md. What it gains: docs/performance.md.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -25,25 +26,28 @@ namespace riesel {
 
 class Parts {
 public:
-  /// What stretches are like, learned on the way. The results do not depend on it.
+  /// The length of stretches and the width of margins, adapted from stretch to stretch. The results
+  /// do not depend on them.
   struct Habits {
     double steps = 16.0;  ///< of a stretch: 1 or more
-    /// Mean diameters of a margin, beyond what a grain may meet: so long is the way of news to the
-    /// part.
+    /// Width of a margin in mean diameters beyond what a grain may meet without a new listing: the
+    /// distance over which what is missing outside must spread to reach the part.
     double buffer = 5.0;
-    bool steps_known = false;  ///< longer ones have been seen to be too long
+    bool steps_known = false;  ///< longer stretches have turned out too long
   };
 
-  /// Whether the parts of so many threads are much longer than their margins.
+  /// Whether the parts of so many threads would be much longer than their margins.
   static bool pay(const State& state, int threads);
 
-  /// Keeps references; `habits` are those of before, and change. Throws as Stepper does.
+  /// For two threads or more. Keeps references, also to `habits`, which it adapts. Throws what
+  /// Stepper throws.
   Parts(State& state, const ContactModel& model, bool by_flights, int threads, Habits& habits);
 
-  /// Up to step `last`, or until the run cannot go on. Throws RunFailure, and does nothing, if the
-  /// system grants fewer threads.
+  /// Steps up to step `last`, or until the run cannot go on. Throws RunFailure, and does nothing,
+  /// if the system grants fewer threads.
   void advance(std::int64_t last, Profile& profile);
 
+  /// Whether the run cannot go on.
   bool in_trouble() const { return whole_.has_value(); }
   /// Throws RunFailure if the run cannot go on.
   void fail_if_in_trouble() const;
@@ -83,10 +87,10 @@ private:
   std::int64_t until_ = 0;    // step: the end of the stretch
   std::uint64_t margin_ = 0;  // quanta of y
   Fixed drift_ = 0;           // quanta per step along y
-  bool cut_short_ = false;    // by the end of the advance: the stretch tells nothing of longer ones
-  bool over_ = false;
-  Grains next_;  // those of the state at the end of the stretch, in the same places
-  std::optional<Stepper> whole_;  // with which the run could not go on
+  bool cut_short_ = false;    // the stretch ends with the advance: it tells nothing of longer ones
+  bool over_ = false;         // no stretch is left to be done
+  Grains next_;               // those of the state at the end of the stretch, in the same places
+  std::optional<Stepper> whole_;  // of all grains; kept only if the run could not go on with it
   std::int64_t stretches_ = 0, in_vain_ = 0;
   int failures_ = 0;  // in a row
 };

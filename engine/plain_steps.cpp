@@ -12,7 +12,7 @@ namespace riesel {
 
 namespace {
 
-/// Some grains next to each other.
+/// The arrays of consecutive grains that are to move by one step.
 struct Movers {
   FixedVector fallen;
   const FixedVector* u;
@@ -30,7 +30,8 @@ struct Movers {
   }
 };
 
-/// Moves `count` grains by one step: from the first up to `turn`, and from the last down to there.
+/// Moves `count` grains by one step: from the first up to about `turn`, then from the last down to
+/// there.
 RIESEL_VECTOR_KERNEL void fly(std::size_t count, std::size_t turn, Movers movers) {
   constexpr std::size_t block = slots_in_a_line;
   const std::size_t middle = turn / block * block;
@@ -83,9 +84,9 @@ void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   const std::size_t count = mine.end - mine.begin;
   if (count == 0) return member.profile.done(Profile::Phase::fly);  // there is no first grain
   const FixedVector fallen = wrapped_product(step, member.units.fall);
-  // Processors fetch up to some thousand bytes of what comes next in the direction of a loop:
-  // beyond the end of a share these are lines to which another thread is writing. So it goes
-  // inwards there.
+  // Processors prefetch some thousand bytes ahead in the direction of a loop. Beyond the end of a
+  // share, these lines are being written by another thread. So the loop goes from both ends
+  // inwards.
   const bool beside_others = candidates_.team().members() > 1 && member.share.size() == 1;
   const std::size_t turn = beside_others ? count / 2 : count;
   const std::size_t first = mine.begin;
@@ -94,7 +95,7 @@ void PlainSteps::move(Member& member, Slice& mine, std::int64_t step) {
   member.profile.done(Profile::Phase::fly);
 }
 
-/// `motion` (m): no grain in a pair of the slice has moved farther in this step.
+/// `motion` (m) is a bound on how far any grain in a pair of the slice has moved in this step.
 void PlainSteps::touch(Member& member, Slice& mine, std::int64_t step, double motion) {
   mine.inner.spend(motion);
   mine.inner.keep_up(mine.pairs, coarse_, candidates_.units());
@@ -112,8 +113,8 @@ void PlainSteps::receive(Member& member, Slice& mine, std::span<const Slice> giv
   member.profile.done(Profile::Phase::receive);
 }
 
-/// All slices move together, look whether the candidates hold, and complete that step, or go on
-/// askew from there; returns the step that they have come to.
+/// All slices move together and check that the candidates hold; then they complete that step
+/// together, or several steps askew. Returns the step that they have come to.
 std::int64_t PlainSteps::begin_together(Member& member, std::int64_t now, std::int64_t last) {
   const std::int64_t next = now + 1;
   for (Slice& mine : member.share) move(member, mine, next);
@@ -136,18 +137,19 @@ void PlainSteps::step_together(Member& member, std::int64_t step) {
   for (Slice& mine : member.share) receive(member, mine, candidates_.slices());
 }
 
-/// How many steps slices may go askew from `now` on, which all have completed; at most one: not
-/// before they have moved together. All members get the same answer.
+/// How many steps slices may go askew from step `now`, which all have completed. 1 or less: they
+/// must move together first. All members get the same answer.
 std::int64_t PlainSteps::steps_ahead(Member& member, std::int64_t now, std::int64_t last) {
   if (most_steps_askew_ == 1) return 1;
   candidates_.team().arrive_and_wait(member.number);  // all have received
   const std::int64_t steps =
       candidates_.steps_ahead(now + 1, std::min(most_steps_askew_, last - now));
-  candidates_.team().arrive_and_wait(member.number);  // before anybody moves
+  candidates_.team().arrive_and_wait(member.number);  // all have read the bounds: they may change
   return steps;
 }
 
-/// From step `now`, which all slices have completed, to step `last`; they have moved to `moved`.
+/// Goes askew from step `now`, which all slices have completed, to step `last`. The grains are at
+/// step `moved`: `now` or the next one.
 void PlainSteps::step_askew(Member& member, std::int64_t now, std::int64_t moved,
                             std::int64_t last) {
   const auto begin = static_cast<std::size_t>(member.share.data() - candidates_.slices().data());
@@ -167,7 +169,7 @@ void PlainSteps::step_askew(Member& member, std::int64_t now, std::int64_t moved
   candidates_.team().arrive_and_wait(member.number);
 }
 
-/// Does what this slice can do now, up to its part of step `last`; false if that is nothing.
+/// Does all that this slice can do now, up to step `last`; returns false if that is nothing.
 bool PlainSteps::go_on(Member& member, std::size_t slice, std::int64_t last) {
   std::vector<Slice>& slices = candidates_.slices();
   const auto [before, after] = PlaceInRing(slice, slices.size());
@@ -185,7 +187,7 @@ bool PlainSteps::go_on(Member& member, std::size_t slice, std::int64_t last) {
       if (progress_[after].moved < step) return any;
       // The next slice stays at this step until this one has touched.
       candidates_.catch_strays(state_, coarse_, mine, next, step);
-      mine.inner.heed(mine.inner.use());  // nobody waits for it to make a new list
+      mine.inner.heed(mine.inner.use());  // its own use decides: no other slice waits for its list
       touch(member, mine, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
       progress.touched = step;
       any = true;

@@ -1,11 +1,12 @@
 // Plain stepping: all grains in each step, the leapfrog form of velocity Verlet.
 //
-// A slice does a step in three parts. It moves: velocities take up the last kicks, positions go on.
-// It touches: contacts are looked for and give their kicks. It receives: the kicks reach its
-// grains. To touch it needs the positions of its neighbours, to receive their kicks.
+// A slice does a step in three parts, named as the functions are. It moves: positions change by the
+// velocities. It touches: beginning contacts are found, and all contacts give their kicks. It
+// receives: the kicks are added to the velocities of its grains. To touch it needs the positions of
+// its neighbours, to receive their kicks.
 //
-// Each thread has one slice, and all do each part together, where the grains fit into the caches.
-// Where they do not, each thread has many slices, which go askew (Askew).
+// Where the grains fit into the caches, each thread has one slice, and all slices do each part
+// together. Where they do not, each thread has many slices, which go askew (Askew).
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -25,19 +26,19 @@ namespace riesel {
 
 class PlainSteps {
 public:
-  /// Nobody else steps with the candidates afterwards. Keeps references.
+  /// Keeps references. Nothing else may step with these candidates.
   PlainSteps(State& state, const ContactModel& model, Candidates& candidates, const Askew& askew);
 
-  /// The candidates have started from another state.
+  /// To be called after Candidates::start_from().
   void start_over();
 
-  /// From step `now`, that of the state, to `last`, or until the run cannot go on: then perhaps
-  /// some steps beyond the trouble. To be called by all threads of a team with the same steps;
-  /// `number` is that of the thread.
+  /// Steps the state from step `now`, which must be its own, to `last`, or until the run cannot go
+  /// on: then it may be some steps beyond the trouble. To be called by all threads of the team with
+  /// the same steps; `number` is that of the thread.
   void advance(std::size_t number, std::int64_t now, std::int64_t last);
 
 private:
-  /// How far a slice is that goes askew; on a cache line of its own.
+  /// The last step of which a slice that goes askew has done each part; on a cache line of its own.
   struct alignas(cache_line) Progress {
     std::atomic<std::int64_t> moved, touched;
     std::int64_t received;
@@ -63,7 +64,7 @@ private:
   State& state_;
   const ContactModel& model_;
   Candidates& candidates_;
-  const StepUnits units_;  // of some step; each member has a copy
+  const StepUnits units_;  // each member has a copy, which follows its steps
   const std::int64_t most_steps_askew_;
   PackedPositions coarse_;  // of all grains
   std::vector<Progress> progress_;

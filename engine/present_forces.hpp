@@ -1,7 +1,7 @@
-// What the lasting contacts of a state do to their bodies at this moment.
+// The forces of the contacts of a state at its step.
 //
-// A state keeps the lives of its contacts, but no forces: they are worked out anew, by the law that
-// steps them, for whoever looks between two advances.
+// A state keeps the lives of its contacts, but no forces. Between two advances these are computed
+// anew, by the law that also steps the contacts.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -18,8 +18,8 @@ struct PresentForce {
   double fx, fy;              ///< N, on the first body
 };
 
-/// In the order of the contacts of `state`. Where a contact begins or ends within half a step from
-/// now, its force is the mean over the step, as in stepping.
+/// The forces of state.contacts, in their order. As in stepping, that of a contact which begins or
+/// ends within half a step of now is a mean over the step.
 std::vector<PresentForce> present_forces(const State& state, const ContactModel& model);
 
 }  // namespace riesel

@@ -1,8 +1,8 @@
-// Where the time of stepping goes, for whoever asks.
+// Measures where the time of stepping goes.
 //
-// A look at the clock costs as much as a few contacts, so only one step in many is looked at in
-// detail, and what it took stands for the others. Sorting and listing happen rarely and are timed
-// each time. What is measured has no way back into the simulation.
+// Reading the clock costs as much as a few contacts, so only one step in steps_per_sample is timed
+// in detail and stands for the others. Sorting and listing happen rarely and are timed each time.
+// The simulation does not depend on what is measured.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ public:
     appointments,  ///< flights only: courses, and when to look again
   };
   static constexpr std::size_t phases = 6;
-  /// No divisor of the round numbers of steps after which other things happen.
+  /// A prime, so that the samples do not coincide with things that happen after round numbers of
+  /// steps.
   static constexpr std::int64_t steps_per_sample = 61;
 
   explicit Profile(bool on = false) : on_(on) {}
@@ -31,7 +32,8 @@ public:
   bool on() const { return on_; }
 
   void begin_step(std::int64_t step) { begin_steps(step, 1); }
-  /// So many steps that are done as one: the more there are, the more often they are looked at.
+  /// For `count` steps that are done as one, from step `first` on: timed if one of them is a
+  /// sample.
   void begin_steps(std::int64_t first, std::int64_t count) {
     const std::int64_t last = first + count - 1;
     sampled_ = on_ && last - last % steps_per_sample >= first;
@@ -39,7 +41,7 @@ public:
     weight_ = static_cast<double>(steps_per_sample) / static_cast<double>(count);
     last_ = Clock::now();
   }
-  /// What was done since the last call belongs to this phase.
+  /// Attributes the time since the last call of a member function to this phase.
   void done(Phase phase) {
     if (sampled_) add(phase, weight_);
   }
@@ -68,7 +70,7 @@ private:
   }
 
   bool on_, sampled_ = false;
-  double weight_ = 1.0;  // of what is done now
+  double weight_ = 1.0;  // how many steps, or groups of steps, the timed one stands for
   Clock::time_point last_;
   std::array<double, phases> seconds_{};
 };

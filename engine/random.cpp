@@ -9,7 +9,8 @@ namespace riesel {
 
 namespace {
 
-/// 52 random bits to the middle of one of 2^52 equal parts of (0, 1), which a double holds exactly.
+/// The middle of one of 2^52 equal parts of (0, 1), which a double holds exactly; 52 of the 64
+/// random bits tell which.
 double open_unit(std::uint32_t high, std::uint32_t low) {
   const std::uint64_t bits = ((static_cast<std::uint64_t>(high) << 32) | low) >> 12;
   return (static_cast<double>(bits) + 0.5) * 0x1p-52;

@@ -1,11 +1,11 @@
-// What a function asks of its arguments.
+// Checks of function arguments.
 #pragma once
 
 #include <stdexcept>
 
 namespace riesel {
 
-/// Throws std::invalid_argument(otherwise) unless the condition holds.
+/// Throws std::invalid_argument(otherwise) unless `condition` is true.
 inline void require(bool condition, const char* otherwise) {
   if (!condition) throw std::invalid_argument(otherwise);
 }

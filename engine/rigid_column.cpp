@@ -11,7 +11,8 @@ namespace riesel {
 
 namespace {
 
-/// Place 0 is the plate, which never moves; bead i stands at place i.
+/// The column in units of the initial gap and velocity. v_[0] is that of the plate, always 0; v_[i]
+/// that of bead i = 1 ... n, upwards. gap_[i] is below bead i + 1.
 class Beads {
 public:
   explicit Beads(int n)
@@ -69,8 +70,8 @@ private:
 
 RigidColumn rigid_column(int beads, double restitution_of_beads, double restitution_at_plate) {
   require(beads > 0, "a column needs beads");
-  // A column that does not collapse has some N^2 collisions, ten times as many next to the
-  // threshold.
+  // A column that does not collapse has about N^2 collisions, or ten times as many close to the
+  // threshold of collapse.
   const std::int64_t most_collisions = 100 * static_cast<std::int64_t>(beads) * beads;
   Beads column(beads);
   std::int64_t collisions = 0;

@@ -1,9 +1,8 @@
-// A column of rigid beads that falls on a plate: collisions one after the other, each of which
-// takes no time.
+// A column of rigid beads that falls on a plate: instantaneous collisions, one after the other.
 //
-// The limit of hard grains for a column of soft ones (engine/bead_column.hpp). It is worked out
-// from collision to collision, and shares nothing with the stepping. Equal gaps and velocities at
-// the start leave nothing but the number of beads and the restitutions that it could depend on.
+// The limit of hard grains for a column of soft ones (engine/bead_column.hpp). It is computed from
+// collision to collision, and shares no code with the stepping. As gaps and velocities are equal at
+// the start, the result depends on the number of beads and the restitutions only.
 //
 // Source: Bernu and Mazighi, J. Phys. A 23, 5745 (1990); McNamara and Young, Phys. Fluids A 4, 496
 // (1992). Below a restitution of about tan^2(pi/4 (1 - 1/N)) the beads collide infinitely often

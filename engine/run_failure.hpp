@@ -1,3 +1,4 @@
+// The exception by which a run ends itself.
 #pragma once
 
 #include <stdexcept>

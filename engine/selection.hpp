@@ -1,5 +1,5 @@
-// A list that grows without branches to guess: whatever may belong to it is written behind its end,
-// and the end moves on only if it does.
+// A list that grows without branches, which could be mispredicted: each item that may belong to it
+// is written behind its end, and the end moves on only if it does belong.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ public:
     *room_for(1) = item;
     take(1);
   }
-  /// Where so many may be written; of these the first become items by take().
+  /// Returns where `more` items may be written. take() then makes the first of them items.
   std::uint32_t* room_for(std::size_t more) {
     if (items_.size() < size_ + more) items_.resize(2 * (size_ + more));
     return items_.data() + size_;
   }
   void take(std::size_t more) { size_ += more; }
-  /// Without those that are not wanted.
+  /// Removes the items for which wanted(item) is false. wanted() must not change the selection.
   template <class Wanted>
   void keep_if(Wanted wanted) {
     std::size_t kept = 0;
@@ -37,7 +37,7 @@ public:
   }
 
 private:
-  std::vector<std::uint32_t> items_;  // and room
+  std::vector<std::uint32_t> items_;  // and room behind them
   std::size_t size_ = 0;
 };
 

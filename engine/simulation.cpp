@@ -17,7 +17,8 @@ namespace riesel {
 
 namespace {
 
-/// `state` if a simulation can start from it, its balances opened.
+/// Returns `state` if a simulation can start from it, at step 0 with its origin set. Throws
+/// std::invalid_argument otherwise.
 State ready(State state) {
   if (const std::string flaw = flaw_of(state); !flaw.empty()) throw std::invalid_argument(flaw);
   if (state.step == 0) state.origin = origin_of(state);
@@ -37,23 +38,23 @@ int team_size(int wanted) {
   return fix_members(wanted);
 }
 
-/// What to try first. In units of what plain stepping takes for a grain without contacts, flights
-/// take some 2.5 more for a contact, and next to nothing for a grain; more where there are so many
-/// grains that slices go askew: docs/performance-log.md.
+/// Whether to try flights first. In units of the time that plain stepping takes for a grain without
+/// contacts, flights take some 2.5 more than plain stepping for a contact, or 6 where there are so
+/// many grains that slices go askew, and next to nothing for a grain: docs/performance-log.md.
 bool flights_look_faster(const State& state, int threads, const Askew& askew) {
   const auto contacts = static_cast<double>(state.contacts.size());
   const double price = askew.slices_per_thread(state, threads, true) > 1 ? 6.0 : 2.5;
   return price * contacts < static_cast<double>(state.grains.size());
 }
 
-/// Whether several threads may each have a part of their own. If slices go askew they have theirs
-/// already.
+/// Whether several threads may each have a part of their own. Not if slices go askew, as these give
+/// each thread a region of its own already.
 bool may_part(Sharing sharing, const State& state, int threads, const Askew& askew) {
   if (sharing != Sharing::automatic) return sharing == Sharing::apart;
   return !askew.pays(state) && Parts::pay(state, threads);
 }
 
-/// How threads may share the steps, what to begin with first; by plain stepping.
+/// The ways by plain stepping in which threads may share the steps, the one to begin with first.
 std::vector<Way> ways_to_share(Stepping stepping, Sharing sharing, const State& state, int threads,
                                const Askew& askew) {
   const Way alone{.by_flights = false, .threads = 1};
@@ -64,7 +65,7 @@ std::vector<Way> ways_to_share(Stepping stepping, Sharing sharing, const State& 
   if (sharing != Sharing::apart) all.push_back(together);
   if (may_part(sharing, state, threads, askew)) all.push_back(apart);
   if (stepping == Stepping::automatic) all.push_back(alone);
-  // So few that threads that wait for each other in each step are no help, or worse.
+  // With fewer grains, threads that wait for each other in each step gain nothing, or lose.
   constexpr std::size_t few_per_thread = 2000;
   if (state.grains.size() < few_per_thread * static_cast<std::size_t>(threads))
     std::reverse(all.begin(), all.end());
@@ -91,7 +92,7 @@ std::vector<Way> ways(Stepping stepping, Sharing sharing, const State& state, in
 }  // namespace
 
 int useful_threads(std::size_t grains) {
-  constexpr std::size_t grains_per_thread = 600;  // fewer do not pay for the margins of their parts
+  constexpr std::size_t grains_per_thread = 600;  // with fewer the margins of parts cost too much
   const auto most = static_cast<std::size_t>(omp_get_max_threads());
   return static_cast<int>(std::clamp<std::size_t>(grains / grains_per_thread, 1, most));
 }
@@ -124,16 +125,16 @@ void Simulation::start_profile() {
 void Simulation::advance(std::int64_t steps) {
   const std::int64_t last = state_.step + steps;
   do {
-    // In pieces of equal length: a short one at the end would tell little about its way.
+    // In pieces of equal length: a short one at the end would be a poor measurement of its way.
     const std::int64_t left = last - state_.step;
     const std::int64_t pieces = std::max<std::int64_t>(1, left / piece());
     advance_piece(state_.step + left / pieces);
   } while (state_.step < last);
 }
 
-/// Steps between two thoughts about the stepping: many enough to be timed, for flights, as landing
-/// costs them as much as ten steps, and for parts, which would do a longer stretch. While all is
-/// still to be looked at, none may take long.
+/// Steps between two decisions on the way of stepping: enough to be timed, enough for flights, for
+/// which landing costs as much as ten steps, and for parts, which do long stretches. Fewer during
+/// the first looks, as any way may still be a slow one.
 std::int64_t Simulation::piece() const {
   constexpr double particle_steps = 2e7, duration = 0.03;  // s
   if (!choice_.open()) return INT64_MAX / 2;
@@ -151,12 +152,12 @@ void Simulation::advance_piece(std::int64_t last) {
       parts_ ? parts_->in_trouble() : stepper_ && stepper_->candidates().in_trouble();
   if (!in_trouble && prepared_ != wanted()) {
     prepare();
-    step_up_to(std::min(last, state_.step + 1));  // in which flights make all their appointments
+    step_up_to(std::min(last, state_.step + 1));  // not timed: flights make all appointments in it
   }
   const std::int64_t first = state_.step;
   const auto start = now();
   step_up_to(last);
-  // Flights that stopped early went on with slices that should have been others.
+  // Flights that stopped early did so because their slices were not the best: no fair measurement.
   if (state_.step == last && state_.step > first)
     choice_.note(state_.step - first, seconds(now() - start), seconds(start - begin));
   if (parts_)
@@ -175,11 +176,12 @@ Simulation::Preparation Simulation::wanted() const {
   return {{by_flights, threads, askew ? many : 1}, apart};
 }
 
-/// Whoever is to step the grains starts from the state alone, as after a checkpoint.
+/// Builds the Stepper or the Parts for the way that is wanted, from the state alone, as after a
+/// checkpoint.
 void Simulation::prepare() {
   const Preparation next = wanted();
-  prepared_.reset();  // until all of it is there: the system may grant no more threads
-  stepper_.reset();   // before the next candidates are listed: memory
+  prepared_.reset();  // until the rest has succeeded, which may throw
+  stepper_.reset();   // frees the memory before the next candidates are listed
   parts_.reset();
   if (next.apart)
     parts_ = std::make_unique<Parts>(state_, model_, next.manner.by_flights, next.manner.threads,

@@ -1,4 +1,5 @@
-// Steps a State: the integrator loop and what it needs between two steps.
+// Steps a State: chooses how steps are done, does them, and does what is needed between two
+// advances.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -16,7 +17,8 @@
 
 namespace riesel {
 
-/// Threads that pay for this many grains on this machine, when the user leaves the choice to us.
+/// The number of threads that pays for this many grains on this machine, for users who leave the
+/// choice to the program.
 int useful_threads(std::size_t grains);
 
 /// How grains in free flight are moved. The results are the same, bit by bit.
@@ -35,10 +37,11 @@ enum class Sharing {
 
 class Simulation {
 public:
-  /// `state` may come from a scenario or from a checkpoint. Of these threads it takes as many as
-  /// the system grants, see threads(). Throws std::invalid_argument if the invariants of the state
-  /// do not hold, one of its contacts cannot be one, the box is too small for the nearest image to
-  /// be unique, wall grains stand too close together, there is no thread, or `askew` is unsound.
+  /// `state` may come from a scenario or from a checkpoint. Of `threads` it uses as many as the
+  /// system grants: see threads(). Throws std::invalid_argument if the invariants of the state do
+  /// not hold, a contact of it is between bodies that are far apart, the box is too small for the
+  /// nearest image to be unique, wall grains are too close together, `threads` is not positive, or
+  /// `askew` is unsound.
   Simulation(State state, const ContactModel& model, int threads,
              Stepping stepping = Stepping::automatic, const Askew& askew = {},
              Sharing sharing = Sharing::automatic);
@@ -46,11 +49,11 @@ public:
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
 
-  /// Does `steps` steps. The result does not depend on the number of threads, nor on how the steps
-  /// are shared between calls. None for steps <= 0. Throws RunFailure when a force is not finite or
-  /// a grain is lost; in which step a lost one is found, and whether one that is thrown far within
-  /// a few steps is, depends on the stepping (automatic: on the clock), the threads and the calls;
-  /// also if the system grants fewer threads than at first.
+  /// Does `steps` steps; none if `steps` <= 0. The result does not depend on the number of threads,
+  /// nor on how the steps are divided between calls. Throws RunFailure if a force is not finite or
+  /// a grain is lost, or if the system grants fewer threads than at first. In which step a lost
+  /// grain is found, and whether one that is thrown far within a few steps is, depends on the
+  /// stepping (automatic: on the clock), the threads and the calls.
   void advance(std::int64_t steps);
 
   const State& state() const { return state_; }
@@ -59,7 +62,7 @@ public:
   /// The fastest way found so far.
   Way preferred_way() const { return choice_.preferred(); }
 
-  /// From now on the time that stepping takes is measured, by phase: that of the first thread.
+  /// From now on measures the time that the first thread takes for stepping, by phase.
   void start_profile();
   const Profile& profile() const { return profile_; }
 
@@ -80,7 +83,7 @@ private:
   ContactModel model_;
   const int threads_;
   const Askew askew_;
-  /// Slices of each thread if they go askew: of one thread alone, and of all together.
+  /// Slices per thread where they go askew: if one thread steps alone, and if all do together.
   struct Slices {
     std::size_t alone, together;
   };
@@ -88,7 +91,7 @@ private:
   const Slices slices_, slices_of_flights_;
   SteppingChoice choice_;
   Profile profile_;
-  std::optional<Preparation> prepared_;  // of one of the two
+  std::optional<Preparation> prepared_;  // how the one of stepper_ and parts_ that exists steps
   std::optional<Stepper> stepper_;
   Parts::Habits habits_, habits_of_flights_;
   std::unique_ptr<Parts> parts_;

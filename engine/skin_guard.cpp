@@ -9,15 +9,15 @@ namespace riesel {
 
 namespace {
 
-/// Steps for which something at (x, y) stays within `room` of the origin for sure if it goes on by
-/// (ux, uy) in each: before the first s with |(x, y) + s (ux, uy)| = room.
+/// For how many steps a point at (x, y) that moves by (ux, uy) in each stays within `room` of the
+/// origin for sure: fewer than the first s with |(x, y) + s (ux, uy)| = room.
 std::int64_t steps_within(double room, double x, double y, double ux, double uy) {
   const double left = room * room - x * x - y * y;
   if (left <= 0.0) return 0;
   const double speed2 = ux * ux + uy * uy;
   const double outward = x * ux + y * uy;
   const double root = std::sqrt(outward * outward + speed2 * left);
-  // Either is the root; this way round nothing cancels.
+  // Two forms of the same root; the one chosen does not cancel.
   const double steps = outward < 0.0 ? (root - outward) / speed2 : left / (outward + root);
   return Forecast::whole_steps(steps) - 1;
 }
@@ -43,7 +43,7 @@ void SkinGuard::start_over(SlotRange slots, double room) {
   hold_until_ = std::min(candidates_.hold_until(), courses_.sorted_at() + steps - 1);
 }
 
-/// From where it was listed, coarsely, relative to the common motion.
+/// Displacement from the coarse position where it was listed, relative to the common motion.
 SkinGuard::Metres SkinGuard::displacement(std::uint32_t slot, const Motion& course,
                                           std::int64_t now) const {
   const CoarsePositions& then = candidates_.when_sorted();

@@ -1,6 +1,6 @@
 // How long the candidates of flights hold.
 //
-// They do until a grain has gone half the skin from where it was listed, relative to the common
+// They hold until a grain has gone half the skin from where it was listed, relative to the common
 // motion (Candidates). As courses are straight, the step in which that may happen is known when a
 // course is set.
 #pragma once
@@ -15,8 +15,8 @@
 
 namespace riesel {
 
-/// m, how far a course may lead from where the grain was listed, coarsely, before the candidates
-/// fail, if a grain may be off its course by `tolerance`.
+/// m, how far a course may lead from the coarse position where the grain was listed while the
+/// candidates hold, if grains may be off their courses by `tolerance` (m).
 double room_in_skin(const Box& box, double skin, double tolerance);
 
 class SkinGuard {
@@ -24,17 +24,18 @@ public:
   /// Keeps references.
   SkinGuard(const State& state, const Candidates& candidates, const Courses& courses);
 
-  /// These grains have just been listed; `room` as room_in_skin().
+  /// To be called when these grains have just been listed; `room` (m) is that of room_in_skin().
   void start_over(SlotRange slots, double room);
-  /// A grain goes on like this from step `now` on. Returns the step until which the candidates hold
-  /// for it.
+  /// Notes that the grain has this course from step `now` on. Returns the step until which the
+  /// candidates hold for it.
   std::int64_t note_course(std::uint32_t slot, const Motion& course, std::int64_t now);
 
-  /// The step until which the candidates hold for sure, as far as these grains are concerned, if
-  /// they keep to the courses noted so far.
+  /// The step until which the candidates hold for sure as far as these grains are concerned, if all
+  /// stay within the tolerance of the courses noted so far.
   std::int64_t hold_until() const { return hold_until_; }
 
-  /// m, how far such a grain has gone by `now` since it was listed.
+  /// m, how far the grain in `slot`, which moves like this at step `now`, has gone since it was
+  /// listed.
   double gone(std::uint32_t slot, const Motion& course, std::int64_t now) const {
     const auto [x, y] = displacement(slot, course, now);
     return std::hypot(x, y);

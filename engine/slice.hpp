@@ -21,7 +21,8 @@
 
 namespace riesel {
 
-/// m, how far a grain may have gone past the walls: across the tube, and in any direction.
+/// m, bounds on how far a grain may have moved relative to the walls: across the tube, and in any
+/// direction.
 struct WayPastWalls {
   double across = 0.0, any = 0.0;
 };
@@ -31,8 +32,8 @@ struct NearWall {
   std::uint32_t slot;
   std::int32_t wall;
   std::uint64_t partners = 0;  ///< the wall grains that it touches: WallLattice::bit_of
-  /// It touches no other until the way of its slice has come so far, across or at all; for plain
-  /// stepping.
+  /// For plain stepping: it touches no other wall grain before the way_past_walls of its slice has
+  /// reached one of these.
   WayPastWalls clear_until = {};
 
   bool is_clear(const WayPastWalls& way) const {
@@ -50,8 +51,9 @@ struct Kick {
   BodyKick by;
 };
 
-/// Contacts that are to outlive a sorting. Each thread looks for its own among those of all, by
-/// slots: close together, as what one core gets from another takes long.
+/// Contacts that are to outlive a sorting. Each thread looks through those of all slices for its
+/// own, by slots; these are stored apart from the contacts, as lines from other cores are
+/// expensive.
 struct LastingContacts {
   std::vector<ContactSlots> slots;  ///< before it
   std::vector<Contact> contacts;
@@ -67,42 +69,43 @@ struct LastingContacts {
 struct LostGrain {
   std::int64_t step;
   std::int32_t id;
-  bool thrown;  ///< beyond those who look for it; else out of the representable space
+  bool thrown;  ///< past the slices where it is searched for; else out of the space of Box
 
   auto operator<=>(const LostGrain&) const = default;
 };
 
-/// Starts on a cache line, and so does what other threads read of it in each step: a thread that
-/// writes to its own slice does not take the lines of the others away.
+/// A slice. The members that other threads read in each step start on a cache line of their own, so
+/// that a thread that writes to the others does not take these lines away.
 struct alignas(cache_line) Slice {
   std::size_t begin = 0, end = 0;  ///< slots
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere
   InnerPairs inner;                ///< those of the pairs that plain stepping tests
-  std::vector<SlotPair> close;     ///< while the thread lists pairs, in its first slice
+  std::vector<SlotPair> close;     ///< scratch of a thread that lists pairs; in its first slice
   std::vector<NearWall> near_walls;
-  WayPastWalls way_past_walls;  ///< no own grain went farther since they were listed
+  WayPastWalls way_past_walls;  ///< bound for all own grains since near_walls was listed
 
   Selection hits;  ///< indices of inner pairs that may overlap in this step
   LiveContacts pair_contacts{Partner::grain};
   LiveContacts wall_contacts{Partner::wall};
   std::vector<std::uint32_t> kicked;  ///< own grains, by any contact in this step; some repeatedly
-  LastingContacts lasting;            ///< of the slice, while the grains are sorted
-  std::size_t kept = 0;               ///< how many of all those the slice has after it
+  LastingContacts lasting;            ///< the contacts of the slice, while the grains are sorted
+  std::size_t kept = 0;               ///< how many of those of all slices it has after the sorting
   Profile profile;                    ///< of what its thread does with it
   Tally tally;                        ///< of contacts that began or ended in the last advance
-  std::span<const std::uint8_t> counted;  ///< whether those of a grain are, by id; none: all are
+  /// By id: whether contacts named by this grain go into the tally. Empty: all do.
+  std::span<const std::uint8_t> counted;
 
   alignas(cache_line) std::vector<Kick> given_away;  ///< of this step, on grains of other slices
   std::uint32_t given_first = 0, given_last = 0;     ///< the lowest and the highest slot of them
   double fastest2 = 0.0;  ///< (m per step)^2, bound on the own grains' speeds relative to the drift
   double farthest = 0.0;  ///< m, largest own displacement relative to the drift since the sorting
   double gone = 0.0;      ///< m, bound on it: what it was at the last look, and the motion since
-  double wandered = 0.0;  ///< m, bound on how far own ones went while former candidates held
+  double wandered = 0.0;  ///< m, sum of such bounds over all former listings since the start
   bool failed() const { return trouble || lost; }
   std::optional<Trouble> trouble;  ///< the first
   std::optional<LostGrain> lost;   ///< the first
 
-  /// Before it starts from another state.
+  /// To be called before the slice starts from another state.
   void start_over() {
     pair_contacts.clear();
     wall_contacts.clear();
@@ -117,7 +120,7 @@ struct alignas(cache_line) Slice {
   bool counts(const ContactName& name) const {
     return counted.empty() || counted[static_cast<std::size_t>(name.grain)] != 0;
   }
-  /// Whether the grain is listed as near the wall; a look at all.
+  /// Whether the grain is listed as near the wall. Linear search.
   bool has_near(std::uint32_t slot, std::int32_t wall) const {
     return std::any_of(near_walls.begin(), near_walls.end(), [&](const NearWall& near) {
       return near.slot == slot && near.wall == wall;

@@ -21,7 +21,8 @@ void add(Hash& hash, const Grains& g, std::size_t slot) {
   hash.add(g.spin_kick[slot]);
 }
 
-/// What only some models have is in the hash only where it is.
+/// Values that only some models have are hashed only where they are not 0, so that adding such a
+/// model leaves the hashes of the others as they were.
 void add_torques_and_spring(Hash& hash, const Contact& c) {
   if (c.spring != 0.0) hash.add(c.spring);
   if (c.torque == 0.0 && c.rolling_torque == 0.0) return;

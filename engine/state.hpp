@@ -30,10 +30,10 @@
 
 namespace riesel {
 
-/// The free grains, a structure of arrays. The slot of a grain changes when the store is sorted,
-/// its id does not. Invariants: all arrays have the same size; ids are a permutation of 0 ...
-/// size-1, or some of these in a part of a system (Part); radius and mass are positive. Grains that
-/// do not rotate have no arrays of spin.
+/// The free grains, a structure of arrays. The slot (index) of a grain changes when the grains are
+/// sorted, its id does not. Invariants: all arrays have the same size, except that the arrays of
+/// spin are empty where grains do not rotate; ids are a permutation of 0 ... size-1, or, in a part
+/// of a system (Part), a subset of the ids of the whole; radius and mass are positive.
 struct Grains {
   AlignedVector<FixedVector> position;  ///< quanta of the box's axes
   AlignedVector<FixedVector> u;         ///< U: displacement per step in the falling frame, quanta
@@ -51,21 +51,22 @@ struct Grains {
   void resize(std::size_t n);
 };
 
-/// Calls visit(member) for each array of these grains that stepping changes.
+/// Calls visit(pointer to member) for each array of `g` whose values stepping changes.
 template <class Visit>
 void for_each_moving_array(const Grains& g, Visit visit) {
   for (auto member : {&Grains::position, &Grains::u, &Grains::kick}) visit(member);
   if (!g.rotate()) return;
   for (auto member : {&Grains::spin, &Grains::spin_kick}) visit(member);
 }
-/// Likewise for the arrays that stay as they are.
+/// Likewise for the arrays whose values stepping leaves alone (but for their order).
 template <class Visit>
 void for_each_lasting_array(Visit visit) {
   for (auto member : {&Grains::radius, &Grains::mass}) visit(member);
   visit(&Grains::id);
 }
 
-/// Calls visit(array) for each array of the grains (const or not) that they have.
+/// Calls visit(array) for each array of the grains, const or not; those of spin only if they
+/// rotate.
 template <class AnyGrains, class Visit>
 void for_each_array_of(AnyGrains& g, Visit visit) {
   const auto visit_member = [&](auto member) { visit(g.*member); };
@@ -73,10 +74,10 @@ void for_each_array_of(AnyGrains& g, Visit visit) {
   for_each_lasting_array(visit_member);
 }
 
-/// The system at step 0, for the balances of energy and momentum.
+/// What the system had at step 0: the balances of energy and momentum are measured from there.
 struct Origin {
-  double energy = 0.0;  ///< J, kinetic, of rotation, and elastic where contacts last from before
-  double momentum_y = 0.0;  ///< kg m/s, with which the grains set out: that of the kicks included
+  double energy = 0.0;      ///< J, kinetic, of rotation, and elastic of contacts of an earlier run
+  double momentum_y = 0.0;  ///< kg m/s along y, with the whole of the kicks of step 0
   double moment_x = 0.0;    ///< kg m, sum of mass times x
 };
 
@@ -92,7 +93,7 @@ struct State {
   double time_step = 0.0;  ///< s
   std::int64_t step = 0;   ///< steps done
   Grains grains;
-  std::vector<Contact> contacts;       ///< those that last, ordered by (wall, grain, partner)
+  std::vector<Contact> contacts;       ///< the present ones, ordered by (wall, grain, partner)
   std::vector<WallVisit> open_visits;  ///< visits that may go on, ordered by (wall, grain, begin)
   Tally tally;                         ///< what the ended contacts did since step 0
   Origin origin;                       ///< set by the Simulation that does the first step
@@ -103,11 +104,11 @@ struct State {
   }
 };
 
-/// What free fall adds to a displacement per step in each step, in quanta: gravity times dt^2, the
-/// G of the formulae above.
+/// Quanta per step^2, what free fall adds to the displacement per step in each step: gravity times
+/// dt^2, the G of the formulae above.
 FixedVector fall_per_step(const State& state);
 
-/// One grain in SI units, to put grains in and to look at them.
+/// One grain in SI units, for adding grains to a state and for reading them.
 struct Grain {
   double x, y;    ///< m
   double vx, vy;  ///< m/s
@@ -117,10 +118,12 @@ struct Grain {
       0.0;  ///< rad/s, positive from x towards y; without meaning where grains do not rotate
 };
 
-/// Adds a grain that touches nothing; its id is the number of grains before it. At step 0 only.
+/// Adds a grain without contacts or kick; its id is the number of grains before it. At step 0 only.
+/// The box, the gravity, the time step and the inertia of the state must have been set.
 void add_grain(State& state, const Grain& grain);
 
-/// The grains of a state in SI units, for whoever looks at many.
+/// The grains of a state in SI units; cheaper than grain_at() for many grains. Keeps a reference to
+/// the grains: the state must outlive it, and must not be stepped meanwhile.
 class GrainView {
 public:
   explicit GrainView(const State& state);
@@ -141,7 +144,7 @@ public:
   }
 
 private:
-  /// Quanta per step, at the full step.
+  /// Quanta per step, at the full step: U + G n + (K + G) / 2, see the top of this file.
   static double velocity(Fixed u, Fixed fallen, Fixed kick, Fixed fall) {
     return static_cast<double>(wrapped_sum(u, fallen))
            + 0.5 * static_cast<double>(wrapped_sum(kick, fall));
@@ -149,31 +152,32 @@ private:
 
   const Grains* grains_;
   Box box_;
-  FixedVector fall_, fallen_;  // per step, and so far
+  FixedVector fall_, fallen_;  // quanta per step: G, and G times the steps done
   double to_vx_, to_vy_;       // m/s per quantum per step
   double to_spin_;             // rad/s per quantum per step
 };
 
-/// The slots of the grains by their ids; 0 for ids that no grain has.
+/// slots[id] is the slot of the grain with this id; 0 for ids, below the largest, that no grain
+/// has.
 std::vector<std::size_t> slots_by_id(const Grains& grains);
 
-/// One grain of GrainView.
+/// The grain in `slot`, as GrainView gives it.
 Grain grain_at(const State& state, std::size_t slot);
 
-/// m; the same bits for any order of the slots.
+/// m; the same bits for any order of the slots. NaN without grains.
 double mean_diameter(const Grains& grains);
-/// kg; likewise.
+/// kg; the same bits for any order of the slots.
 double total_mass(const Grains& grains);
 /// kg
 double mean_mass(const Grains& grains);
 
-/// The moment, for messages: "at t = 0.0125 s (step 1234)".
+/// A point of time, for messages: "at t = 0.0125 s (step 1234)".
 std::string when(std::int64_t step, double time_step);
 inline std::string when(const State& state) { return when(state.step, state.time_step); }
 
-/// 64-bit FNV-1a hash of all that the future depends on, and of what was counted and summed so far,
-/// the same for any order of the slots. Left out are how walls share their impulse, and which
-/// contact was the deepest.
+/// 64-bit FNV-1a hash of all that the future depends on and of the tally so far, the same for any
+/// order of the slots. Of the tally it leaves out the impulse of each single wall and which contact
+/// was the deepest.
 std::uint64_t state_hash(const State& state);
 
 }  // namespace riesel

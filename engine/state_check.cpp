@@ -12,7 +12,7 @@ namespace riesel {
 
 namespace {
 
-/// All of it as one text.
+/// All arguments as one text.
 template <class... Parts>
 std::string joined(const Parts&... parts) {
   std::ostringstream text;
@@ -20,7 +20,7 @@ std::string joined(const Parts&... parts) {
   return text.str();
 }
 
-/// Of steps and of contacts: more than any run can come to, and far from where counters overflow.
+/// Limit for numbers of steps and of contacts: more than any run can reach, but far from overflow.
 constexpr std::int64_t most_of_anything = std::int64_t{1} << 61;
 
 bool is_index(std::int64_t index, std::size_t size) {
@@ -83,7 +83,8 @@ std::string flaw_of_grains(const Grains& grains) {
   return {};
 }
 
-/// All members but the name: a new one must be added in both places.
+/// Tests all members but the name. The compiler demands that a new one is added to the binding; it
+/// must be added to the array as well.
 bool is_finite(const Contact& contact) {
   const auto& [name, begin, end, entry_rate, entry_slip, overlap, max_overlap, slip_path,
                elastic_energy, normal_loss, friction_loss, impulse_x, impulse_y,
@@ -114,7 +115,8 @@ std::string flaw_of_contacts(const State& state) {
   return {};
 }
 
-/// The span of a grain that stands still at a wall, without gravity, has no end.
+/// Whether the numbers of a visit are usable. The end of its span may be infinite: that of a grain
+/// at rest at a wall, without gravity, is.
 bool has_numbers(const WallVisit& visit) {
   return std::isfinite(visit.span.begin) && !std::isnan(visit.span.end)
          && std::isfinite(visit.entry_rate) && std::isfinite(visit.entry_slip);

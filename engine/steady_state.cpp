@@ -15,15 +15,15 @@ bool is_runaway(const TrendEstimate& trend, double mean, double trend_duration,
   return trend.slope > 0.0 && (gains || falls);
 }
 
-/// Whether the flow falls at the end, after it had been held for most of the run: the trend of the
-/// whole does not tell, as a bend is no line.
+/// Whether the flow begins to fall at the end, after it had been held for most of the run. A trend
+/// over the whole run does not show that, as the series has a bend.
 bool breaks_away(std::span<const double> velocities, std::optional<double> free_fall_gain) {
   if (!free_fall_gain) return false;
   const TrendEstimate end = estimate_trend(velocities.last(velocities.size() / 5));
   return is_significant(end) && end.slope >= breakaway_fraction * *free_fall_gain;
 }
 
-// The trend comes first: a fall looks like one long correlation, and would pass for too short.
+// The trend is tested first: a fall looks like one long correlation, and would be called too short.
 SteadyVerdict verdict_on(const MeanEstimate& mean, const TrendEstimate& trend,
                          double trend_duration, bool has_arrived,
                          std::optional<double> free_fall_gain) {
@@ -40,10 +40,10 @@ SteadyVerdict verdict_on(const MeanEstimate& mean, const TrendEstimate& trend,
 
 }  // namespace
 
-// MSER weighs the bias of what it keeps against the noise, so that at its cut the bias is as large
-// as the error bar. To cut as much again takes the bias of an exponential approach to its square.
-// Where there is no room for that the run has not arrived. A trend needs length more than purity,
-// and is looked for in half of the run at least.
+// MSER balances the bias of what it keeps against the noise, so that at its cut the bias is about
+// as large as the error bar. Cutting twice as much squares the remaining factor of an exponential
+// approach. If there is no room for that, the run has not arrived at a steady state. A trend needs
+// length more than freedom from bias, and is estimated from at least half of the run.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain) {
   const std::size_t cut = transient_length(velocities);

@@ -1,7 +1,7 @@
 // Whether a run has reached a steady state, and the mean it has there.
 //
 // On the fast branch of the tube the grains fall for seconds before wall and gravity balance. A
-// mean over such a run is a number without meaning, so no mean leaves here without a verdict on it.
+// mean over such a run is meaningless, so that means are returned only together with a verdict.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace riesel {
 
 enum class SteadyVerdict {
   steady,        ///< no trend, and long enough to tell: mean and error can be trusted
-  accelerating,  ///< runaway: a significant growth that is large by the measures below
+  accelerating,  ///< runaway: a significant growth that is large, see runaway_fraction
   drifting,      ///< a significant trend of either sign that is no runaway
   too_short      ///< no trend to be seen, but too few independent samples or too long a transient
 };
 
-/// What the series of velocities says. Velocities in the unit of the samples, times in sample
-/// intervals. The mean and what belongs to it are of the samples after the transient; the trend is
-/// of those too, but of no less than the second half of the series.
+/// Velocities in the unit of the samples, times in sample intervals. The mean and the numbers that
+/// belong to it are of the samples after the transient; the trend is of these or of the second half
+/// of the series, whichever is longer.
 struct SteadyState {
   SteadyVerdict verdict;
   std::size_t transient_end;    ///< index of the first sample after the transient: there is one
@@ -36,18 +36,18 @@ struct SteadyState {
 /// part of the mean, or if it is this part of free fall.
 inline constexpr double runaway_fraction = 0.1;
 
-/// So is a significant growth in the last fifth of the series that is this part of free fall,
-/// whatever there was before.
+/// A significant growth in the last fifth of the series that is this part of free fall is a
+/// runaway, too, whatever there was before.
 inline constexpr double breakaway_fraction = 0.5;
 
-/// Judges a series of velocities (positive downstream), or of what else may be steady, sampled at
-/// even intervals. `free_fall_gain` is what a grain in free fall gains per sample interval, g times
-/// the interval, in the unit of the samples; nothing where gravity does not pull along the flow, or
-/// for what is no velocity. The transient is twice what MSER-5 cuts; a run of which MSER-5 cuts
-/// more than two fifths has not arrived: it cannot be steady, and a single cut is its transient.
-/// The rest is judged by the estimates of time_series.hpp. About one in a hundred stationary series
-/// is called accelerating or drifting (measured: docs/statistics-methods.md). std::invalid_argument
-/// for a sample that is not finite.
+/// Judges a series of velocities (positive downstream), or of another quantity that may be steady,
+/// sampled at even intervals. `free_fall_gain` is what a grain in free fall gains per sample
+/// interval, g times the interval, in the unit of the samples; none where gravity does not pull
+/// along the flow, or where the quantity is no velocity. The transient is twice what MSER-5 cuts; a
+/// run of which MSER-5 cuts more than two fifths has not arrived: it cannot be steady, and a single
+/// cut is its transient. The rest is judged by the estimates of time_series.hpp. About one in a
+/// hundred stationary series is called accelerating or drifting (measured:
+/// docs/statistics-methods.md). Throws std::invalid_argument for a sample that is not finite.
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain = std::nullopt);
 

@@ -11,7 +11,7 @@ namespace riesel {
 
 namespace {
 
-/// Not each side has a wall.
+/// Whether a side has no wall.
 bool has_open_side(const State& state) { return state.walls.size() < 2; }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Steps a state one way: candidates, and plain stepping or flights that use them.
+// Steps a state in one manner: owns the candidates, and the plain stepping or the flights that use
+// them.
 #pragma once
 
 #include "engine/askew.hpp"
@@ -19,7 +20,7 @@ class Flights;
 
 class Stepper {
 public:
-  /// How steps are done.
+  /// How steps are done; constant for a Stepper.
   struct Manner {
     bool by_flights;
     int threads;
@@ -28,31 +29,34 @@ public:
     bool operator==(const Manner&) const = default;
   };
 
-  /// Starts from the state alone, as after a checkpoint. Keeps references. Throws as Candidates
-  /// does.
+  /// Starts from the state alone, as after a checkpoint. Keeps references. Throws what Candidates
+  /// throws.
   Stepper(State& state, const ContactModel& model, const Manner& manner, const Askew& askew);
-  /// On one thread, and all grains in each step.
+  /// On one thread, with one slice.
   Stepper(State& state, const ContactModel& model, bool by_flights);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
   ~Stepper();
 
-  /// The state has become another one: as Candidates::start_from().
+  /// To be called when the state has changed: as Candidates::start_from(). `state` must be the
+  /// object that was given to the constructor.
   void start_from(State& state, Fixed drift);
 
-  /// Up to step `last`, or until the run cannot go on, or until flights would better go on in
-  /// another manner, as their contacts have become many, or few: that is asked when they sort.
+  /// Steps up to step `last`, or until the run cannot go on, or until flights had better go on with
+  /// other slices because their contacts have become many or few: that is decided when they sort.
   void advance(std::int64_t last);
 
   const Candidates& candidates() const { return candidates_; }
-  /// From now on the time that the first thread takes is measured.
+  /// From now on measures the time that the first thread takes.
   void start_profile();
-  /// These grains alone have their contacts counted, by id: others look after the rest.
+  /// counted[id] tells whether contacts named by this grain go into the tally (Slice::counts).
+  /// Keeps the span.
   void count_only(std::span<const std::uint8_t> counted);
 
-  /// What the slices have counted and measured since the last call, added to these.
+  /// Moves what the slices have counted and measured since the last call to `tally` and `profile`.
   void hand_over(Tally& tally, Profile& profile);
-  /// After advance(): the state gets its contacts, and that tally.
+  /// To be called after advance(): writes the contacts to the state and adds to its tally, and to
+  /// `profile`, as hand_over() does.
   void complete_state(Profile& profile);
 
   /// Throws RunFailure if the run cannot go on.

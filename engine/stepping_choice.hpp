@@ -1,12 +1,13 @@
-// Plain stepping or flights, on one thread or on several, together or apart: what is fastest here
-// and now?
+// Chooses the fastest way of stepping: plain or flights, on one thread or on several, together or
+// apart.
 //
-// It depends on the state, the size of the system, the machine and what else runs on it. The bits
-// do not depend on the choice, so the clock may decide: each way is tried for one piece of the run,
-// twice at its beginning, and now and then later. These later trials take a few per cent of the
-// time at most, less and less as long as they find nothing. A machine has bad moments, in which any
-// way looks slow: another way must win twice, with a piece of the preferred one in between. Only at
-// the beginning, when each trial is much of what has been done, one is enough if it is clear.
+// Which is fastest depends on the state, the size of the system, the machine and what else runs on
+// it. The results do not depend on the choice, so the clock may decide: each way is tried for one
+// piece of the run, twice at its beginning and again from time to time. These later trials take a
+// few per cent of the time at most, and become rarer as long as they find nothing. As any way looks
+// slow when the machine is busy for a moment, another way must win twice, with a piece of the
+// preferred one in between. Only at the beginning, when each trial is much of what has been done,
+// one trial is enough if the difference is clear.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +29,7 @@ struct Way {
 
 class SteppingChoice {
 public:
-  /// At least one; the first is what to begin with.
+  /// Chooses among `ways`, of which there must be one at least; begins with the first.
   explicit SteppingChoice(std::vector<Way> ways)
       : ways_(std::move(ways)), paces_(ways_.size(), 0.0), looks_(ways_.size(), first_looks) {
     looks_.front() = 0;
@@ -36,17 +37,19 @@ public:
 
   /// How the next piece is to be done.
   Way way() const { return ways_[next()]; }
-  /// s per step, the last time that steps were done that way; 0 if they never were.
+  /// s per step of the last piece that was done that way; 0 if there was none.
   double pace() const { return paces_[next()]; }
+  /// The fastest way so far.
   Way preferred() const { return ways_[preferred_]; }
-  /// Whether there is anything to choose.
+  /// Whether there is more than one way.
   bool open() const { return ways_.size() > 1; }
-  /// Whether each has been looked at as often as at the beginning.
+  /// Whether the trials at the beginning are over.
   bool past_first_looks() const {
     return std::all_of(looks_.begin(), looks_.end(), [](int looks) { return looks == 0; });
   }
 
-  /// A piece of so many steps was done that way, in `seconds`; `preparation` (s) came before it.
+  /// To be called when a piece of `steps` > 0 steps was done as way() said: it took `seconds`, and
+  /// preparing it took `preparation` (s). Decides how the next piece is done.
   void note(std::int64_t steps, double seconds, double preparation) {
     paces_[next()] = seconds / static_cast<double>(steps);
     if (trying_)
@@ -60,9 +63,11 @@ private:
   static constexpr double shortest_patience = 0.25, longest_patience = 60.0;  // s
   /// Time between trials over the time of one.
   static constexpr double patience_per_cost = 40.0;
-  /// So much faster another way must be.
+  /// Another way is faster if its time per step is less than this part of that of the preferred
+  /// one.
   static constexpr double worthwhile = 0.95;
-  /// One of two ways that takes so many times as long as the other needs no second look.
+  /// Between two ways, one of which takes this many times as long as the other, one trial is
+  /// enough.
   static constexpr double clear = 1.5;
 
   std::size_t next() const { return trying_ ? tried_ : preferred_; }
@@ -73,7 +78,7 @@ private:
     if (trying_ && !won_once_) tried_ = next_to_try();
   }
 
-  /// All others in turn, or those that are still to be looked at.
+  /// Goes through all other ways in turn; at the beginning through those that still need a trial.
   std::size_t next_to_try() const {
     const bool first_looks_only = !past_first_looks();
     std::size_t other = tried_;
@@ -102,12 +107,12 @@ private:
 
   std::vector<Way> ways_;
   std::size_t preferred_ = 0, tried_ = 0;  // indices of ways
-  std::vector<double> paces_;              // of ways, s per step, of the last piece; 0: of none
-  std::vector<int> looks_;                 // at ways, at the beginning, that are still to come
-  bool trying_ = false;
-  bool won_once_ = false;                // so has the way that was tried last
-  double since_trial_ = 0.0;             // s
-  double patience_ = shortest_patience;  // s, until the next trial
+  std::vector<double> paces_;              // by way: s per step of the last piece; 0: none so far
+  std::vector<int> looks_;                 // by way: trials at the beginning still to be done
+  bool trying_ = false;                    // the next piece is a trial of tried_
+  bool won_once_ = false;                  // tried_ was faster, and will be tried once more
+  double since_trial_ = 0.0;               // s
+  double patience_ = shortest_patience;    // s, until the next trial
 };
 
 }  // namespace riesel

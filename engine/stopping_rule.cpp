@@ -8,7 +8,7 @@
 namespace riesel {
 namespace {
 
-/// The last look at fewer than so many samples, and the first at no fewer.
+/// Of a number of samples: the last look at fewer samples, and the first at as many or more.
 struct Looks {
   std::size_t before = 0;
   std::size_t next = 100;

@@ -1,11 +1,10 @@
 // When a run that asks for precision may stop.
 //
-// To look at an error bar again and again until it is small enough prefers the moments at which it
-// is small by chance. So a run is looked at rarely, each time it has become a quarter longer, and
-// has to please twice in a row. What is left of the bias is measured in docs/statistics-methods.md.
+// Checking an error bar again and again until it is small enough would prefer moments at which it
+// is small by chance. So a run is checked rarely, each time it has become a quarter longer, and has
+// to be precise twice in a row. The remaining bias is measured in docs/statistics-methods.md.
 //
-// The rule knows the series and nothing else: a run that was interrupted stops where the
-// uninterrupted one does.
+// The rule depends on the series only: an interrupted run stops where an uninterrupted one does.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +13,12 @@
 
 namespace riesel {
 
-/// Whether a series of so many samples is looked at: first when there are 100.
+/// Whether a series with this number of samples is checked: first when there are 100.
 bool is_time_to_look(std::size_t samples);
 
-/// Whether this is the time to look at a series of velocities, and its mean is steady, with an
-/// error bar within `relative_error` of it, now and at the look before. `free_fall_gain` as in
-/// assess_steady_state(). std::invalid_argument for a sample that is not finite.
+/// Whether a series of velocities is to be checked now, and is found steady, with an error bar of
+/// at most `relative_error` of the mean, both now and at the check before. `free_fall_gain` as in
+/// assess_steady_state(). Throws std::invalid_argument for a sample that is not finite.
 bool is_precise(std::span<const double> velocities, double relative_error,
                 std::optional<double> free_fall_gain = std::nullopt);
 

@@ -1,8 +1,9 @@
-// Grains that have gone farther than the candidates hold for, while slices are ahead of each other.
+// Strays of plain stepping: grains that have gone farther than the candidates hold for while slices
+// are ahead of each other.
 //
-// That takes a grain that becomes more than twice as fast as any within a few steps: seldom, and
-// not for long, as all are sorted anew if it is still so when the slices are at the same step
-// again. So nothing here is made for speed.
+// For that a grain must become more than twice as fast as the fastest was, within a few steps. That
+// is rare, and ends when the slices are at the same step again, as then all grains are sorted. So
+// nothing here is made for speed.
 #include "engine/candidates.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace riesel {
 
 namespace {
 
-/// The first of the two is in the slice.
+/// Adds the pair (i, j), of which i is in the slice, unless it is a candidate already.
 void add_candidate(Slice& mine, std::uint32_t i, std::uint32_t j, float reach2) {
   if (mine.pairs.has(i, j)) return;
   mine.pairs.add(i, j, reach2);
@@ -41,7 +42,7 @@ void Candidates::catch_strays(const State& state, const PackedPositions& coarse,
     for (auto slot = static_cast<std::uint32_t>(home->begin); slot < home->end; ++slot) {
       const double gone = distance(squared_displacement(coarse.at(slot), slot, common));
       if (gone <= 0.5 * skin_) continue;
-      // Farther than a row of cells it may be where no neighbour of its slice looks.
+      // Beyond the height of a row of cells it may be past the slices that are searched here.
       if (gone > range()) mine.lost = first_of(mine.lost, LostGrain{step, g.id[slot], true});
       look(slot, mine);
       if (home == &mine) {

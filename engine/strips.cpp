@@ -18,8 +18,8 @@ void add(Sums& sums, StripSum which, double term) {
   sums[static_cast<std::size_t>(which)].add(term);
 }
 
-/// Grains are looked at so many at a time: what vector instructions wrote is read again only after
-/// it has left their stores.
+/// Grains are taken this many at a time, so that vector stores are complete before their parts are
+/// read again.
 constexpr std::size_t at_a_time = 32;
 
 /// The sums over the motion of the grains in a strip: those from StripSum::grains on.
@@ -47,7 +47,8 @@ RIESEL_VECTOR_KERNEL std::vector<MotionSums> sums_over_motion(const Strips& stri
   return sums;
 }
 
-/// Of |x| <= 1, to 2e-8, which no area fraction can tell: Abramowitz and Stegun, 4.4.46.
+/// arccos x for |x| <= 1 with an error of 2e-8, which is no matter for area fractions: Abramowitz
+/// and Stegun, 4.4.46.
 [[gnu::always_inline]] inline double arc_cosine(double x) {
   const double a = std::abs(x);
   double sum = -0.0012624911;
@@ -62,15 +63,16 @@ RIESEL_VECTOR_KERNEL std::vector<MotionSums> sums_over_motion(const Strips& stri
   return x < 0.0 ? std::numbers::pi - angle : angle;
 }
 
-/// area_left_of(), for loops.
+/// area_left_of(), for vector loops.
 [[gnu::always_inline]] inline double segment(double line, double radius) {
   const double h = std::min(std::max(line / radius, -1.0), 1.0);
   return radius * radius * (std::numbers::pi - arc_cosine(h) + h * std::sqrt(1.0 - h * h));
 }
 
-/// Grains at one moment, some at a time.
+/// Up to at_a_time grains: x and radius (m), x of the line at which the first strip ends that the
+/// disc covers, and the area (m^2) to the left of that line.
 struct SomeGrains {
-  std::array<double, at_a_time> x, radius, line, left;  // line: where their first strip ends
+  std::array<double, at_a_time> x, radius, line, left;
 };
 
 RIESEL_VECTOR_KERNEL void cut_off(SomeGrains& g) {
@@ -78,7 +80,8 @@ RIESEL_VECTOR_KERNEL void cut_off(SomeGrains& g) {
   for (std::size_t i = 0; i < at_a_time; ++i) g.left[i] = segment(g.line[i] - g.x[i], g.radius[i]);
 }
 
-/// To each strip what it has of the disc; `left` is what its first strip has, if that is not all.
+/// Adds to each strip the area that it has of the disc; `left` (m^2) is that in the first strip,
+/// unless the disc is in this strip alone.
 void add_area(std::vector<Sums>& sums, const Strips& strips, double x, double radius, double left) {
   const std::size_t first = strips.at(x - radius), last = strips.at(x + radius);
   double so_far = 0.0;
@@ -93,7 +96,7 @@ void add_area(std::vector<Sums>& sums, const Strips& strips, double x, double ra
 
 void add_areas(std::vector<Sums>& sums, const Strips& strips, const State& state) {
   SomeGrains g{};
-  g.radius.fill(1.0);  // those that are not there must not give what is not a number
+  g.radius.fill(1.0);  // unused elements must not divide 0 by 0
   for (std::size_t begin = 0; begin < state.grains.size(); begin += at_a_time) {
     const std::size_t count = std::min(at_a_time, state.grains.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
@@ -113,7 +116,7 @@ void add_contact(Sums& sums, const PresentForce& f, double part) {
   add(sums, StripSum::contact_yy, part * f.branch_y * f.fy);
 }
 
-/// Each strip gets the part of the line between the centres that lies in it.
+/// Adds to each strip the part of the line between the centres that lies in it.
 void add_contact(std::vector<Sums>& sums, const Strips& strips, const PresentForce& f) {
   const auto [low, high] = std::minmax({f.x, f.x - f.branch_x});
   const std::size_t first = strips.at(low), last = strips.at(high);

@@ -1,14 +1,14 @@
-// The tube cut into strips along its axis: what stands in each of them at one moment.
+// The tube cut into strips along its axis: sums over what each of them holds at one moment.
 //
 // A grain belongs to the strip of its centre, with its mass, its momentum and its kinetic stress;
 // its area to the strips that it covers. A contact acts along the line between the two centres, and
 // each strip gets the part of the line that lies in it (Irving and Kirkwood, J. Chem. Phys. 18, 817
-// (1950)). So the momentum that goes from strip to strip is accounted for exactly, by flying grains
-// and by contacts: the stresses close the balance of momentum, up to the walls, with nothing to
-// choose.
+// (1950)). So the momentum that flying grains and contacts carry from strip to strip is accounted
+// for exactly: the stresses satisfy the balance of momentum up to the walls, without free
+// parameters.
 //
-// All that is kept of a moment is linear in sums over grains and contacts, so that means over time
-// are means of these numbers, and what is nonlinear (temperatures) is worked out from the means.
+// All that is kept of a moment are sums over grains and contacts, so that means over time are means
+// of these numbers; nonlinear quantities (temperatures) are computed from the means.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -20,11 +20,12 @@
 
 namespace riesel {
 
-/// What is summed over a strip. w = v_y - frame is the axial velocity in a frame that moves along
-/// with the grains. F is the force on a body of a contact, l the line from the other body to it.
+/// The sums over a strip. w = v_y - frame is the axial velocity in a frame that moves along with
+/// the grains. F is the force on a body of a contact, l the vector from the centre of the other
+/// body to its own.
 enum class StripSum {
   area,        ///< m^2, covered by grains
-  grains,      ///< with their centre here
+  grains,      ///< number of grains with their centre in the strip
   vy,          ///< m/s, sum of v_y
   vx2,         ///< (m/s)^2, sum of v_x^2
   w,           ///< m/s
@@ -41,22 +42,24 @@ enum class StripSum {
 };
 inline constexpr std::size_t strip_sums = static_cast<std::size_t>(StripSum::contact_yy) + 1;
 
-/// Strips of equal width between the wall lines, or up to the height of a chute.
+/// Strips of equal width between the wall lines, or, with a single wall, up to the width of the
+/// box.
 struct Strips {
   double width;   ///< m, of one strip
-  double length;  ///< m
+  double length;  ///< m, along the tube: the period
   std::size_t count;
-  bool open = false;  ///< there is no wall at the end: what lies beyond the last is in none
+  bool open = false;  ///< there is no wall at large x: what lies beyond the last strip is in none
 
-  /// About a mean diameter wide.
+  /// Strips about a mean diameter wide.
   static Strips of(const State& state);
 
   double area() const { return width * length; }  ///< m^2
   std::vector<double> middles() const;            ///< m, x of the middle of each
-  /// What lies beyond a wall line belongs to the strip at that wall; `count`: in none.
+  /// The strip at `x` (m). What lies beyond a wall line belongs to the strip at that wall; `count`
+  /// means in none.
   std::size_t at(double x) const;
 
-  /// Where a sum stands in the result of sum_over_strips().
+  /// Index of a sum in the result of sum_over_strips().
   static std::size_t column(std::size_t strip, StripSum sum) {
     return strip * strip_sums + static_cast<std::size_t>(sum);
   }

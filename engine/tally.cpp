@@ -7,13 +7,13 @@ namespace riesel {
 
 namespace {
 
-/// The deeper one; of equals the first by name, then the earlier.
+/// Whether `a` is deeper than `b`; of equals, whether it is the first by name, then the earlier.
 bool comes_before(const Contact& a, const Contact& b) {
   return a.max_overlap != b.max_overlap ? a.max_overlap > b.max_overlap
                                         : std::tie(a.name, a.begin) < std::tie(b.name, b.begin);
 }
 
-/// If it is deeper than all of the tally, or another one as deep.
+/// Notes `contact` if it comes before the deepest one of the tally so far.
 void note_deepest(ContactTally& tally, const Contact& contact) {
   if (contact.max_overlap < tally.max_overlap) return;
   if (!tally.deepest || comes_before(contact, *tally.deepest)) tally.deepest = contact;

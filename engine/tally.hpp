@@ -27,28 +27,29 @@ struct ContactTally {
   ExactSum slip_path;        ///< m
   ExactSum normal_loss;      ///< J
   ExactSum friction_loss;    ///< J
-  ExactSum energy_won;       ///< J, by those whose losses together are negative
-  /// kg m/s, impulse along y on the grains in contact with walls; and the same with each step's
-  /// part weighted by the time, as a part of an `era`: the two tell how far the grains have fallen
-  /// (work_of_gravity).
+  ExactSum energy_won;       ///< J, gained by those whose total loss is negative
+  /// kg m/s, impulse along y given by walls to the grains; and the same with each step's part
+  /// weighted by the time in units of `era`. The work of gravity follows from the two
+  /// (observables.cpp).
   ExactSum impulse_y;
   ExactSum impulse_y_times_time;
   DurationHistogram durations;  ///< of ended contacts
   OverlapHistogram overlaps;    ///< of ended contacts, the largest
-  /// One that had max_overlap; none if no contact ended yet.
+  /// The contact that had max_overlap; none if no contact has ended yet.
   std::optional<Contact> deepest;
 
-  /// s, some 34 years. The weighted impulses grow with the square of the time, up to the range of
-  /// ExactSum. At the other end they are lost: with grains below some 10 micrometres the work of
-  /// gravity, and so the residual of the energy, is wrong.
+  /// s, some 34 years. The unit of the time by which impulses are weighted: their sum grows with
+  /// the square of the time and must stay in the range of ExactSum. The price is resolution: with
+  /// grains below some 10 micrometres the work of gravity, and so the residual of the energy, is
+  /// wrong.
   static constexpr double era = 0x1p30;
 
-  /// Adds to the sums and to the maximum.
+  /// Adds a contact to the sums and to the maximum, not to the counts and histograms.
   void add(const Contact& contact);
   void merge(const ContactTally& other);
 };
 
-/// How the walls share what they gave to the grains. A tube has two walls: index 0 is the left one.
+/// What the single walls gave to the grains. Of the two walls of a tube, index 0 is the left one.
 struct WallImpulses {
   static constexpr std::size_t most_walls = 2;
   std::array<ExactSum, most_walls> y;  ///< kg m/s along y, by wall; together walls.impulse_y
@@ -64,18 +65,19 @@ struct Tally {
   ContactTally grains;    ///< free grain on free grain
   ContactTally walls;     ///< free grain on wall grain
   WallImpulses impulses;  ///< of these by wall
-  /// The same contacts as brakes, and visits to walls that are over: in the tally of a State alone,
-  /// where WallWatch counts them.
+  /// Ended contacts with walls, judged as brakes, and ended visits to walls. Only the tally of a
+  /// State has them, where WallWatch counts them.
   BrakeTally brakes;
   VisitTally visits;
-  /// What is not yet in `brakes` and `visits`, in any order: WallWatch takes it up when an advance
-  /// is over.
+  /// Ended contacts with walls that are not yet in `brakes` and `visits`, in any order: WallWatch
+  /// counts and clears them after each advance.
   std::vector<Contact> ended_at_walls;
 
   ContactTally& of(const ContactName& name) { return name.wall == no_wall ? grains : walls; }
   /// Counts a contact that has ended; `reach` (m) is the sum of the radii.
   void end(const Contact& contact, double reach);
-  /// Adds what contacts of another slice or part did, which has no brakes and visits.
+  /// Adds the tally of a slice or a part. Leaves out `brakes` and `visits`, which these do not
+  /// have.
   void merge(const Tally& other);
 };
 

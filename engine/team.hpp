@@ -9,9 +9,9 @@
 
 namespace riesel {
 
-/// Returns how many threads the system grants to a team that wants so many. From then on it grants
-/// the calling thread no fewer because the machine has other work (OMP_DYNAMIC): there is a slice
-/// for each.
+/// Returns how many threads the system grants to a team that wants `wanted` of them. Switches off
+/// OMP_DYNAMIC, so that later teams of the calling thread do not get fewer when the machine is
+/// busy: each thread has its slice.
 inline int fix_members(int wanted) {
   omp_set_dynamic(0);
   int granted = 1;
@@ -26,7 +26,7 @@ inline int fix_members(int wanted) {
 /// throws in a team of several ends the program, as the others would wait for ever.
 template <class Work>
 void as_a_team(int members, Work work) {
-  if (members == 1) {  // to OpenMP a team like any other, with calls of the system
+  if (members == 1) {  // without OpenMP, which makes system calls for a team of one, too
     work(std::size_t{0});
     return;
   }
@@ -36,7 +36,7 @@ void as_a_team(int members, Work work) {
     work(static_cast<std::size_t>(omp_get_thread_num()));
   } else {
 #pragma omp atomic write
-    complete = false;  // the same for all
+    complete = false;  // all threads of the team come here, or none
   }
   if (!complete) throw RunFailure("the system grants fewer threads than the run was to have");
 }

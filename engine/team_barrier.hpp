@@ -1,12 +1,11 @@
 // How the threads of a team wait for each other.
 //
-// A step has several places for that, each a few microseconds of work after the last. A waiting
-// thread first looks again and again; later it offers its core to others between two looks. So
-// steps stay short where the team has its cores to itself, and a busy machine costs no more than
-// its share: OpenMP's own barrier, which looks for milliseconds, takes the core from the very
-// thread that it waits for, and asks the system to wake sleepers each time, even in a team of one;
-// std::barrier sleeps too soon. Nobody sleeps here: then the others would have to look who does,
-// each time.
+// A step has several barriers, a few microseconds of work apart. A waiting thread first spins, and
+// after a while yields its core between two looks. So steps stay short where the team has its cores
+// to itself, and on a busy machine it loses no more than its share. OpenMP's own barrier spins for
+// milliseconds, which may take the core from the very thread that it waits for, and makes a system
+// call to wake sleepers each time, even in a team of one; std::barrier sleeps too soon. Here no
+// thread sleeps, so that none has to check for sleepers.
 #pragma once
 
 #include "engine/aligned.hpp"
@@ -19,7 +18,7 @@
 
 namespace riesel {
 
-/// Tells the core that this is a loop of waiting.
+/// Tells the processor that this is a spin loop.
 inline void pause_core() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
@@ -28,7 +27,7 @@ inline void pause_core() {
 #endif
 }
 
-/// One thread's waiting for something that is about to happen.
+/// The wait of one thread for something that is about to happen: first spins, then yields.
 class Patience {
 public:
   /// To be called between two looks.
@@ -42,7 +41,7 @@ public:
   }
 
 private:
-  static constexpr int most = 500;  // 5 to 20 microseconds, and then others may have the core
+  static constexpr int most = 500;  // pauses before it yields: 5 to 20 microseconds
   int moments_ = 0;
 };
 
@@ -59,9 +58,9 @@ public:
     wait(member);
   }
 
-  /// The two halves of it, to be called in turn. Meanwhile others may be anywhere between their
-  /// last arrival and their next: what a member does between the halves must not touch what they
-  /// use. So it has something to do while news goes from core to core.
+  /// The two halves of arrive_and_wait(), to be called in turn. Between them a member can do work
+  /// while the news of its arrival goes from core to core. That work must not touch what others
+  /// use: they may be anywhere between their last arrival and their next.
   void arrive(std::size_t member) {
     if (members() == 1) return;
     std::atomic<std::uint32_t>& mine = arrivals_[member].count;
@@ -74,14 +73,14 @@ public:
   }
 
 private:
-  /// How often one member has come; may wrap. It alone writes to it, so that a look of another
-  /// takes the cache line from core to core once, where a count of all goes back and forth. Two
-  /// lines: processors fetch them in pairs.
+  /// How often one member has arrived; may wrap. Only this member writes to it, so that the cache
+  /// line goes to each other core once, whereas that of a common counter would go back and forth.
+  /// Takes two lines because processors fetch lines in pairs.
   struct alignas(2 * cache_line) Arrivals {
     std::atomic<std::uint32_t> count{0};
   };
 
-  /// Nobody is ahead of another by more than one arrival.
+  /// No member can be ahead of another by more than one arrival, so that != means "more".
   static void wait_for_more(const Arrivals& other, std::uint32_t before) {
     for (Patience patience; other.count.load(std::memory_order_acquire) == before;)
       patience.wait_a_moment();

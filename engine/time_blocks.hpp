@@ -1,11 +1,11 @@
 // Many values sampled at even intervals, kept as sums over blocks of time.
 //
-// A mean over the steady part of a run, with an error bar that knows of correlations, needs the
-// values as a series; but of some hundred values the whole series is too long to keep. The error
-// comes from the slowest motions of the series (engine/time_series.hpp), which blocks show as well
-// as samples do. There are never more than `most` blocks: when they are complete, each two become
-// one, and the blocks to come are twice as long. So the memory is bounded, whatever the run lasts,
-// and blocks are a function of the samples alone.
+// A mean over the steady part of a run, with an error bar that includes correlations, needs a
+// series of values; but for some hundred values the whole series is too long to keep. The error is
+// taken from the slowest variations of a series (engine/time_series.hpp), which blocks show as well
+// as samples do. There are never more than `most` blocks: when all are complete, pairs of blocks
+// become one, and later blocks are twice as long. So the memory is bounded however long the run is,
+// and the blocks depend on the samples alone.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace riesel {
 
 class TimeBlocks {
 public:
-  /// Half of them are left when each two have become one: enough for an error bar, which needs 20,
+  /// Half of them are left when pairs have become one: enough for an error bar, which needs 20,
   /// unless the transient took more than two thirds of the run.
   static constexpr std::size_t most = 128;
 
@@ -25,11 +25,13 @@ public:
   /// For samples of `columns` values.
   explicit TimeBlocks(std::size_t columns) : columns_(columns) {}
 
-  /// As it was when these were its contents. Throws std::invalid_argument if they cannot have been.
+  /// Restores an object from its contents. Throws std::invalid_argument if no object can have
+  /// these.
   TimeBlocks(std::size_t columns, std::int64_t samples, std::int64_t samples_per_block,
              std::vector<double> sums);
 
-  /// Adds one sample of columns() finite values. Throws std::invalid_argument for another number.
+  /// Adds one sample of columns() finite values. Throws std::invalid_argument for another number of
+  /// values.
   void add(std::span<const double> sample);
 
   std::size_t columns() const { return columns_; }

@@ -20,21 +20,21 @@ constexpr Eigen::Index cosines = 8;
 constexpr double student_68 = 1.06653;
 constexpr double student_99 = 3.35539;
 
-// The error of a mean grows by this over the number of independent samples. It pays for the fall of
-// the spectrum within the cosines, and for the choice among short series: those whose correlation
-// is underestimated are the ones that pass as long enough. Measured, see
-// docs/statistics-methods.md.
+// The error of a mean is enlarged by a part of itself: this over the number of independent samples.
+// That allows for the fall of the spectrum within the cosines, and for a selection among short
+// series: those whose correlation is underestimated are the ones that count as long enough.
+// Measured: see docs/statistics-methods.md.
 constexpr double finite_sample_allowance = 6.0;
 
 // The random walk is measured on ten blocks: nine steps, whose variance has eight degrees of
 // freedom.
 constexpr Eigen::Index blocks = 10;
 
-// The smallest series worth a second look.
+// The shortest series that is analysed at all.
 constexpr auto min_samples = static_cast<std::size_t>(min_independent_samples);
 
-// A sum over lags costs samples times lags. Longer series are averaged in batches first: what is
-// shorter than a batch of these makes no difference to the time, see windowed_time().
+// A sum over lags costs samples times lags. Longer series are averaged in batches first, which does
+// not change the result noticeably: see windowed_time().
 constexpr Eigen::Index most_samples_for_lags = 0x1p16;
 
 // Variations below this fraction of the largest sample are rounding, not motion.
@@ -96,8 +96,8 @@ double long_run_variance(const Samples& deviations, Index first) {
   return sum / static_cast<double>(cosines);
 }
 
-/// Autocorrelation time with Sokal's window, which ends at the first lag of five decay times (the
-/// integrated time is two of them), and at a fifth of the series at the latest.
+/// Autocorrelation time with Sokal's window, which ends at the first lag beyond five decay times
+/// (one decay time is half of the integrated time), but at a fifth of the series at the latest.
 double time_by_lags(const Samples& deviations) {
   const Index n = deviations.size();
   const double scale = 1.0 / deviations.square().sum();
@@ -118,9 +118,8 @@ ArrayXd means_of_batches(const Samples& series, Index batch) {
   return means;
 }
 
-/// The same from means of batches where samples are many: the variance of the mean of all, which is
-/// the power of what is averaged times its time over its number, is that of the mean of the
-/// batches.
+/// The same, where samples are many from the means of batches: the variance of the mean of all,
+/// power times autocorrelation time over number, is the same for samples and for batch means.
 double windowed_time(const Samples& deviations) {
   const Index batch = (deviations.size() - 1) / most_samples_for_lags + 1;
   if (batch == 1) return time_by_lags(deviations);
@@ -129,7 +128,8 @@ double windowed_time(const Samples& deviations) {
   return part == 0.0 ? 1.0 : part * static_cast<double>(batch) * time_by_lags(means);
 }
 
-/// Of deviations from a mean (`first_cosine` 1) or from a line (2: the line took the first cosine).
+/// Autocorrelation time of deviations from a mean (`first_cosine` 1) or from a fitted line (2, as
+/// the line has taken up the first cosine).
 double integrated_time(const Samples& deviations, Index first_cosine) {
   const double variance = power_of(deviations);
   if (variance == 0.0) return 1.0;
@@ -137,9 +137,9 @@ double integrated_time(const Samples& deviations, Index first_cosine) {
   return std::max({1.0, slow, windowed_time(deviations)});
 }
 
-/// Standard error of the slope fitted to a random walk that gains the variance w per sample: w
-/// shows in the steps from block mean to block mean, of variance 2/3 w times the length of a block;
-/// the slope has the variance 6/5 w/n.
+/// Standard error of the slope fitted to a random walk. If its variance grows by w per sample, the
+/// differences of successive block means have the variance 2/3 w times the length of a block, from
+/// which w is estimated; the slope has the variance 6/5 w/n.
 double random_walk_slope_error(const Samples& series) {
   const Index block = series.size() / blocks;
   const ArrayXd means = means_of_batches(series.head(blocks * block), block);

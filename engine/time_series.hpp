@@ -1,14 +1,14 @@
 // The statistics of one evenly sampled, correlated series: where its transient ends, its mean with
-// an error bar that keeps its word, and its trend.
+// a reliable error bar, and its trend.
 //
-// Successive samples of a flow remember each other, so the textbook error of a mean is far too
-// small. The usual cure, to sum the autocorrelation function up to a window, overlooks a slow
-// component beneath fast noise. The errors here come from the slowest motions themselves, eight
-// cosines across the whole series, and take from Student's distribution what is owed to so few.
-// docs/statistics-methods.md has the formulas and what was measured.
+// Successive samples of a flow are correlated, so the textbook error of a mean is far too small.
+// The usual cure, to sum the autocorrelation function up to a window, overlooks a slow component
+// beneath fast noise. The errors here are taken from the slowest variations themselves, eight
+// cosines across the whole series, with Student's distribution for so small a number. See
+// docs/statistics-methods.md for formulas and measurements.
 //
-// The unit of time is the sample interval. Pure functions; std::invalid_argument for a sample that
-// is not finite.
+// The unit of time is the sample interval. The functions are pure, and throw std::invalid_argument
+// for a sample that is not finite.
 #pragma once
 
 #include <cstddef>
@@ -41,13 +41,13 @@ std::size_t transient_length(std::span<const double> series);
 
 /// Integrated autocorrelation time 1 + 2 (rho_1 + rho_2 + ...) >= 1, in sample intervals: the
 /// greater of the windowed sum (Sokal, Cargese lectures 1996, self-consistent window; bias
-/// correction of Wolff, Comput. Phys. Commun. 156, 143 (2004)) and of what the eight slowest
-/// cosines say. The first is precise, the second sees what the window cuts off. A lower bound where
-/// it exceeds a twelfth of the series; the length of the series if that is below 20. 1 for a
-/// constant series.
+/// correction of Wolff, Comput. Phys. Commun. 156, 143 (2004)) and of the estimate from the eight
+/// slowest cosines. The first is precise, the second includes what the window cuts off. Where it
+/// exceeds a twelfth of the series it is only a lower bound; the length of the series if that is
+/// below 20. 1 for a constant series.
 double autocorrelation_time(std::span<const double> series);
 
-/// Of the samples around their mean; 0 for fewer than two.
+/// Sample standard deviation, with n - 1; 0 for fewer than two samples.
 double standard_deviation(std::span<const double> series);
 
 /// Mean and standard error from the eight slowest cosines: Müller, J. Bus. Econ. Stat. 32, 311
@@ -55,10 +55,10 @@ double standard_deviation(std::span<const double> series);
 /// one independent sample, whose error is the standard deviation; none at all give zeros.
 MeanEstimate estimate_mean(std::span<const double> series);
 
-/// Least-squares slope. The residuals give its error as the cosines do for the mean; if too few of
-/// them are independent, they cannot be told from a random walk, and the error is at least that of
-/// a random walk's slope (Durlauf and Phillips, Econometrica 56, 1333 (1988)). Zeros below 20
-/// samples.
+/// Least-squares slope. Its error is taken from cosines of the residuals, as for the mean. If too
+/// few of them are independent, they cannot be distinguished from a random walk, and the error is
+/// at least that of the slope of a random walk (Durlauf and Phillips, Econometrica 56, 1333
+/// (1988)). Zeros for fewer than 20 samples.
 TrendEstimate estimate_trend(std::span<const double> series);
 
 /// Whether the slope differs from zero, at a nominal false-alarm rate of 1 %.

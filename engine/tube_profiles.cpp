@@ -17,11 +17,12 @@ namespace {
 
 constexpr Estimate not_known{unknown, unknown};
 
-/// One of the sums that a quantity is a function of, and how it changes with its mean.
+/// One of the sums that a quantity depends on: the derivative of the quantity with respect to the
+/// mean of this sum.
 struct Part {
   StripSum sum;
   double derivative;
-  std::optional<std::size_t> strip = std::nullopt;  // that of all strips of the zone if it is none
+  std::optional<std::size_t> strip = std::nullopt;  // none: the sum over all strips of the zone
 };
 
 /// The blocks of one zone.
@@ -36,7 +37,7 @@ public:
   double mean(StripSum sum) const { return mean_of(means(sum)); }
   double mean(StripSum sum, std::size_t strip) const { return mean_of(means(sum, strip)); }
 
-  /// A function of the means; its error is that of its linear part.
+  /// An estimate with this value; its error is that of its linear part, which `parts` describe.
   Estimate estimate(double value, std::span<const Part> parts) const {
     std::vector<double> linear(size_, 0.0);
     for (const Part& part : parts) {
@@ -73,7 +74,7 @@ private:
   std::size_t size_;
 };
 
-/// a per area of the zone (m^2), and a + b.
+/// The sum `a`, or a + b, over the area of the zone (m^2).
 Estimate density(const ZoneBlocks& b, double area, StripSum a) {
   return b.estimate(b.mean(a) / area, {{a, 1.0 / area}});
 }
@@ -82,7 +83,7 @@ Estimate density(const ZoneBlocks& blocks, double area, StripSum a, StripSum b) 
                          {{a, 1.0 / area}, {b, 1.0 / area}});
 }
 
-/// Mean over the grains.
+/// Mean over the grains of the zone.
 Estimate per_grain(const ZoneBlocks& b, StripSum sum) {
   const double grains = b.mean(StripSum::grains);
   if (grains == 0.0) return not_known;
@@ -90,14 +91,15 @@ Estimate per_grain(const ZoneBlocks& b, StripSum sum) {
   return b.estimate(ratio, {{sum, 1.0 / grains}, {StripSum::grains, -ratio / grains}});
 }
 
-/// The sums of weights, of weights times w and of weights times w^2.
+/// Which sums are those of weights, of weights times w and of weights times w^2.
 struct Moments {
   StripSum zeroth, first, second;
 };
 constexpr Moments of_grains{StripSum::grains, StripSum::w, StripSum::w2};
 constexpr Moments of_mass{StripSum::mass, StripSum::mass_w, StripSum::mass_w2};
 
-/// The sum of weights times w^2 without that of the mean motion of each strip.
+/// The sum of weights times w^2 minus the part of the mean motion of each strip, and its
+/// derivatives.
 struct RandomPart {
   double sum = 0.0;
   std::vector<Part> parts;
@@ -127,7 +129,7 @@ Estimate variance_of_w(const ZoneBlocks& b) {
   return b.estimate(variance, random.parts);
 }
 
-/// With that of contacts if it is asked for.
+/// The kinetic stress along the tube, with that of the contacts if asked for.
 Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
   RandomPart random = random_part(b, of_mass);
   const double contact = with_contacts ? 1.0 : 0.0;

@@ -13,7 +13,7 @@ TypicalContacts typical_contacts(const State& state, const NormalLaw& normal, do
   const WallLattice& wall = state.walls.front();
   const double reach = 0.5 * mean_diameter(state.grains) + wall.radius;
   const double t_col_walls = collision_time(normal, mass, speed);
-  // A smooth wall has nothing that could be passed.
+  // A smooth wall has no edge that a grain could pass.
   const double chord = wall.smooth() ? std::numeric_limits<double>::infinity()
                                      : chord_of_impact(reach, speed, t_col_walls);
   return {.t_col_grains = collision_time(normal, 0.5 * mass, speed),

@@ -40,7 +40,7 @@ constexpr Criterion brake_criterion = {
     "walls brake by contacts that are passed through before they can push",
     stiffer};
 
-/// Of single drops: Evidence has no place for it.
+/// For drops of columns only: Evidence has no member for it.
 constexpr Criterion detachment_criterion = {
     "detachment", nullptr, 0.1,
     0.5,          false,   "contacts last so long that beads touch several others at once",
@@ -72,8 +72,8 @@ constexpr std::array<Criterion, 8> criteria = {{
      "limits of the settings were exceeded", "see validity.warnings in summary.json"},
 }};
 
-/// In dense flows grains jostle at a wall, and their visits have no end: short contacts that brake
-/// next to nothing are no passages.
+/// Whether the criterion counts. In dense flows grains jostle at a wall without end, and contacts
+/// cut short that brake next to nothing do not show that they pass through wall grains.
 bool matters(const Criterion& c, const Evidence& evidence) {
   constexpr double next_to_nothing = 0.01;
   return c.value != &Evidence::passages_per_visit
@@ -89,7 +89,8 @@ Validity judge(const Criterion& c, double value) {
   return beyond(c.suspect) ? Validity::suspect : Validity::valid;
 }
 
-/// Braking is what is done against +y.
+/// The remedy for a value that is not known. Braking means impulse along -y: there is none if the
+/// flow goes along -y.
 std::string_view remedy_of_ignorance(const Criterion& c) {
   return c.value == &Evidence::brake_failure_fraction
              ? "run longer, and without gravity let the flow go along +y"
@@ -141,7 +142,7 @@ Finding judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
   const auto finding = [](const Criterion& c, double value) {
     return finding_of(c, value, judge(c, value));
   };
-  // Of those that are equally bad the first: what is not resolved tells nothing of the others.
+  // Of equally bad ones the first: a time step that is too long makes the other values meaningless.
   return std::max({finding(energy_criterion, energy_error_ratio),
                    finding(brake_criterion, brake_failure_fraction),
                    finding(overlap_criterion, max_overlap_ratio)},
@@ -155,7 +156,7 @@ Validity judge_drop(double max_overlap_ratio, double detachment, double energy_e
 }
 
 double detachment(double restitution, double rigid_restitution) {
-  constexpr double hardly_any = 0.01;  // of the energy: less is near the errors of the time step
+  constexpr double hardly_any = 0.01;  // of the energy: comparable with errors of the time step
   const double rigid_energy = rigid_restitution * rigid_restitution;
   if (rigid_energy > 1.0 - hardly_any) return 0.0;
   return (restitution * restitution - rigid_energy) / (1.0 - rigid_energy);

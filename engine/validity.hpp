@@ -19,19 +19,19 @@ enum class Validity {
   unphysical  ///< a finding that makes the result an artefact
 };
 
-/// What the verdict rests on. Not a number stands for what is not known: that is suspect.
+/// What the verdict rests on. NaN means not known, and counts as suspect.
 struct Evidence {
   double max_overlap_ratio;       ///< largest overlap over the radius of the smaller body
   double brake_failure_fraction;  ///< of the braking by walls, done by contacts cut short
   double passages_per_visit;      ///< contacts cut short per visit to a wall
   double wall_speed_ratio;        ///< mean slip speed at the beginning of wall contacts over v_crit
-  double pulling_fraction;        ///< of the time of wall contacts, with F_N < 0
-  double steps_per_contact;       ///< time steps of the shortest twentieth of contacts, at most
+  double pulling_fraction;        ///< part of the time of wall contacts with F_N < 0
+  double steps_per_contact;       ///< upper bound for the shortest twentieth of contacts
   double energy_error_ratio;      ///< see energy_error_ratio()
-  double limits_exceeded;         ///< how many of the user's limits, which were to warn only
+  double limits_exceeded;         ///< number of exceeded user limits of the kind that only warns
 };
 
-// Thresholds that are told elsewhere, too.
+// Thresholds that are also shown elsewhere.
 inline constexpr double suspect_overlap_ratio = 0.2;  ///< of Evidence::max_overlap_ratio
 inline constexpr double unphysical_overlap_ratio = 0.5;
 inline constexpr double unphysical_brake_failure = 0.5;  ///< of Evidence::brake_failure_fraction
@@ -44,7 +44,7 @@ struct Finding {
   double unphysical;  ///< threshold; infinite (of either sign) if there is none
   bool low_is_bad;    ///< below the thresholds instead of above them
   Validity verdict;
-  std::string_view meaning;  ///< in words, of a finding that is not valid
+  std::string_view meaning;  ///< what it means if it is not valid, in words
   std::string_view remedy;
 };
 
@@ -52,34 +52,36 @@ struct ValidityVerdict {
   Validity verdict;
   std::vector<Finding> findings;  ///< all, in the order of Evidence
 
-  /// By name; nullptr if there is none, as there may be in a verdict of another version.
+  /// The finding of this name; nullptr if there is none, as in a verdict by another version.
   const Finding* find(std::string_view name) const;
-  /// Not a number if there is no such finding.
+  /// The value of the finding of this name; NaN if there is none.
   double value_of(std::string_view name) const;
 };
 
+/// All findings, and the worst of their verdicts.
 ValidityVerdict judge(const Evidence& evidence);
 
 /// The finding of this name, judged by its value alone; nothing if there is none.
 std::optional<Finding> finding_named(std::string_view name, double value);
 
-/// What single impacts can be judged by: the worst of these findings; of several the error of the
-/// energy, or else the failure of the brake.
+/// The verdict on single impacts: the worst of these three findings; of equally bad ones that on
+/// the error of the energy comes first, then that on the failure of the brake.
 Finding judge_impacts(double max_overlap_ratio, double brake_failure_fraction,
                       double energy_error_ratio);
 
-/// What a drop of a column of beads can be judged by: the worst of the overlap, the size of
-/// detachment(), which is NaN for a drop that was given up, and the error of the energy.
+/// The verdict on a drop of a column of beads: the worst of those on the overlap, on the size of
+/// detachment() (NaN for a drop that was given up) and on the error of the energy.
 Validity judge_drop(double max_overlap_ratio, double detachment, double energy_error_ratio);
 
-/// Part of the energy that a column of rigid beads loses which one of soft beads keeps. By the
-/// restitutions of both, as in engine/bead_column.hpp; 0 where rigid beads hardly lose any.
+/// Of the energy that a column of rigid beads loses, the part that one of soft beads keeps. Follows
+/// from the restitutions of the columns (ColumnResult, RigidColumn); 0 where rigid beads lose
+/// hardly any energy.
 double detachment(double restitution, double rigid_restitution);
 
 /// The verdict as it is written to files: "valid", "suspect", "unphysical".
 std::string_view name(Validity validity);
 
-/// That back again; nothing for a text that is none of them.
+/// The inverse of name(Validity); nothing for any other text.
 std::optional<Validity> validity_named(std::string_view text);
 
 }  // namespace riesel

@@ -1,18 +1,18 @@
-// Marks a function whose loops are worth compiling for each generation of vector instructions.
+// Marks functions that are compiled for each generation of vector instructions.
 //
-// The program starts with the clone for the machine it runs on. All clones give the same bits: the
-// loops are over integers, their floating-point numbers come of +, -, *, / and sqrt alone, or these
-// only choose candidates that are looked at exactly afterwards. What a contact law calls besides,
-// such as std::pow, is the same function for all clones.
+// At its start the program picks the clone for its machine. All clones give the same bits: loops
+// use integers, and floating-point numbers either come from +, -, *, / and sqrt alone or only
+// choose candidates that are tested exactly afterwards. Anything else that a contact law calls,
+// such as std::pow, is one function shared by all clones.
 //
-// Integers and doubles become each other by the instructions of AVX-512 where there are some, and
-// by additions elsewhere: a loop that does so is written once, as a template, see
+// Vectors of integers and doubles are converted by the instructions of AVX-512 where these exist,
+// and by additions elsewhere. A loop that converts is written once, as a template: see
 // run_vector_loop().
 #pragma once
 
 #include "engine/fixed_point.hpp"
 
-#if defined(RIESEL_VECTOR_KERNEL)  // whoever compiles has said for which machine
+#if defined(RIESEL_VECTOR_KERNEL)  // on the command line, to compile for one machine: no clones
 #define RIESEL_KERNEL_THAT_ADDS
 #define RIESEL_KERNEL_THAT_CONVERTS
 #elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)                              \
@@ -28,7 +28,7 @@
 #define RIESEL_KERNEL_THAT_CONVERTS
 #endif
 
-/// Marks a function with a loop of which no vectors are to be made, whoever calls it.
+/// Marks a function whose loop must not be vectorised, even if its caller is a vector kernel.
 #if defined(__GNUC__) && !defined(__clang__)
 #define RIESEL_SCALAR_KERNEL __attribute__((noinline, optimize("no-tree-vectorize")))
 #else
@@ -37,7 +37,7 @@
 
 namespace riesel {
 
-/// Whether vectors of integers and doubles become each other by instructions on this machine.
+/// Whether this machine has instructions that convert between vectors of integers and doubles.
 #if defined(RIESEL_CLONES)
 inline const bool vectors_convert = __builtin_cpu_supports("x86-64-v4") != 0;
 #elif defined(__AVX512DQ__)
@@ -56,8 +56,9 @@ RIESEL_KERNEL_THAT_ADDS void run_adding_loop(const Arguments&... arguments) {
   Loop::template run<ByAddition>(arguments...);
 }
 
-/// Calls Loop::run<Numbers>(arguments...), a static function that is always inlined, as the best
-/// clone for this machine, with the Numbers (ByConversion or ByAddition) that suit it.
+/// Calls Loop::run<Numbers>(arguments...) in the best clone for this machine, with the Numbers
+/// (ByConversion or ByAddition) that suit it. run() must be a static function that is always
+/// inlined.
 template <class Loop, class... Arguments>
 void run_vector_loop(const Arguments&... arguments) {
   if (vectors_convert)

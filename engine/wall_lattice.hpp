@@ -1,5 +1,5 @@
 // A wall. Corrugated: a row of equal, fixed grains, known in closed form. Smooth: a plane, which is
-// a row of points so close that one of them is level with whoever asks.
+// treated as a single point that always has the y of the grain that is looked at.
 //
 // Which wall grains are near follows from index arithmetic on the fixed-point ring; nothing is
 // stored per wall grain, and the wall of a long tube costs as much memory as that of a short one.
@@ -14,46 +14,46 @@
 
 namespace riesel {
 
-/// From where a wall was at first.
+/// Displacement of a wall from where it was at first.
 struct WallWay {
   double x, y;  ///< m
 };
 
-/// How a wall moves: along y by start + velocity t, and to and fro by amplitude sin(phase + 2 pi
-/// frequency t).
+/// How a wall moves: its displacement is start + velocity t along y, plus amplitude sin(phase + 2
+/// pi frequency t) along each axis.
 struct WallMotion {
   double velocity = 0.0;     ///< m/s
   double amplitude_x = 0.0;  ///< m, less than half the width of the box
   double amplitude_y = 0.0;  ///< m, less than half a period of the box
   double frequency = 0.0;    ///< 1/s
-  double phase = 0.0;        ///< rad, to which an earlier run had come
-  Fixed start = 0;           ///< quanta, from where an earlier run had moved it
+  double phase = 0.0;        ///< rad, at the end of an earlier run
+  Fixed start = 0;           ///< quanta along y, by which an earlier run had moved it
 
   bool oscillates() const {
     return (amplitude_x != 0.0 || amplitude_y != 0.0) && (frequency != 0.0 || phase != 0.0);
   }
-  /// Whether the wall is ever elsewhere than at first.
+  /// Whether the wall is ever displaced.
   bool is_ever_away() const { return velocity != 0.0 || oscillates() || start != 0; }
   /// rad, at `time` (s).
   double phase_at(double time) const { return phase + 2.0 * std::numbers::pi * frequency * time; }
-  /// m/s, of the oscillation alone.
+  /// m/s, largest speed of the oscillation alone.
   double fastest_oscillation() const {
     return std::abs(2.0 * std::numbers::pi * frequency) * std::hypot(amplitude_x, amplitude_y);
   }
-  /// m, how far the wall is at `time` (s) from where it was at first, for whoever looks: steps go
-  /// by shift().
+  /// Displacement of the wall at `time` (s) from where it was at first. For output only: stepping
+  /// uses shift().
   WallWay way(const Box& box, double time) const {
     const double swing = std::sin(phase_at(time));
     return {amplitude_x * swing, box.metres_y(start) + velocity * time + amplitude_y * swing};
   }
-  /// Whether no step and no oscillation goes as far as half the box.
+  /// Whether the oscillation plus one step stays within half the box along each axis.
   bool is_within(const Box& box, double time_step) const {
     const double step = (std::abs(velocity) + fastest_oscillation()) * time_step;
     return std::isfinite(phase_at(time_step)) && std::abs(amplitude_x) + step < 0.499 * box.width
            && std::abs(amplitude_y) + step < 0.499 * box.length;
   }
-  /// Quanta, likewise, at `step`. What is done at constant velocity is an equal number of quanta in
-  /// each step.
+  /// Displacement in quanta at `step`. The part at constant velocity is the same number of quanta
+  /// in each step.
   FixedVector shift(const Box& box, double time_step, std::int64_t step) const {
     const Fixed per_step = nearest_fixed(velocity * time_step / box.quantum_y());
     const Fixed steady = wrapped_sum(start, wrapped_product(step, per_step));
@@ -64,8 +64,8 @@ struct WallMotion {
   }
 };
 
-/// Parallel to y: grain k stands at (line, k length / count), k = 0 ... count-1, and as far from
-/// there as the wall has moved.
+/// A wall parallel to y. Before it moves, its grain k is at (line, k length / count), k = 0 ...
+/// count-1.
 struct WallLattice {
   double line;         ///< m, x of the centres
   double radius;       ///< m; 0: smooth
@@ -76,7 +76,7 @@ struct WallLattice {
     return {.line = line, .radius = 0.0, .count = 0, .motion = motion};
   }
   bool smooth() const { return count == 0; }
-  /// Whether it can be one: of the number and the size of its grains.
+  /// Whether the number and the radius of its grains are possible.
   bool sound() const {
     if (smooth()) return radius == 0.0;
     return count > 0 && count <= INT32_MAX && radius > 0.0 && std::isfinite(radius);
@@ -85,18 +85,19 @@ struct WallLattice {
   double inwards(const Box& box) const { return line < 0.5 * box.width ? 1.0 : -1.0; }
   /// m, from its line to the farthest point that it ever covers.
   double reach() const { return radius + std::abs(motion.amplitude_x); }
-  /// m, across, of a grain with this radius (m) and its centre at `x` (m) from where the wall can
-  /// ever be; negative in there. It comes of rounded numbers, so that whoever must not miss a
-  /// contact asks with some room.
+  /// m, distance across the tube of a grain with this radius (m) and its centre at `x` (m) from
+  /// where the wall can ever be; negative within. Has rounding errors: callers that must not miss a
+  /// contact have to allow for them.
   double distance_across(double x, double grain_radius) const {
     return std::abs(x - line) - (grain_radius + reach());
   }
   bool is_near(double x, double grain_radius, double room) const {
     return distance_across(x, grain_radius) < room;
   }
-  /// How many bodies it has that can be touched: a plane is one.
+  /// The number of its bodies that can be touched: a plane is one.
   std::int64_t partners() const { return smooth() ? 1 : count; }
-  /// m, of the smaller body where a grain of this radius touches: a plane has no size.
+  /// m, the radius of the smaller body in a contact with a grain of radius `grain` (m): with a
+  /// plane that of the grain.
   double smaller_radius(double grain) const { return smooth() ? grain : std::min(grain, radius); }
   double spacing(const Box& box) const {  ///< m; 0 where it is smooth
     return smooth() ? 0.0 : box.length / static_cast<double>(count);
@@ -104,17 +105,18 @@ struct WallLattice {
   /// m, between two neighbours; negative where they overlap, 0 where it is smooth.
   double gap(const Box& box) const { return spacing(box) - 2.0 * radius; }
 
-  /// Grains of a wall that are no more places apart, also across the seam, have bits of their own.
+  /// This many consecutive grains of a wall, also across the seam, always have different bits.
   static constexpr std::int64_t most_told_apart = 31;
-  /// m, so far apart they must stand then, if no more are to touch bodies with this reach (m), the
-  /// sum of the radii.
+  /// m, the least spacing with which the wall grains that one grain touches at a time are no more
+  /// than that; `reach` (m) is the sum of the radii.
   static double least_spacing(double reach) {
     return 2.0 * reach / static_cast<double>(most_told_apart - 1);
   }
-  /// One of 64 bits for grain k, 0 <= k < count.
+  /// One of 64 bits for grain k, 0 <= k < count, by which NearWall::partners tells its partners
+  /// apart.
   std::uint64_t bit_of(std::int64_t k) const {
-    // A multiple of 64 places goes round, so that the bits follow each other across the seam. The
-    // grains that lack are left out at two places, as so many at once would be most of a round.
+    // The bits continue across the seam as if the number of grains were a multiple of 64. The bits
+    // too many are skipped at two places: skipping up to 63 at one place would repeat bits nearby.
     const std::int64_t lacking = -count & 63;
     const std::int64_t left_out =
         (3 * k >= count ? lacking / 2 : 0) + (3 * k >= 2 * count ? lacking - lacking / 2 : 0);
@@ -124,7 +126,7 @@ struct WallLattice {
   struct Place {
     double x, y;  ///< m, y in [0, length)
   };
-  /// Of grain k where the wall has gone this way, for whoever looks.
+  /// The place of grain k when the wall has this displacement. For output only.
   Place place(std::int64_t k, const WallWay& way, const Box& box) const {
     return {line + way.x, box.wrapped(static_cast<double>(k) * spacing(box) + way.y)};
   }
@@ -135,9 +137,9 @@ struct WallLattice {
   }
 };
 
-/// Calls visit(k, y) for all wall grains whose y is within `reach` (m) of `y`, and a few more, in
-/// increasing k; of a smooth wall for its point 0, which is level. A wall that has moved is to be
-/// asked about places that are as far back.
+/// Calls visit(k, y of grain k) in increasing k for all wall grains whose y is within `reach` (m)
+/// of `y`, and for a few more; for a smooth wall calls visit(0, y). The wall is taken where it was
+/// at first: if it has moved, its displacement must be subtracted from `y`.
 template <class Visit>
 void for_each_wall_grain_within(const WallLattice& wall, const Box& box, Fixed y, double reach,
                                 Visit visit) {

@@ -9,8 +9,8 @@ namespace riesel {
 
 namespace {
 
-/// (m/s)^2, relative to the wall. At rest or at constant velocity the wall takes no energy in its
-/// own frame: what the grain has lost there is what was dissipated. A wall that shakes may.
+/// (m/s)^2, relative to the wall. In the frame of a wall at rest or at constant velocity, what the
+/// grain has lost is what was dissipated; for an oscillating wall this is an approximation.
 double leaving_speed_squared(const Contact& c, double mass) {
   const double entry2 = c.entry_rate * c.entry_rate + c.entry_slip * c.entry_slip;
   return std::max(entry2 - 2.0 * (c.normal_loss + c.friction_loss) / mass, 0.01 * entry2);
@@ -39,7 +39,8 @@ WallVisit::WallVisit(const Contact& contact, const Span& its_span)
 }
 
 void WallVisit::join(const WallVisit& other) {
-  // Two contacts may begin at the very same time: any rule will do that knows no order of arrival.
+  // Two contacts may begin at the same time: then any rule is right that does not depend on the
+  // order of joining.
   const auto entry = [](const WallVisit& v) {
     return std::tie(v.span.begin, v.entry_rate, v.entry_slip);
   };

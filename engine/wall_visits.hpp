@@ -1,16 +1,15 @@
-// Visits: what a grain does at a wall between coming and going.
+// Visits: what a grain does at a wall between arriving and leaving.
 //
-// A visit is a chain of contacts of one grain with one wall. A contact belongs to the visit before
-// it if it begins before the grain has gone one spacing of the wall grains since an earlier contact
-// of that visit ended, at the speed with which that contact let it go. A grain that has not left
-// the reach of a wall of spacing s meets the next wall grain within a path of s; one that has left
-// comes back that soon only if another grain throws it back on the spot. At a smooth wall each
-// contact is a visit.
+// A visit is a chain of contacts of one grain with one wall. A contact continues a visit if it
+// begins before the grain, at the speed with which an earlier contact of the visit released it, has
+// gone one spacing of the wall grains. A grain that has not left the reach of a wall of spacing s
+// meets the next wall grain within a path of s; one that has left comes back that soon only if
+// another grain throws it back immediately. At a smooth wall each contact is a visit.
 //
-// So each contact has a span, from its beginning to its end plus the time for that path, and
-// the visits are the connected pieces of the spans of one grain and one wall. That is a property of
-// the set of contacts: it does not matter when, or in what order, we hear of them. Contacts that we
-// have heard of are joined to pieces of visits, and pieces to larger ones.
+// So each contact has a span, from its beginning to its end plus the time for that path, and the
+// visits are the connected unions of the spans of one grain and one wall. They depend on the set of
+// contacts only, not on when or in what order these become known. Known contacts are joined to
+// pieces of visits, and pieces to larger ones.
 #pragma once
 
 #include "engine/contact.hpp"
@@ -28,13 +27,13 @@ struct Span {
   double begin, end;
 };
 
-/// For how long after its beginning contacts belong to the same visit as this one that has ended.
-/// The leaving speed follows from the losses, and is at least a tenth of the entry speed; gravity
-/// (m/s^2) adds to it. `mass` in kg, `spacing` in m.
+/// The span of a contact that has ended. The leaving speed is computed from the losses, but at
+/// least a tenth of the entry speed; `gravity` (m/s^2) adds to it. `mass` (kg) is that of the
+/// grain, `spacing` (m) that of the wall grains, 0 for a smooth wall. The end may be infinite.
 Span visit_span(const Contact& contact, double mass, double spacing, double gravity);
 
-/// A piece of a visit: contacts of one grain with one wall whose spans are connected. What is
-/// summed is summed exactly, so that pieces can be joined in any order.
+/// A piece of a visit: contacts of one grain with one wall whose spans are connected. Its sums are
+/// exact, so that pieces can be joined in any order.
 struct WallVisit {
   std::int32_t wall;
   std::int32_t grain;

@@ -68,12 +68,12 @@ void WallWatch::join_and_close(State& state) const {
   auto kept = visits.begin();
   for (auto next = visits.begin(); next != visits.end();) {
     WallVisit visit = *next++;
-    // A lasting contact will join what ended since it began.
+    // A lasting contact will join all whose spans end after it began.
     const double lasting = lasting_since(state, visit);
     while (next != visits.end() && same_visitor(*next, visit)
            && std::min(next->span.begin, lasting) <= visit.span.end)
       visit.join(*next++);
-    // A contact that is seen in the next step may have begun up to a step ago.
+    // A contact that is found in the next step may have begun up to a step before now.
     const bool over = visit.span.end < std::min(state.time() - state.time_step, lasting);
     if (over)
       close(state, visit);

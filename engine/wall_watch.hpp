@@ -1,9 +1,9 @@
-// Looks at the contacts with walls that have ended: judges them as brakes, and puts them together
-// to visits.
+// Evaluates the contacts with walls that have ended: judges them as brakes, and joins them to
+// visits.
 //
-// Done between two advances, for all threads together: the contacts are few, those of one visit may
-// have ended in several threads, and it takes masses and the contact law, which a thread that ends
-// a contact does not have at hand.
+// Done between two advances, by one thread: the contacts are few, those of one visit may have ended
+// in several threads, and masses and the contact law are needed, which are not at hand where a
+// contact ends.
 #pragma once
 
 #include "engine/contact_law.hpp"
@@ -19,8 +19,9 @@ class WallWatch {
 public:
   WallWatch(const State& state, const ContactModel& model);
 
-  /// Takes up what has ended since the last look, and closes the visits to which no contact can
-  /// come any more. `state` is complete: its lasting contacts and its tally are those of its step.
+  /// Evaluates the contacts that have ended since the last call (Tally::ended_at_walls), and counts
+  /// the visits that no further contact can join. The contacts and the tally of `state` must be
+  /// those of its step.
   void look(State& state) const;
 
 private:
