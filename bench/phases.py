@@ -30,7 +30,7 @@ PHASES = [
     ("looking at what is due",
      r"FlightRegion::(look_\w+|keep_appointments|collide|position|foreign_position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
     ("moving deflected grains, and their courses",
-     r"move_lanes|find_strays|DeflectedGrains::\w+|SkinGuard::\w+|Border::\w+|"
+     r"move_lanes|find_off_course|DeflectedGrains::\w+|SkinGuard::\w+|Border::\w+|"
      r"FlightRegion::(move|correct_courses|set_course|deflect|invite|release|suffer|announce|settle|set_out_again|watch_strays)|"
      r"Flights::\w+"),
 ]

@@ -235,8 +235,8 @@ void Appointments::enter_pairs(std::span<const std::uint32_t> pairs, const Forec
     enter(pairs[k], forecast.free_steps[k], forecast.exact[k] != 0, period);
 }
 
-void Appointments::make_for_next_step(std::uint32_t pair, std::int64_t now, int strays) {
-  enter(pair, 1, is_exact(strays), {.now = now, .earliest = now + 1, .latest = now + 1});
+void Appointments::make_for_next_step(std::uint32_t pair, std::int64_t now, int deflected) {
+  enter(pair, 1, is_exact(deflected), {.now = now, .earliest = now + 1, .latest = now + 1});
 }
 
 /// Enters the appointment of one candidate. A step beyond the horizon of the calendar is replaced
@@ -259,8 +259,8 @@ void Appointments::enter(std::uint32_t candidate, std::int64_t free_steps, bool 
 double Appointments::free_steps_at_wall(const NearWall& near, std::int64_t now) const {
   if (near.partners != 0) return 0.0;
   const WallLattice& wall = state_.wall(near.wall);
-  const double stray = courses_.deflected(near.slot) ? tolerance_ : 0.0;
-  const double reach = (state_.grains.radius[near.slot] + wall.radius) * generous + stray;
+  const double granted = courses_.deflected(near.slot) ? tolerance_ : 0.0;
+  const double reach = (state_.grains.radius[near.slot] + wall.radius) * generous + granted;
   const Flight flight = flight_of(near.slot, state_, courses_, now);
   const double across = steps_across(flight, wall, state_.box, reach);
   if (across == forever) return forever;

@@ -83,9 +83,9 @@ public:
     due_[pair] = {Appointment::never, false};
     reconsider_pair(pair);
   }
-  /// For a pair so close that nothing can be foreseen; `strays` (1 or 2) of its grains may be off
-  /// their courses.
-  void make_for_next_step(std::uint32_t pair, std::int64_t now, int strays);
+  /// For a pair so close that nothing can be foreseen; `deflected` (1 or 2) of its grains may be
+  /// off their courses.
+  void make_for_next_step(std::uint32_t pair, std::int64_t now, int deflected);
   /// Has the pair watched from the next step on: see CloseWatch::add().
   void watch(std::uint32_t pair, std::uint32_t first, std::uint32_t second, double reach,
              double far, std::int64_t step);

@@ -12,6 +12,7 @@
 #include "engine/state.hpp"
 #include "engine/team_barrier.hpp"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -43,6 +44,18 @@ struct Askew {
   /// Whether flights with so many contacts gain by going askew. If they do so `now`, somewhat fewer
   /// contacts are enough, so that the answer does not flip back and forth.
   bool flights_gain(std::size_t contact_count, std::size_t grains, bool now) const;
+};
+
+/// The last step of which a slice has done a certain part, for other threads to see. What its
+/// thread has read and written before pass() happened before all that follows, in another thread,
+/// a passed() with that step.
+class Milestone {
+public:
+  void pass(std::int64_t step) { step_.store(step, std::memory_order_release); }
+  std::int64_t passed() const { return step_.load(std::memory_order_acquire); }
+
+private:
+  std::atomic<std::int64_t> step_{0};
 };
 
 /// The neighbours of a slice in the ring of all slices.

@@ -21,7 +21,7 @@ constexpr double part_ahead = 0.25, part_in_case = 0.1;
 
 /// With more rows of cells than this between the first and the last grain of each slice, partners
 /// are in neighbouring slices only, even of grains that have strayed by the height of a row.
-constexpr std::size_t least_rows_of_slice = 4;
+constexpr std::size_t rows_within_reach = 4;
 
 /// Number of whole steps in which a body that falls from rest by `fall` (m per step^2) goes no
 /// farther than `room` (m).
@@ -205,11 +205,11 @@ void Candidates::sort_anew(State& state, std::span<Slice> share, std::int64_t st
   wait(share);  // all grains are at this step
   renew(state, share, step);
   for (const Slice& slice : slices_)
-    keep(state, share, slice.lasting.slots, slice.lasting.contacts);
+    keep(state, share, slice.set_aside.slots, slice.set_aside.contacts);
   wait(share);
   if (member_with(share) == 0) end_lost_contacts(state, step);
   wait(share);
-  for (Slice& mine : share) give_up(mine.lasting);  // memory that is not needed until next time
+  for (Slice& mine : share) give_up(mine.set_aside);  // memory that is not needed until next time
 }
 
 void Candidates::renew(State& state, std::span<Slice> share, std::int64_t step) {
@@ -247,7 +247,7 @@ void Candidates::start_over(const State& state, std::int64_t step) {
   slices_are_thick_ =
       slices_.size() > 2 && std::all_of(slices_.begin(), slices_.end(), [&](const Slice& slice) {
         return slice.end > slice.begin
-               && cells_.row_of(slice.end - 1) - cells_.row_of(slice.begin) > least_rows_of_slice;
+               && cells_.row_of(slice.end - 1) - cells_.row_of(slice.begin) > rows_within_reach;
       });
   sorted_at_ = step;
   hold_until_ = step + steps_to_walls_;

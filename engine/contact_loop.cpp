@@ -72,14 +72,14 @@ Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t ne
   return meeting_with_wall(state, near.slot, near.wall, k, near_wall);
 }
 
-void note_lasting(Slice& slice, const Meeting& meeting) {
+void mark_in_contact(Slice& slice, const Meeting& meeting) {
   if (meeting.name.wall == no_wall)
     slice.pairs.begin_contact(meeting.candidate);
   else
     slice.near_walls[meeting.candidate].partners |= meeting.wall_bit;
 }
 
-void note_over(Slice& slice, const Meeting& meeting) {
+void mark_apart(Slice& slice, const Meeting& meeting) {
   if (meeting.name.wall == no_wall)
     slice.pairs.end_contact(meeting.candidate);
   else
@@ -88,7 +88,7 @@ void note_over(Slice& slice, const Meeting& meeting) {
 
 void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting) {
   if (slice.counts(meeting.name)) ++slice.tally.of(meeting.name).begun;
-  note_lasting(slice, meeting);
+  mark_in_contact(slice, meeting);
   contacts.begin(meeting);
 }
 

@@ -17,9 +17,9 @@ Meeting meeting_at_wall(const Slice& slice, const State& state, std::uint32_t ne
                         std::int64_t k);
 
 /// Marks the candidate as in contact: searches leave it out from now on.
-void note_lasting(Slice& slice, const Meeting& meeting);
+void mark_in_contact(Slice& slice, const Meeting& meeting);
 /// Takes that mark away: the contact has ended.
-void note_over(Slice& slice, const Meeting& meeting);
+void mark_apart(Slice& slice, const Meeting& meeting);
 
 /// Adds, counts and marks a contact that begins in the present step.
 void begin_contact(Slice& slice, LiveContacts& contacts, const Meeting& meeting);
@@ -56,7 +56,7 @@ void complete_step(Slice& slice, LiveContacts& contacts, const StepUnits& units,
   for (const std::size_t i : contacts.ended()) {
     const Meeting& meeting = contacts.meeting(i);
     if (slice.counts(meeting.name)) slice.tally.end(contacts.contact(i), meeting.reach());
-    note_over(slice, meeting);
+    mark_apart(slice, meeting);
     ended(i);
     contacts.remove(i);
   }

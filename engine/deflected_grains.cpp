@@ -32,24 +32,24 @@ RIESEL_VECTOR_KERNEL void move_lanes(std::size_t count, FixedVector* position, F
 
 /// Extrapolates how far grains are off their courses to the next step, and finds those that will be
 /// beyond the tolerance (quanta) along an axis.
-template <class Strays>
-RIESEL_VECTOR_KERNEL void find_strays(std::size_t count, FixedVector* off, FixedVector* off_u,
-                                      const FixedVector* kick, Fixed tolerance_x, Fixed tolerance_y,
-                                      std::uint64_t* block_masks) {
-  for (std::size_t block = 0; block < count / Strays::lanes; ++block) {
+template <class OffCourse>
+RIESEL_VECTOR_KERNEL void find_off_course(std::size_t count, FixedVector* off, FixedVector* off_u,
+                                          const FixedVector* kick, Fixed tolerance_x,
+                                          Fixed tolerance_y, std::uint64_t* block_masks) {
+  for (std::size_t block = 0; block < count / OffCourse::lanes; ++block) {
     std::uint64_t mask = 0;
 #pragma omp simd reduction(| : mask)
-    for (std::size_t lane = 0; lane < Strays::lanes; ++lane) {
-      const std::size_t i = block * Strays::lanes + lane;
+    for (std::size_t lane = 0; lane < OffCourse::lanes; ++lane) {
+      const std::size_t i = block * OffCourse::lanes + lane;
       const Fixed ux = wrapped_sum(off_u[i].x, kick[i].x), uy = wrapped_sum(off_u[i].y, kick[i].y);
       const Fixed x = wrapped_sum(off[i].x, ux), y = wrapped_sum(off[i].y, uy);
       off_u[i].x = ux;
       off_u[i].y = uy;
       off[i].x = x;
       off[i].y = y;
-      const std::uint64_t strays_x = x > tolerance_x || x < -tolerance_x ? 1 : 0;
-      const std::uint64_t strays_y = y > tolerance_y || y < -tolerance_y ? 1 : 0;
-      mask |= Strays::bit_if(strays_x | strays_y, lane);
+      const std::uint64_t off_x = x > tolerance_x || x < -tolerance_x ? 1 : 0;
+      const std::uint64_t off_y = y > tolerance_y || y < -tolerance_y ? 1 : 0;
+      mask |= OffCourse::bit_if(off_x | off_y, lane);
     }
     block_masks[block] = mask;
   }
@@ -66,7 +66,7 @@ DeflectedGrains::Place DeflectedGrains::take(std::uint32_t slot, const Motion& m
       for_each_vector([this](auto& vectors) { vectors.resize(2 * padded_size()); });
       if (rotate())
         for (auto* column : {&spin_, &spin_kick_}) column->resize(2 * padded_size());
-      strays_.resize(2 * padded_size());
+      masks_.resize(2 * padded_size());
     }
   }
   const Place place = free_.back();
@@ -119,7 +119,7 @@ Bodies DeflectedGrains::bodies() const {
 }
 
 void DeflectedGrains::move(const FixedVector& fallen) {
-  move_lanes<Strays::lanes>(padded_size(), position_.data(), u_.data(), kick_.data(), fallen);
+  move_lanes<OffCourse::lanes>(padded_size(), position_.data(), u_.data(), kick_.data(), fallen);
   for (std::size_t i = 0; i < spin_.size(); ++i) spin_[i] = wrapped_sum(spin_[i], spin_kick_[i]);
 }
 
@@ -131,14 +131,14 @@ void DeflectedGrains::clear_kicks() {
 
 void DeflectedGrains::set_course(Place place) { off_[place] = off_u_[place] = {}; }
 
-const std::vector<DeflectedGrains::Place>& DeflectedGrains::straying(Fixed tolerance_x,
-                                                                     Fixed tolerance_y) {
-  find_strays<Strays>(padded_size(), off_.data(), off_u_.data(), kick_.data(), tolerance_x,
-                      tolerance_y, strays_.of_blocks.data());
-  straying_.clear();
-  strays_.for_each_found(
-      end(), [this](std::size_t place) { straying_.push_back(static_cast<Place>(place)); });
-  return straying_;
+const std::vector<DeflectedGrains::Place>& DeflectedGrains::off_course(Fixed tolerance_x,
+                                                                       Fixed tolerance_y) {
+  find_off_course<OffCourse>(padded_size(), off_.data(), off_u_.data(), kick_.data(), tolerance_x,
+                             tolerance_y, masks_.of_blocks.data());
+  off_course_.clear();
+  masks_.for_each_found(
+      end(), [this](std::size_t place) { off_course_.push_back(static_cast<Place>(place)); });
+  return off_course_;
 }
 
 }  // namespace riesel

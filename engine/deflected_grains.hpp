@@ -58,26 +58,26 @@ public:
   void set_course(Place place);
   /// The grains that will be farther from their courses than the tolerance along an axis (quanta)
   /// in the next step. Must be called exactly once in each step, when all kicks have been added.
-  const std::vector<Place>& straying(Fixed tolerance_x, Fixed tolerance_y);
+  const std::vector<Place>& off_course(Fixed tolerance_x, Fixed tolerance_y);
 
 private:
   static constexpr std::uint32_t no_slot = UINT32_MAX;
-  using Strays = LaneMasks<std::uint64_t>;
+  using OffCourse = LaneMasks<std::uint64_t>;
 
   template <class Visit>
   void for_each_vector(Visit visit) {
     for (auto* vectors : {&position_, &u_, &kick_, &off_, &off_u_}) visit(*vectors);
   }
   bool rotate() const { return inertia_ > 0.0; }
-  std::size_t padded_size() const { return Strays::padded(slots_.size()); }
+  std::size_t padded_size() const { return OffCourse::padded(slots_.size()); }
 
   std::vector<std::uint32_t> slots_;
   std::vector<std::int32_t> contacts_;
   // By place; u, kick and off_... are 0 at free places and in the padding, whose positions mean
   // nothing. off_...: actual motion minus course.
   AlignedVector<FixedVector> position_, u_, kick_, off_, off_u_;
-  Strays strays_;  // of places
-  std::vector<Place> free_, straying_;
+  OffCourse masks_;  // of places
+  std::vector<Place> free_, off_course_;
   const double inertia_;
   AlignedVector<Fixed> spin_, spin_kick_;  // likewise; empty if grains do not rotate
 };

@@ -207,10 +207,10 @@ void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
   const FixedVector apart = wrapped_difference(there, position(i, step));
   const double reach = g.radius[i] + g.radius[j];
   if (!overlapping(apart, reach, units_)) {
-    const int strays = strays_of_pair(slice_, airspace_.courses, pair);
+    const int deflected = deflected_of_pair(slice_, airspace_.courses, pair);
     // So close together, a contact may begin in any of the next steps.
-    if (strays > 0 && overlapping(apart, reach + strays * leeway_.tolerance, units_))
-      look_again(pair, step, reach, strays);
+    if (deflected > 0 && overlapping(apart, reach + deflected * leeway_.tolerance, units_))
+      look_again(pair, step, reach, deflected);
     else
       appointments_.reconsider_pair(pair);
     return;
@@ -221,14 +221,14 @@ void FlightRegion::look_at_pair(std::uint32_t pair, std::int64_t step) {
 
 /// Has a pair looked at in every step: one that is closer than its deflected grains may be off
 /// their courses. `reach` (m) is the sum of the radii.
-void FlightRegion::look_again(std::uint32_t pair, std::int64_t step, double reach, int strays) {
+void FlightRegion::look_again(std::uint32_t pair, std::int64_t step, double reach, int deflected) {
   const std::uint32_t i = slice_.pairs.first[pair], j = slice_.pairs.second[pair];
   if (!border_.owns(j)) {
-    appointments_.make_for_next_step(pair, step, strays);
+    appointments_.make_for_next_step(pair, step, deflected);
     return;
   }
-  constexpr double far_per_stray = 3.0;  // more than 1, so that pairs do not come and go
-  const double far = reach + far_per_stray * strays * leeway_.tolerance;
+  constexpr double far_per_tolerance = 3.0;  // more than 1, so that pairs do not come and go
+  const double far = reach + far_per_tolerance * deflected * leeway_.tolerance;
   const bool first_deflected = airspace_.courses.deflected(i);
   appointments_.watch(pair, first_deflected ? i : j, first_deflected ? j : i, reach, far, step);
 }
@@ -294,7 +294,7 @@ void FlightRegion::suffer(std::int64_t step) {
 
 /// Gives a new course to grains that would be beyond the tolerance in the next step.
 void FlightRegion::correct_courses(std::int64_t step) {
-  for (const DeflectedGrains::Place place : deflected_.straying(leeway_.x, leeway_.y))
+  for (const DeflectedGrains::Place place : deflected_.off_course(leeway_.x, leeway_.y))
     if (!is_guest(place)) set_course(place, step);
 }
 

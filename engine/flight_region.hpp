@@ -110,7 +110,7 @@ public:
 
 private:
   void keep_appointments(std::int64_t step);
-  void look_again(std::uint32_t pair, std::int64_t step, double reach, int strays);
+  void look_again(std::uint32_t pair, std::int64_t step, double reach, int deflected);
   void look_at_pair(std::uint32_t pair, std::int64_t step);
   void look_at_near_wall(std::uint32_t near_wall, std::int64_t step);
   void step_contacts(std::int64_t step);

@@ -34,7 +34,9 @@ void Flights::advance(std::size_t number, std::int64_t now, std::int64_t last) {
   take_off(member, now);
   member.ill_cut = false;  // the caller has just decided on the number of slices
   while (!member.trouble && !member.ill_cut && now < last) {
-    const std::int64_t steps = steps_askew(member, now, last);
+    const std::int64_t askew = steps_askew(member, now, last);
+    if (askew == 0) member.hold_until = now;  // the next step sorts
+    const std::int64_t steps = std::max<std::int64_t>(1, askew);
     member.profile.begin_steps(now + 1, steps);
     if (steps > 1)
       step_askew(member, now, now + steps);
@@ -70,7 +72,7 @@ void Flights::take_off(Member& member, std::int64_t step) {
     member.under_way = true;
     return;
   }
-  if (member.begin == 0) airspace_.courses.set_origin(step);
+  if (member.leads()) airspace_.courses.set_origin(step);
   wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.set_out_again(step); });
   wait(member);
@@ -81,7 +83,7 @@ void Flights::take_off(Member& member, std::int64_t step) {
 /// Makes the appointments of all candidates, which have just been listed. All grains are at `step`.
 /// If kicks are taken up already, in the middle of a step, candidates can be due in this same step.
 void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks) {
-  if (member.begin == 0) {
+  if (member.leads()) {
     airspace_.courses.start_over(step);
     airspace_.candidates.forget_cells();
   }
@@ -103,7 +105,7 @@ void Flights::begin(Member& member, std::int64_t step, FlightRegion::Kicks kicks
 void Flights::land(Member& member, std::int64_t step) {
   wait(member);
   for_each_region(member, [&](FlightRegion& region) { region.land(step); });
-  if (member.begin == 0) airspace_.state.step = step;
+  if (member.leads()) airspace_.state.step = step;
 }
 
 /// Sorts and lists anew, as the candidates do not hold any more; the grains have moved to `step`.
@@ -152,14 +154,14 @@ void Flights::step_together(Member& member, std::int64_t step) {
   member.profile.done(Profile::Phase::appointments);
 }
 
-/// How many steps slices may go askew from `now` on; all members get the same answer. If sorting
-/// first is better, sets hold_until so that the next step sorts.
+/// How many steps slices may go askew from `now` on; 1 if none; 0 if none because it is time to
+/// sort. All members get the same answer.
 ///
 /// No sorting is possible meanwhile, and how fast grains will be is not known. It is expected that
 /// none becomes more than twice as fast as the fastest, or as an oscillating wall makes it, and a
 /// part of the room is left in case one does. The first step after a sorting is done together, as
 /// grains at the start of a run may overlap and have no contacts yet.
-std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t last) const {
+std::int64_t Flights::steps_askew(const Member& member, std::int64_t now, std::int64_t last) const {
   const std::int64_t steps = std::min(most_steps_askew_, last - now);
   const std::int64_t age = now - airspace_.courses.sorted_at();
   if (steps <= 1 || age == 0 || !airspace_.candidates.slices_are_thick()) return 1;
@@ -168,15 +170,18 @@ std::int64_t Flights::steps_askew(Member& member, std::int64_t now, std::int64_t
   const double expected = std::max(2.0 * fastest, fastest + 2.0 * airspace_.shaking);
   const double ahead = static_cast<double>(steps) * expected;
   if (gone + ahead <= room && now + steps <= member.hold_until) return steps;
-  if (gone > 0.5 * room && age >= 2 * most_steps_askew_) member.hold_until = now;
-  return 1;
+  // Sorting pays if much of the room is used up, and the last sorting has served for some time.
+  const bool time_to_sort = gone > 0.5 * room && age >= 2 * most_steps_askew_;
+  return time_to_sort ? 0 : 1;
 }
 
 /// Goes askew from step `now`, which all slices have completed, to step `last`.
 void Flights::step_askew(Member& member, std::int64_t now, std::int64_t last) {
   for (std::size_t i = member.begin; i < member.end; ++i) {
     Progress& p = progress_[i];
-    p.collided = p.settled = p.foreseen = now;
+    p.collided.pass(now);
+    p.settled.pass(now);
+    p.foreseen = now;
     p.fetched = false;
     regions_[i]->need_candidates_until(last);
   }
@@ -205,22 +210,22 @@ bool Flights::go_on(const Member& member, std::size_t slice, std::int64_t last) 
   bool any = false;
   while (p.foreseen < last) {
     const std::int64_t step = p.foreseen + 1;
-    if (p.collided < step) {
+    if (p.collided.passed() < step) {
       if (!p.fetched) region.fetch();
       p.fetched = true;
       region.move(step);
       region.collide(step);
       region.watch_strays(step);
-      p.collided = step;
+      p.collided.pass(step);
       any = true;
     }
-    if (p.settled < step) {
-      if (progress_[before].collided < step) return any;
+    if (p.settled.passed() < step) {
+      if (progress_[before].collided.passed() < step) return any;
       region.settle(step);
-      p.settled = step;
+      p.settled.pass(step);
       any = true;
     }
-    if (progress_[after].settled < step) return any;
+    if (progress_[after].settled.passed() < step) return any;
     region.foresee(step, member.hold_until);
     member.profile.done(Profile::Phase::appointments);
     p.foreseen = step;

@@ -29,7 +29,6 @@
 #include "engine/flight_region.hpp"
 #include "engine/state.hpp"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -68,11 +67,14 @@ private:
     bool under_way = false;       // appointments are made: the next take-off goes on with them
     bool ill_cut = false;         // another number of slices is better
     Leeway leeway = {};           // since the candidates were listed
+
+    /// Does what one of the threads has to do for all.
+    bool leads() const { return number == 0; }
   };
 
   /// The last step that a slice that goes askew has done each part of; on a cache line of its own.
   struct alignas(cache_line) Progress {
-    std::atomic<std::int64_t> collided, settled;
+    Milestone collided, settled;
     std::int64_t foreseen;
     bool fetched;
   };
@@ -84,7 +86,7 @@ private:
   void heed(Member& member) const;
   bool ill_cut() const;
   void step_together(Member& member, std::int64_t step);
-  std::int64_t steps_askew(Member& member, std::int64_t now, std::int64_t last) const;
+  std::int64_t steps_askew(const Member& member, std::int64_t now, std::int64_t last) const;
   void step_askew(Member& member, std::int64_t now, std::int64_t last);
   bool go_on(const Member& member, std::size_t slice, std::int64_t last);
 

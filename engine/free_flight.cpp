@@ -53,12 +53,12 @@ struct ForesightLoop {
     for (std::size_t k = 0; k < count; ++k) {
       const double x = Numbers::real(f.x[k]) * metres.x, y = Numbers::real(f.y[k]) * metres.y;
       const double ux = Numbers::real(f.ux[k]) * metres.x, uy = Numbers::real(f.uy[k]) * metres.y;
-      const double straying = Numbers::real(f.strays[k]) * tolerance;
-      const double patient = first_touch(x, y, ux, uy, f.reach[k] + most_strays * tolerance);
-      const double closer = first_touch(x, y, ux, uy, f.reach[k] + straying);
+      const double granted = Numbers::real(f.deflected[k]) * tolerance;
+      const double patient = first_touch(x, y, ux, uy, f.reach[k] + most_deflected * tolerance);
+      const double closer = first_touch(x, y, ux, uy, f.reach[k] + granted);
       f.free_steps[k] =
           Forecast::whole_steps<Numbers>((patient >= few_steps ? patient : closer) * cautious);
-      const std::int64_t exact_if_close = is_exact(f.strays[k]) ? 1 : 0;
+      const std::int64_t exact_if_close = is_exact(f.deflected[k]) ? 1 : 0;
       f.exact[k] = patient >= few_steps ? 0 : exact_if_close;
     }
   }
@@ -84,7 +84,7 @@ struct SieveLoop {
       const double x = Numbers::real(apart_by.x) * h.metre_x;
       const double y = Numbers::real(apart_by.y) * h.metre_y;
       const double ux = Numbers::real(u.x) * h.metre_x, uy = Numbers::real(u.y) * h.metre_y;
-      const double reach = (c.radius[i] + c.radius[j]) * generous + most_strays * h.tolerance;
+      const double reach = (c.radius[i] + c.radius[j]) * generous + most_deflected * h.tolerance;
       // The square of the distance after s steps is reach^2 + apart - 2 closing s + speed2 s^2.
       const double apart = x * x + y * y - reach * reach;
       const double closing = -(x * ux + y * uy);
@@ -113,7 +113,7 @@ void gather(const Slice& slice, std::span<const std::uint32_t> which, const Stat
     to.ux[k] = u.x;
     to.uy[k] = u.y;
     to.reach[k] = (c.radius[i] + c.radius[j]) * generous;
-    to.strays[k] = strays_of_pair(slice, courses, which[k]);
+    to.deflected[k] = deflected_of_pair(slice, courses, which[k]);
   }
 }
 

@@ -37,9 +37,9 @@ struct Forecast {
 
   /// Input: the motion of the second grain of each pair relative to the first; gathered by a scalar
   /// loop, as vector gathers are not faster.
-  Column<Fixed> x, y, ux, uy;   ///< quanta, and per step
-  Column<double> reach;         ///< m, generous
-  Column<std::int64_t> strays;  ///< strays_of_pair()
+  Column<Fixed> x, y, ux, uy;      ///< quanta, and per step
+  Column<double> reach;            ///< m, generous
+  Column<std::int64_t> deflected;  ///< deflected_of_pair()
 
   /// `steps` rounded up to a whole number, or at most one less; at most `forever`, also for NaN.
   template <class Numbers = ByConversion>
@@ -51,18 +51,18 @@ struct Forecast {
 };
 
 /// The most grains of a pair that may be off their courses.
-inline constexpr int most_strays = 2;
+inline constexpr int most_deflected = 2;
 
 /// How many grains of a pair may be off their courses. Counts a second grain of another slice in
 /// any case, as whether it is deflected is not known here.
-inline int strays_of_pair(const Slice& slice, const Courses& courses, std::uint32_t pair) {
+inline int deflected_of_pair(const Slice& slice, const Courses& courses, std::uint32_t pair) {
   const std::uint32_t i = slice.pairs.first[pair], j = slice.pairs.second[pair];
   return (courses.deflected(i) ? 1 : 0) + (!slice.owns(j) || courses.deflected(j) ? 1 : 0);
 }
 
-/// Whether what is foreseen for a pair of which `strays` grains may be off their courses holds only
-/// until the other one is deflected.
-inline bool is_exact(std::int64_t strays) { return strays < most_strays; }
+/// Whether what is foreseen for a pair of which `deflected` grains may be off their courses holds
+/// only until the other one is deflected.
+inline bool is_exact(std::int64_t deflected) { return deflected < most_deflected; }
 
 /// Computes result.free_steps[k] and result.exact[k] for slice.pairs[which[k]], from step `now` on,
 /// for at most Forecast::most_pairs pairs. A deflected grain may be off its course by `tolerance`

@@ -81,9 +81,9 @@ double greatest_height(const ImpactSetup& setup) { return period_in_reaches * se
 
 double just_upstream(const ImpactSetup& setup, double x) {
   constexpr double gap = 1e-3;  // of the reach: no contact yet
-  const double reach = (1.0 + gap) * setup.reach();
-  require(std::abs(x) <= reach, "a grain that passes the wall grain by does not touch it");
-  return -std::sqrt(reach * reach - x * x);
+  require(std::abs(x) <= setup.reach(), "a grain that passes the wall grain by does not touch it");
+  const double distance = (1.0 + gap) * setup.reach();
+  return -std::sqrt(distance * distance - x * x);
 }
 
 namespace {

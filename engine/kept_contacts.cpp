@@ -66,7 +66,7 @@ void keep_one(const State& state, Slice& mine, const Contact& contact, ContactSl
   const Meeting meeting = of_wall ? meeting_at_wall(mine, state, *candidate, contact.name.partner)
                                   : meeting_of_grains(state.grains, mine.pairs.first[*candidate],
                                                       mine.pairs.second[*candidate], *candidate);
-  note_lasting(mine, meeting);
+  mark_in_contact(mine, meeting);
   (of_wall ? mine.wall_contacts : mine.pair_contacts).add(meeting, contact);
   ++mine.kept;
 }
@@ -83,7 +83,7 @@ std::vector<Contact> Candidates::contacts() const {
 void Candidates::set_contacts_aside(Slice& mine) {
   for (LiveContacts* live : {&mine.pair_contacts, &mine.wall_contacts}) {
     for (std::size_t i = 0; i < live->size(); ++i)
-      mine.lasting.add(live->contact(i), slots_of(live->meeting(i)));
+      mine.set_aside.add(live->contact(i), slots_of(live->meeting(i)));
     live->clear();
   }
   mine.kept = 0;
@@ -111,9 +111,9 @@ std::size_t Candidates::kept() const {
 /// Ends and counts the contacts whose bodies are no candidates any more: of grains so fast that
 /// they left their partners by more than the skin in a single step.
 void Candidates::end_lost_contacts(const State& state, std::int64_t step) {
-  std::size_t lasting = 0;
-  for (const Slice& slice : slices_) lasting += slice.lasting.size();
-  if (kept() == lasting) return;
+  std::size_t set_aside = 0;
+  for (const Slice& slice : slices_) set_aside += slice.set_aside.size();
+  if (kept() == set_aside) return;
   StepUnits units(state);
   units.move_to(step);
   const auto is_lost = [&](const Contact& contact, ContactSlots slots) {
@@ -122,9 +122,9 @@ void Candidates::end_lost_contacts(const State& state, std::int64_t step) {
     });
   };
   for (Slice& owner : slices_)
-    for (std::size_t i = 0; i < owner.lasting.size(); ++i) {
-      Contact& contact = owner.lasting.contacts[i];
-      const ContactSlots slots = after_sorting(owner.lasting.slots[i]);
+    for (std::size_t i = 0; i < owner.set_aside.size(); ++i) {
+      Contact& contact = owner.set_aside.contacts[i];
+      const ContactSlots slots = after_sorting(owner.set_aside.slots[i]);
       if (!is_lost(contact, slots)) continue;
       const Meeting meeting = meeting_of(contact.name, state, slots);
       add_last_loss(contact, meeting, bodies(state.grains), slip_, units);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace riesel {
 
@@ -16,10 +17,11 @@ void see_from_the_other(Contact& contact) {
   contact.rolling_torque = 0.0 - contact.rolling_torque;
 }
 
-/// Moves the content of a lane to another one and leaves zeros. Relies on a tile consisting of rows
-/// of 64-bit words only.
+/// Moves the content of a lane to another one and leaves zeros.
 void move_lane(ContactTile& from, std::size_t lane, ContactTile& to, std::size_t new_lane) {
-  using Row = ContactTile::Row<std::uint64_t>;
+  using Row = ContactTile::Row<std::uint64_t>;  // all rows of a tile are of 64-bit words
+  static_assert(
+      std::is_trivially_copyable_v<ContactTile> && sizeof(ContactTile) % sizeof(Row) == 0);
   auto* const old_words = reinterpret_cast<std::byte*>(&from) + lane * sizeof(std::uint64_t);
   auto* const new_words = reinterpret_cast<std::byte*>(&to) + new_lane * sizeof(std::uint64_t);
   for (std::size_t row = 0; row < sizeof(ContactTile); row += sizeof(Row)) {

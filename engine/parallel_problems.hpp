@@ -1,6 +1,8 @@
 // Many small problems, each solved by one thread, side by side.
 #pragma once
 
+#include "engine/require.hpp"
+
 #include <cstddef>
 #include <exception>
 #include <type_traits>
@@ -8,11 +10,13 @@
 
 namespace riesel {
 
-/// The results of solve(problem) for all problems, in their order; on `threads` > 0 threads.
-/// solve() must be safe to call from several threads. Throws what the first problem that failed, in
-/// this order, threw, when all have been tried.
+/// The results of solve(problem) for all problems, in their order; on `threads` threads.
+/// solve() must be safe to call from several threads. Throws std::invalid_argument
+/// without a thread; when all have been tried, what the first problem that failed, in this order,
+/// threw.
 template <class Problem, class Solve>
 auto solve_all(const std::vector<Problem>& problems, int threads, Solve solve) {
+  require(threads > 0, "problems need a thread");
   std::vector<std::invoke_result_t<Solve, const Problem&>> solutions(problems.size());
   std::exception_ptr failure;
   std::size_t failed = problems.size();

@@ -98,7 +98,7 @@ bool Part::agrees(const Grains& next, std::uint64_t farthest) const {
   return same;
 }
 
-void Part::keep() {
+void Part::accept() {
   stepper_.hand_over(tally_, profile_);
   contacts_.clear();
   stepper_.candidates().for_each_contact([&](const Contact& contact) {

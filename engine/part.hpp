@@ -57,9 +57,9 @@ public:
   bool agrees(const Grains& next, std::uint64_t farthest) const;
 
   /// Accepts what was done since cut(): takes over the tally, and keeps the contacts of own grains.
-  void keep();
-  /// Keeps these contacts instead of any others.
-  void keep(std::vector<Contact>&& contacts) { contacts_ = std::move(contacts); }
+  void accept();
+  /// Holds these contacts for the next cut() of all parts, instead of any that it has kept.
+  void hold(std::vector<Contact>&& contacts) { contacts_ = std::move(contacts); }
   /// Moves the contacts, the tally and the profile that were kept since the last call to the whole.
   void hand_over(State& whole, Profile& profile);
 
@@ -87,7 +87,7 @@ private:
   std::vector<std::uint32_t> rank_;   // by id: index in places_, or not_here
   std::vector<std::uint8_t> is_own_;  // by id
   std::vector<Contact> contacts_;     // kept
-  Tally tally_;
+  StepTally tally_;
   Profile profile_;
 };
 

@@ -1,5 +1,6 @@
 #include "engine/parts.hpp"
 
+#include "engine/require.hpp"
 #include "engine/team.hpp"
 
 #include <algorithm>
@@ -39,6 +40,7 @@ Parts::Parts(State& state, const ContactModel& model, bool by_flights, int threa
       borders_(team_.members() + 1),
       seconds_(team_.members()),
       agreed_(team_.members()) {
+  require(threads > 1, "parts are for two threads or more");
   for (std::size_t i = 0; i < team_.members(); ++i)
     parts_.push_back(std::make_unique<Part>(state, model, by_flights));
 }
@@ -62,7 +64,7 @@ void Parts::fail_if_in_trouble() const {
 
 void Parts::do_stretches(std::size_t member, std::int64_t last, Profile& profile) {
   if (member == 0) {
-    parts_.front()->keep(std::exchange(state_.contacts, {}));
+    parts_.front()->hold(std::exchange(state_.contacts, {}));
     if (profile.on()) parts_.front()->start_profile();
   }
   while (true) {
@@ -70,7 +72,7 @@ void Parts::do_stretches(std::size_t member, std::int64_t last, Profile& profile
     team_.arrive_and_wait(member);
     if (over_) return;
     do_stretch(member);
-    if (all_agree()) parts_[member]->keep();
+    if (all_agree()) parts_[member]->accept();
     if (member == 0) conclude(last, profile);
   }
 }
@@ -210,7 +212,7 @@ void Parts::do_together(std::int64_t last, Profile& profile) {
   whole_->complete_state(profile);
   if (whole_->candidates().in_trouble()) return;
   whole_.reset();
-  parts_.front()->keep(std::exchange(state_.contacts, {}));
+  parts_.front()->hold(std::exchange(state_.contacts, {}));
   next_ = state_.grains;
 }
 

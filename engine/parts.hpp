@@ -39,8 +39,8 @@ public:
   /// Whether the parts of so many threads would be much longer than their margins.
   static bool pay(const State& state, int threads);
 
-  /// For two threads or more. Keeps references, also to `habits`, which it adapts. Throws what
-  /// Stepper throws.
+  /// Keeps references, also to `habits`, which it adapts. Throws std::invalid_argument for fewer
+  /// than two threads, and what Stepper throws.
   Parts(State& state, const ContactModel& model, bool by_flights, int threads, Habits& habits);
 
   /// Steps up to step `last`, or until the run cannot go on. Throws RunFailure, and does nothing,

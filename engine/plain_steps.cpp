@@ -155,8 +155,8 @@ void PlainSteps::step_askew(Member& member, std::int64_t now, std::int64_t moved
   const auto begin = static_cast<std::size_t>(member.share.data() - candidates_.slices().data());
   const std::span<Progress> progress(&progress_[begin], member.share.size());
   for (Progress& p : progress) {
-    p.moved = moved;
-    p.touched = now;
+    p.moved.pass(moved);
+    p.touched.pass(now);
     p.received = now;
   }
   candidates_.team().arrive_and_wait(member.number);
@@ -178,21 +178,21 @@ bool PlainSteps::go_on(Member& member, std::size_t slice, std::int64_t last) {
   bool any = false;
   while (progress.received < last) {
     const std::int64_t step = progress.received + 1;
-    if (progress.moved < step) {
+    if (progress.moved.passed() < step) {
       move(member, mine, step);
-      progress.moved = step;
+      progress.moved.pass(step);
       any = true;
     }
-    if (progress.touched < step) {
-      if (progress_[after].moved < step) return any;
+    if (progress.touched.passed() < step) {
+      if (progress_[after].moved.passed() < step) return any;
       // The next slice stays at this step until this one has touched.
       candidates_.catch_strays(state_, coarse_, mine, next, step);
       mine.inner.heed(mine.inner.use());  // its own use decides: no other slice waits for its list
       touch(member, mine, step, std::sqrt(std::max(mine.fastest2, next.fastest2)));
-      progress.touched = step;
+      progress.touched.pass(step);
       any = true;
     }
-    if (progress_[before].touched < step) return any;
+    if (progress_[before].touched.passed() < step) return any;
     receive(member, mine, std::span(&slices[before], 1));
     progress.received = step;
     any = true;

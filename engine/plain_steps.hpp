@@ -16,7 +16,6 @@
 #include "engine/encounter.hpp"
 #include "engine/state.hpp"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,7 +39,7 @@ public:
 private:
   /// The last step of which a slice that goes askew has done each part; on a cache line of its own.
   struct alignas(cache_line) Progress {
-    std::atomic<std::int64_t> moved, touched;
+    Milestone moved, touched;
     std::int64_t received;
   };
 

@@ -147,19 +147,20 @@ std::int64_t Simulation::piece() const {
 void Simulation::advance_piece(std::int64_t last) {
   const auto now = std::chrono::steady_clock::now;
   const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
-  const auto begin = now();
   const bool in_trouble =
       parts_ ? parts_->in_trouble() : stepper_ && stepper_->candidates().in_trouble();
   if (!in_trouble && prepared_ != wanted()) {
+    const auto begin = now();
     prepare();
     step_up_to(std::min(last, state_.step + 1));  // not timed: flights make all appointments in it
+    changing_ += seconds(now() - begin);
   }
   const std::int64_t first = state_.step;
   const auto start = now();
   step_up_to(last);
   // Flights that stopped early did so because their slices were not the best: no fair measurement.
   if (state_.step == last && state_.step > first)
-    choice_.note(state_.step - first, seconds(now() - start), seconds(start - begin));
+    choice_.note(state_.step - first, seconds(now() - start), std::exchange(changing_, 0.0));
   if (parts_)
     parts_->fail_if_in_trouble();
   else

@@ -94,6 +94,7 @@ private:
   std::optional<Preparation> prepared_;  // how the one of stepper_ and parts_ that exists steps
   std::optional<Stepper> stepper_;
   Parts::Habits habits_, habits_of_flights_;
+  double changing_ = 0.0;  // s, that a change of the way has taken and choice_ does not know of yet
   std::unique_ptr<Parts> parts_;
   const WallWatch wall_watch_;
 };

@@ -51,11 +51,11 @@ struct Kick {
   BodyKick by;
 };
 
-/// Contacts that are to outlive a sorting. Each thread looks through those of all slices for its
-/// own, by slots; these are stored apart from the contacts, as lines from other cores are
-/// expensive.
-struct LastingContacts {
-  std::vector<ContactSlots> slots;  ///< before it
+/// The contacts of a slice while the grains are sorted. Each thread looks through those of all
+/// slices for its own, by slots; these are stored apart from the contacts, as lines from other
+/// cores are expensive.
+struct ContactsSetAside {
+  std::vector<ContactSlots> slots;  ///< before the sorting
   std::vector<Contact> contacts;
 
   std::size_t size() const { return contacts.size(); }
@@ -88,10 +88,10 @@ struct alignas(cache_line) Slice {
   LiveContacts pair_contacts{Partner::grain};
   LiveContacts wall_contacts{Partner::wall};
   std::vector<std::uint32_t> kicked;  ///< own grains, by any contact in this step; some repeatedly
-  LastingContacts lasting;            ///< the contacts of the slice, while the grains are sorted
+  ContactsSetAside set_aside;         ///< the contacts of the slice, while the grains are sorted
   std::size_t kept = 0;               ///< how many of those of all slices it has after the sorting
   Profile profile;                    ///< of what its thread does with it
-  Tally tally;                        ///< of contacts that began or ended in the last advance
+  StepTally tally;                    ///< of contacts that began or ended in the last advance
   /// By id: whether contacts named by this grain go into the tally. Empty: all do.
   std::span<const std::uint8_t> counted;
 

@@ -1,8 +1,10 @@
 #include "engine/state.hpp"
 
 #include "engine/hash.hpp"
+#include "engine/require.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace riesel {
@@ -104,6 +106,12 @@ FixedVector fall_per_step(const State& state) {
 }
 
 void add_grain(State& state, const Grain& grain) {
+  // Beyond this integers wrap, and a grain would be elsewhere, or fly another way.
+  const double dt = state.time_step;
+  require(std::abs(grain.x) < 4.0 * state.box.width
+              && std::abs(grain.vx) * dt < 2.0 * state.box.width
+              && std::abs(grain.vy) * dt < 0.25 * state.box.length && std::isfinite(grain.y),
+          "a grain outside of the box, or one that crosses much of it in a step");
   Grains& g = state.grains;
   const std::size_t i = g.size();
   g.resize(i + 1);

@@ -61,7 +61,7 @@ void Stepper::count_only(std::span<const std::uint8_t> counted) {
   for (Slice& slice : candidates_.slices()) slice.counted = counted;
 }
 
-void Stepper::hand_over(Tally& tally, Profile& profile) {
+void Stepper::hand_over(StepTally& tally, Profile& profile) {
   for (Slice& slice : candidates_.slices()) {
     tally.merge(slice.tally);
     slice.tally = {};

@@ -54,7 +54,7 @@ public:
   void count_only(std::span<const std::uint8_t> counted);
 
   /// Moves what the slices have counted and measured since the last call to `tally` and `profile`.
-  void hand_over(Tally& tally, Profile& profile);
+  void hand_over(StepTally& tally, Profile& profile);
   /// To be called after advance(): writes the contacts to the state and adds to its tally, and to
   /// `profile`, as hand_over() does.
   void complete_state(Profile& profile);

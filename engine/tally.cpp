@@ -53,7 +53,7 @@ void WallImpulses::merge(const WallImpulses& other) {
   work.add(other.work);
 }
 
-void Tally::end(const Contact& contact, double reach) {
+void StepTally::end(const Contact& contact, double reach) {
   ContactTally& kind = of(contact.name);
   ++kind.ended;
   kind.add(contact);
@@ -64,7 +64,7 @@ void Tally::end(const Contact& contact, double reach) {
   ended_at_walls.push_back(contact);
 }
 
-void Tally::merge(const Tally& other) {
+void StepTally::merge(const StepTally& other) {
   grains.merge(other.grains);
   walls.merge(other.walls);
   impulses.merge(other.impulses);

@@ -61,24 +61,25 @@ struct WallImpulses {
   void merge(const WallImpulses& other);
 };
 
-struct Tally {
+/// What the steps themselves count, each slice or part for itself.
+struct StepTally {
   ContactTally grains;    ///< free grain on free grain
   ContactTally walls;     ///< free grain on wall grain
   WallImpulses impulses;  ///< of these by wall
-  /// Ended contacts with walls, judged as brakes, and ended visits to walls. Only the tally of a
-  /// State has them, where WallWatch counts them.
-  BrakeTally brakes;
-  VisitTally visits;
-  /// Ended contacts with walls that are not yet in `brakes` and `visits`, in any order: WallWatch
-  /// counts and clears them after each advance.
+  /// Ended contacts with walls that WallWatch has not yet seen, in any order: it clears them after
+  /// each advance.
   std::vector<Contact> ended_at_walls;
 
   ContactTally& of(const ContactName& name) { return name.wall == no_wall ? grains : walls; }
   /// Counts a contact that has ended; `reach` (m) is the sum of the radii.
   void end(const Contact& contact, double reach);
-  /// Adds the tally of a slice or a part. Leaves out `brakes` and `visits`, which these do not
-  /// have.
-  void merge(const Tally& other);
+  void merge(const StepTally& other);
+};
+
+/// That of a whole run, with what WallWatch finds in the contacts that have ended.
+struct Tally : StepTally {
+  BrakeTally brakes;  ///< ended contacts with walls, judged as brakes
+  VisitTally visits;  ///< ended visits to walls
 };
 
 }  // namespace riesel

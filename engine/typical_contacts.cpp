@@ -1,6 +1,7 @@
 #include "engine/typical_contacts.hpp"
 
 #include "engine/closed_forms.hpp"
+#include "engine/require.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,6 +9,7 @@
 namespace riesel {
 
 TypicalContacts typical_contacts(const State& state, const NormalLaw& normal, double across) {
+  require(!state.walls.empty(), "contacts with walls need a wall");
   const double mass = mean_mass(state.grains);
   const double speed = std::max(across, slowest_across);
   const WallLattice& wall = state.walls.front();

@@ -19,9 +19,9 @@ class WallWatch {
 public:
   WallWatch(const State& state, const ContactModel& model);
 
-  /// Evaluates the contacts that have ended since the last call (Tally::ended_at_walls), and counts
-  /// the visits that no further contact can join. The contacts and the tally of `state` must be
-  /// those of its step.
+  /// Evaluates the contacts that have ended since the last call (StepTally::ended_at_walls), and
+  /// counts the visits that no further contact can join. The contacts and the tally of `state` must
+  /// be those of its step.
   void look(State& state) const;
 
 private:

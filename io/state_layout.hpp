@@ -194,12 +194,14 @@ void for_each_value(AnyTally& tally, Visit visit) {
 /// Calls visit(name, tally) for each kind of tally. `ended_at_walls` is empty between two advances.
 template <MaybeConst<Tally> AnyTally, class Visit>
 void for_each_kind(AnyTally& tally, Visit visit) {
-  auto& [grains, walls, impulses, brakes, visits, ended_at_walls] = tally;
+  std::conditional_t<std::is_const_v<AnyTally>, const StepTally, StepTally>& of_steps = tally;
+  auto& [grains, walls, impulses, ended_at_walls] = of_steps;
+  static_assert(sizeof(Tally) == sizeof(StepTally) + sizeof(BrakeTally) + sizeof(VisitTally));
   visit("grains", grains);
   visit("walls", walls);
   visit("impulses", impulses);
-  visit("brakes", brakes);
-  visit("visits", visits);
+  visit("brakes", tally.brakes);
+  visit("visits", tally.visits);
 }
 
 /// Calls visit(name, value) for each number that stands alone in a State (const or not), in SI
