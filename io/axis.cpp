@@ -7,7 +7,7 @@
 namespace riesel::io {
 namespace {
 
-/// low > high if there are none.
+/// The least and the greatest value that the scale can show; low > high if there are none.
 Interval extremes_of(std::span<const double> values, Scale scale) {
   Interval found{HUGE_VAL, -HUGE_VAL};
   for (const double value : values) {
@@ -41,7 +41,7 @@ Interval range_of(std::span<const double> values, Scale scale) {
     const double room = low == 0.0 ? 1.0 : 0.1 * std::abs(low);
     return {low - room, high + room};
   }
-  // No narrower than six digits can tell.
+  // Wide enough for tick labels of six digits to differ.
   const double room = std::max(0.05 * spread, 1e-4 * std::max(std::abs(low), std::abs(high)));
   return {low - room, high + room};
 }

@@ -16,7 +16,7 @@ struct BuildInfo {
   std::string_view git_commit;  ///< full hash, or "unknown" outside a git checkout
   bool git_dirty;               ///< tracked files differed from that commit
   std::string_view compiler;    ///< "GNU 12.2.0"
-  std::string_view flags;       ///< the options that decide about speed and arithmetic
+  std::string_view flags;       ///< the options that affect speed and arithmetic
   std::string_view build_type;  ///< "Release", ...
 };
 

@@ -1,4 +1,4 @@
-// Bytes put one after the other as the formats of files want them: numbers little-endian.
+// Builds a string of bytes as file formats want them: numbers little-endian.
 #pragma once
 
 #include <bit>
@@ -12,6 +12,7 @@ namespace riesel::io {
 
 class ByteWriter {
 public:
+  /// Appends the lowest `width` bytes of the number, at most 8.
   ByteWriter& number(std::uint64_t value, std::size_t width) {
     for (std::size_t i = 0; i < width; ++i) bytes_.push_back(static_cast<char>(value >> (8 * i)));
     return *this;
@@ -24,7 +25,7 @@ public:
     bytes_.append(count, '\0');
     return *this;
   }
-  /// Zeros up to a multiple of 8.
+  /// Appends zeros up to a multiple of 8 bytes.
   ByteWriter& align() { return zeros((8 - bytes_.size() % 8) % 8); }
 
   const std::string& bytes() const { return bytes_; }
@@ -33,7 +34,7 @@ private:
   std::string bytes_;
 };
 
-/// The bytes of an array of numbers as they are in memory, which is as files hold them.
+/// The bytes of an array of numbers as they are in memory, which is how files hold them.
 template <class Numbers>
 std::string_view bytes_of(const Numbers& numbers) {
   static_assert(std::endian::native == std::endian::little);

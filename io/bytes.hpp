@@ -1,4 +1,4 @@
-// A stretch of bytes that is not trusted: whatever is asked of it, nobody reads beyond its end.
+// A view of bytes that are not trusted: no request makes it read beyond their end.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace riesel::io {
 
-// A fuzzer should not have to guess checksums, which who forges a file makes right: it takes all
-// for right.
+// A fuzzer should not have to guess checksums, which anyone who forges a file can make right: for
+// it all of them count as right.
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 inline constexpr bool checksums_are_forged = true;
 #else
 inline constexpr bool checksums_are_forged = false;
 #endif
 
-/// Something was looked for behind the end.
+/// Something beyond the end was asked for.
 class OutOfBytes : public std::runtime_error {
 public:
   OutOfBytes() : std::runtime_error("it points outside the file") {}
 };
 
-/// A view; numbers are little-endian. Members throw OutOfBytes.
+/// A view of bytes that are owned elsewhere. Numbers are little-endian. Members throw OutOfBytes.
 class Bytes {
 public:
   Bytes() = default;
@@ -43,7 +43,7 @@ public:
     return Bytes(rest.bytes_.first(length));
   }
 
-  /// The unsigned number of `width` bytes, at most 8.
+  /// The unsigned number of `width` bytes, at most 8, at `offset`.
   std::uint64_t number(std::uint64_t offset, std::size_t width) const {
     const Bytes digits = part(offset, width);
     std::uint64_t value = 0;

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t format_version = 10;
 constexpr auto kind = "checkpoint";
 
-// --- one part of the checkpoint after the other, written and read ---
+// --- the parts of the checkpoint, each written and read ---
 
 void write(Hdf5Group group, const Grains& grains, const Box& box) {
   group.set_attribute("quantum_x", box.quantum_x());
@@ -100,7 +100,7 @@ void write(Hdf5Group group, const Tally& tally) {
   });
 }
 
-/// At most one among grains and one at a wall.
+/// The deepest contacts so far: at most one among grains and one at a wall.
 std::vector<Contact> deepest_of(const Tally& tally) {
   std::vector<Contact> contacts;
   for (const ContactTally* contacts_of : {&tally.grains, &tally.walls})

@@ -1,12 +1,13 @@
 // The checkpoint: everything that a run needs to go on as if it had never stopped, in one HDF5
 // file.
 //
-// Integers and doubles are stored as they are, so that a run continues with the same bits. The file
-// contains neither times nor anything else from outside: equal checkpoints are equal files, byte by
-// byte. It opens like any HDF5 file (the layout is described in docs/files.md), but begins with a
-// user block that holds its length and a checksum of all that follows: HDF5 itself protects the
-// content of data sets only, and may crash on damaged metadata. A reader here looks at nothing
-// before the seal is found whole, and hands out nothing before all of it has been checked.
+// Integers and doubles are stored exactly, so that a run continues with the same bits. The file
+// contains no date or anything else from outside the run: equal checkpoints are equal files, byte
+// by byte. Any HDF5 reader opens it (docs/files.md describes the layout), but it begins with a user
+// block, the seal (seal.hpp), which holds its length and a checksum of all that follows: HDF5
+// itself protects only the content of data sets, and may crash on damaged metadata. The reader here
+// parses nothing before the seal has proved right, and returns nothing before everything has been
+// checked.
 #pragma once
 
 #include "engine/state.hpp"
@@ -23,37 +24,38 @@ struct Checkpoint {
   State state;
   std::string settings;  ///< the effective settings, YAML
   std::string source;    ///< the user's settings file, verbatim
-  /// Which run it is, so that files of another are not taken for its own: equal for equal settings
-  /// and starts, and kept through resumes.
+  /// Identifies the run, so that files of another are not taken for its own: equal for equal
+  /// settings and starts, and kept when the run is resumed.
   std::uint64_t run = 0;
-  std::vector<std::string> warnings = {};  ///< that were given of limits, a line each
-  std::int64_t rows = 0;       ///< rows that the series of the run file had at that moment
-  double wall_seconds = 0.0;   ///< s, what the run has taken so far
-  TimeBlocks profiles = {};    ///< what the profiles across the tube are made of, so far
-  TimeBlocks histograms = {};  ///< what ended between the rows, as HistogramBlocks count it
+  std::vector<std::string> warnings = {};  ///< about exceeded limits, one line each
+  std::int64_t rows = 0;                   ///< that the series of the run file had at that moment
+  double wall_seconds = 0.0;               ///< s, that the run has taken so far
+  TimeBlocks profiles = {};                ///< sums for the profiles across the tube, so far
+  TimeBlocks histograms = {};              ///< counts of what has ended, see HistogramBlocks
 };
 
 /// The name of the checkpoint in the directory of a run.
 inline constexpr auto checkpoint_name = "checkpoint.h5";
 
 /// Replaces the checkpoint at `path`, and keeps the one before as NAME.previous (see
-/// write_durably). Grains are stored in the order of their ids. Takes the memory of the state once
-/// more. Throws FileError; in particular if no run could go on from the state: a good checkpoint is
-/// not replaced by one that read_checkpoint() would refuse. Hdf5Error if memory for it lacks.
+/// write_durably()). Grains are stored in the order of their ids. Needs as much memory again as the
+/// state. Throws FileError, in particular if no run could go on from the state: a good checkpoint
+/// is not replaced by one that read_checkpoint() would refuse. Throws Hdf5Error if memory runs out.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 /// Reads a checkpoint and checks all of it. Grains are in the order of their ids. Throws FileError
-/// if the file is missing, damaged, of another format, or holds what no run can have left.
+/// if the file is missing, damaged, of another version of the format, or holds what no run can have
+/// left.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 struct FoundCheckpoint {
   Checkpoint checkpoint;
   std::filesystem::path path;  ///< the file it was read from
-  std::string note;            ///< why that is not the newest generation; empty if it is
+  std::string note;            ///< why it is not the newest generation; empty if it is
 };
 
-/// Reads the newest good generation of a checkpoint: that at `path` (a file, or the directory of a
-/// run), else the one before. Throws FileError if there is none.
+/// Reads the newest good generation of a checkpoint: the one at `path` (a file, or the directory of
+/// a run), or else the one before it. Throws FileError if neither is good.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& path);
 
 }  // namespace riesel::io

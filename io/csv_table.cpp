@@ -17,13 +17,14 @@
 namespace riesel::io {
 namespace {
 
-/// What stands between two commas, without blanks around it.
+/// The text between two commas, without the blanks around it.
 struct Text {
   std::string_view text;
   int place;  // column of its first character
 };
 
-/// No further than any table goes: what is left makes no table of a line of commas.
+/// Stops at more cells than any table has, so that a line of nothing but commas takes little
+/// memory.
 std::vector<Text> split(std::string_view line) {
   constexpr std::string_view blanks = " \t\r";
   constexpr std::size_t most_cells = 1000;
@@ -72,7 +73,7 @@ std::string names_of(const std::vector<CsvColumn>& columns) {
   return names;
 }
 
-/// The text line by line.
+/// Reads the text line by line.
 class Parser {
 public:
   Parser(const std::string& source, const std::vector<CsvColumn>& columns)

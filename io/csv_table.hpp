@@ -1,8 +1,9 @@
-// Tables of quantities that a settings file refers to: text, a line per row, commas between cells.
+// Tables of quantities that a settings file refers to: text files with a line per row and commas
+// between cells.
 //
-// The first line names the columns, each with its unit: "x (mm), vx (m/s)"; without one, numbers
-// are SI. Lines that are empty or begin with # do not count. What is wrong is told with file, line
-// and column, as in a settings file.
+// The first line names the columns, each with its unit: "x (mm), vx (m/s)"; numbers in a column
+// without a unit are in SI. Empty lines and lines that begin with # are skipped. Errors name file,
+// line and column, as for a settings file.
 #pragma once
 
 #include "io/settings.hpp"
@@ -20,18 +21,18 @@ struct CsvColumn {
   std::string name;
   std::string unit;  ///< SI unit of its values
   bool required = true;
-  std::string also = {};  ///< what its heading may say instead of a unit that converts to it
+  std::string also = {};  ///< text that may replace the unit in its heading; numbers are then in SI
 };
 
 class CsvTable {
 public:
-  /// The place of each column in a row, by its name.
+  /// The position of each column in a row, by its name.
   using Index = std::map<std::string, std::size_t>;
 
-  /// Row by row.
+  /// The cells, row by row.
   struct Cells {
     std::vector<double> values;  ///< in SI units, finite
-    std::vector<int> places;     ///< column of the first character, from 1, in characters
+    std::vector<int> places;     ///< where each cell begins in its line, in characters, from 1
     std::vector<int> lines;      ///< of each row, from 1
   };
 
@@ -40,7 +41,7 @@ public:
 
   std::size_t rows() const { return cells_.lines.size(); }
   bool has(const std::string& column) const { return index_.contains(column); }
-  /// In SI units; of a column that it has.
+  /// In SI units. Throws std::out_of_range for a column that the table does not have.
   double value(std::size_t row, const std::string& column) const;
 
   /// Throws the SettingsError "column: problem; remedy" at the cell.
@@ -58,13 +59,13 @@ private:
   Cells cells_;
 };
 
-/// `source` stands for the file in errors. Throws SettingsError for a text without rows, columns
-/// that are missing, unknown or there twice, and cells that are no numbers.
+/// `source` names the file in errors. Throws SettingsError for a text without rows, for missing,
+/// unknown or repeated columns, and for cells that are not numbers.
 CsvTable parse_csv(const std::string& text, const std::string& source,
                    const std::vector<CsvColumn>& columns);
 
-/// The file that the setting `key`, a path, names. One that cannot be read, or is longer than 64
-/// MB, is rejected at the key.
+/// Reads the file that the setting `key`, a path, names. Throws SettingsError; in particular, at
+/// the key, for a file that cannot be read or is longer than 64 MB.
 CsvTable read_csv(const Settings& settings, const std::string& key,
                   const std::vector<CsvColumn>& columns);
 

@@ -17,7 +17,7 @@
 namespace riesel::io {
 namespace {
 
-constexpr std::size_t most_at_once = std::size_t{1} << 30;  // bytes; what Linux takes
+constexpr std::size_t most_at_once = std::size_t{1} << 30;  // bytes; Linux writes no more at once
 
 }  // namespace
 

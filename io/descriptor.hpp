@@ -1,4 +1,4 @@
-// An open file of the system: errors are FileErrors, and it closes itself.
+// An open file descriptor that closes itself and reports errors as FileError.
 #pragma once
 
 #include <sys/types.h>
@@ -11,11 +11,10 @@
 
 namespace riesel::io {
 
-/// Errors are reported for `path`, whatever the file is called at the moment. Members throw
-/// FileError.
+/// Errors name `path`, whatever the file is called at the moment. Members throw FileError.
 class Descriptor {
 public:
-  /// `flags` as open(2) wants them.
+  /// `flags` as for open(2).
   Descriptor(const std::filesystem::path& name, int flags, std::filesystem::path path);
   ~Descriptor();
   Descriptor(const Descriptor&) = delete;
@@ -24,22 +23,22 @@ public:
   Descriptor& operator=(Descriptor&&) = delete;
 
   void write(std::string_view content);
-  /// As many bytes as there are, at most `size`.
+  /// The bytes from `offset` on: `size` of them, or fewer if the file ends before.
   std::string read_at(std::uint64_t offset, std::size_t size);
   void write_at(std::uint64_t offset, std::string_view content);
 
-  /// What lies beyond the old end reads as zeros.
+  /// Extends the file if it is shorter; what lies beyond the old end reads as zeros.
   void make_at_least(std::uint64_t size);
 
-  /// On return it is on the disk.
+  /// On return the content is on the disk.
   void sync();
 
-  /// Waits until nobody else has locked the file in this way (flock), and locks it until it is
-  /// closed; goes on without a lock where the file system has none, and after ten seconds, as the
-  /// other process may be halted.
+  /// Waits until no other process holds the lock of this file (flock), then holds it until the file
+  /// is closed. Goes on without a lock where the file system has none, and after ten seconds, as
+  /// the other process may be suspended.
   void lock() const;
 
-  /// Network file systems report here what could not be written.
+  /// Network file systems may report only here what could not be written.
   void close();
 
 private:

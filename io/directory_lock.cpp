@@ -23,14 +23,14 @@ namespace {
 constexpr auto lock_name = ".lock";
 constexpr auto cannot_be_locked = "the directory cannot be locked";
 
-/// The host too: on a network file system the process may run elsewhere.
+/// Includes the host: on a network file system the process may run elsewhere.
 std::string description_of_this_process() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   return fmt::format("process {} on {}", getpid(), host.data());
 }
 
-/// What the holder wrote, which may not have come to that yet.
+/// What the holder has written into the lock, if it has come to that yet.
 std::string description_of_holder(int descriptor) {
   std::array<char, 512> text{};
   const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
@@ -38,17 +38,17 @@ std::string description_of_holder(int descriptor) {
   return {text.data(), static_cast<std::size_t>(size)};
 }
 
-/// Whoever only looks whether the lock is held (see is_held) has it for a moment.
+/// is_held() takes the lock for a moment, so a lock that is held may be free a moment later.
 constexpr auto patience = std::chrono::milliseconds(40);
 
-/// Negative, with errno, if it cannot be opened. `flags` besides those of every lock.
+/// Negative, with errno set, if it cannot be opened. `flags` are added to those of every lock.
 int open_lock(const std::filesystem::path& directory, int flags) {
   const auto lock = directory / lock_name;
   return uninterrupted([&] { return open(lock.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666); });
 }
 
-/// Of a path by `stat`, of an open file, whatever has its name by now, by `fstat`. Of no file:
-/// nothing, and errno tells why.
+/// The file with this name (`ask` is stat), or an open file, whatever has its name by now (fstat).
+/// Nothing if there is none; errno tells why.
 template <class File>
 std::optional<FileIdentity> identity_by(int (*ask)(File, struct stat*), File file) {
   struct stat about = {};
@@ -81,7 +81,7 @@ void DirectoryLock::sign() const {
   const auto text = description_of_this_process();
   const bool written =
       ftruncate(descriptor_, 0) == 0 && pwrite(descriptor_, text.data(), text.size(), 0) >= 0;
-  static_cast<void>(written);  // it is only a help: the lock holds without (on a full disk, say)
+  static_cast<void>(written);  // merely informs: the lock holds without it (on a full disk, say)
 }
 
 void DirectoryLock::require_in_place() const {

@@ -2,7 +2,7 @@
 //
 // An flock on the file .lock in the directory. The system drops it when the process ends, however
 // it ends, so that no stale lock can stand in the way of a resume. The file stays: removing it
-// would let two processes lock two files of the same name.
+// would let two processes lock two different files of the same name.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace riesel::io {
 
-/// Which file it is, whatever its name: equal for no two of them.
+/// Tells one file from another, whatever their names.
 struct FileIdentity {
   std::uint64_t device = 0, inode = 0;
   bool operator==(const FileIdentity&) const = default;
 };
 
-/// Whether the holder of a lock is written into it at once, or when sign() is called: whoever may
-/// still find that there is nothing to do changes no file.
+/// Whether the process writes its name into the lock at once or only by sign(): one that may still
+/// find nothing to do should change no file.
 enum class Signature { now, later };
 
 /// Holds the lock of a directory as long as it lives.
@@ -29,15 +29,15 @@ public:
   explicit DirectoryLock(const std::filesystem::path& directory, Signature = Signature::now);
   ~DirectoryLock();
 
-  /// Writes into .lock who holds it, for those who find it locked.
+  /// Writes into .lock which process holds it, for those who find it locked.
   void sign() const;
 
-  /// Throws FileError if the directory is not where it was: gone, moved, or another one stands in
-  /// its place, which this lock does not protect; or if the file .lock is gone or another, so that
-  /// another process may have taken that.
+  /// Throws FileError if the directory is no longer where it was: it is gone, was moved, or another
+  /// one, which this lock does not protect, is in its place; or if the file .lock was removed or
+  /// replaced, as another process may then hold the new one.
   void require_in_place() const;
 
-  /// Whether another process works in the directory at the moment. Writes nothing.
+  /// Whether another process holds the lock at the moment. Writes nothing.
   static bool is_held(const std::filesystem::path& directory);
 
   DirectoryLock(const DirectoryLock&) = delete;

@@ -17,13 +17,13 @@ namespace fs = std::filesystem;
 
 fs::path with_suffix(fs::path path, const char* suffix) { return path += suffix; }
 
-/// Of the directory that the file is in; errors are told of the file.
+/// The directory that the file is in; errors name the file.
 Descriptor directory_of(const fs::path& path) {
   const auto parent = path.parent_path();
   return {parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY, path};
 }
 
-/// Removes a file when it goes, unless the file has been given its place.
+/// Removes a file of this name at both ends of its life; a file that was renamed meanwhile stays.
 class Leftover {
 public:
   explicit Leftover(fs::path path) : path_(std::move(path)) { unlink(path_.c_str()); }
@@ -46,15 +46,16 @@ void write_aside(const fs::path& aside, std::string_view content, const fs::path
   file.close();
 }
 
-/// File systems such as FAT, and some in user space, give files no second name.
+/// File systems such as FAT, and some in user space, have no hard links.
 bool means_no_links(int error_number) {
   return error_number == EPERM || error_number == EOPNOTSUPP || error_number == ENOSYS
          || error_number == EMLINK;
 }
 
-/// Gives the present generation, if there is one, a second name, which is to become that of the
-/// generation before. Where files have one name only it gets that at once: until the next
-/// generation is in place it is the only one, and found by those who look for both.
+/// Gives the present generation, if there is one, a second name, from which it will become the
+/// previous one; returns whether it did. Without hard links it becomes the previous one at once:
+/// until the next generation is in place it is the only one, and readers that look for both find
+/// it.
 bool link_present(const fs::path& path, const fs::path& second) {
   if (link(path.c_str(), second.c_str()) == 0) return true;
   if (errno == ENOENT) return false;

@@ -24,8 +24,8 @@ private:
   std::string remedy_;
 };
 
-/// The error for a system call that failed: the problem is `action` ("cannot be written") and the
-/// system's text for `error_number` (an errno), the remedy follows from the latter.
+/// The error for a failed system call: the problem is `action` ("cannot be written") followed by
+/// the system's text for `error_number` (an errno), which also decides the remedy.
 FileError system_failure(const std::filesystem::path& file, const std::string& action,
                          int error_number);
 

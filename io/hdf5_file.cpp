@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t memory_increment = std::size_t{1} << 20;  // bytes
 
-/// Under which HDF5 keeps a file that is in memory only. It takes files of the same name for one
-/// and the same, hence the number; and nothing on the disk can have such a name.
+/// The name under which HDF5 keeps a file in memory. HDF5 takes files of the same name for one and
+/// the same, hence the number; and no file on the disk can have such a name.
 std::string name_in_memory() {
   static std::uint64_t number = 0;
   return "/dev/null/" + std::to_string(++number);

@@ -1,8 +1,8 @@
-// HDF5's identifiers and errors in the manner of C++: handles that close themselves, and failures
+// HDF5's identifiers and errors in the style of C++: handles that close themselves, and failures
 // that are exceptions with one readable line.
 //
-// The headers hdf5_*.hpp hide the C API and do not include it, so that the files of the run can be
-// read and written without knowing it. HDF5 is not thread-safe: one thread at a time.
+// The headers hdf5_*.hpp hide the C API and do not include it, so that the files of a run can be
+// read and written without knowing it. HDF5 is not thread-safe: use it from one thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throws the Hdf5Error `flaw` unless it is so.
+/// Throws Hdf5Error with the text `flaw` unless `is_so`.
 inline void require(bool is_so, std::string_view flaw) {
   if (!is_so) throw Hdf5Error(std::string(flaw));
 }
@@ -30,8 +30,8 @@ public:
   using Id = std::int64_t;
   using Close = int (*)(Id);
 
-  /// Takes over what a call of HDF5 returned. If that is the negative number of a failure, throws
-  /// the Hdf5Error of the call, which was to do `what` ("open data set x").
+  /// Takes over what a call of HDF5 returned. If that is negative, the call failed: throws its
+  /// Hdf5Error, where `what` says what it was to do ("open data set x").
   Hdf5Handle(Id id, Close close, const std::string& what);
   ~Hdf5Handle();
 
@@ -52,10 +52,10 @@ private:
   Close close_;
 };
 
-/// Throws the Hdf5Error of the last call if `status`, which it returned, is negative.
+/// Throws the Hdf5Error of the last call if `status`, the value it returned, is negative.
 void check_hdf5(std::int64_t status, const std::string& what);
 
-/// From now on HDF5 prints nothing to stderr by itself.
+/// Makes HDF5 print nothing to stderr from now on.
 void silence_hdf5();
 
 }  // namespace riesel::io

@@ -13,9 +13,9 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::size_t prefix_size = 16, message_head_size = 8;
-constexpr std::uint64_t shared_message = 0x2;  // flag: it stands elsewhere
+constexpr std::uint64_t shared_message = 0x2;  // flag: the message is elsewhere
 
-// How HDF5 describes the types of numbers that this program writes.
+// How HDF5 encodes the types of numbers that this program writes.
 struct NumberType {
   Hdf5Type type;
   std::string_view encoding;
@@ -55,7 +55,7 @@ Hdf5Layout read_layout(const Bytes& body) {
         .chunked = false, .address = body.number(2, 8), .size = body.number(10, 8), .chunk = {}};
   require(layout_class == in_chunks, "it has a layout that is never written");
   Hdf5Layout found{.chunked = true, .address = body.number(3, 8), .size = 0, .chunk = {}};
-  const auto dimensions = body.number(2, 1);  // with the element's own as the last
+  const auto dimensions = body.number(2, 1);  // the last one is the size of an element
   for (std::uint64_t i = 0; i < dimensions; ++i) found.chunk.push_back(body.number(11 + 4 * i, 4));
   return found;
 }
@@ -84,7 +84,7 @@ std::pair<std::string, Hdf5Attribute> read_attribute(const Bytes& body) {
            .value = body.from(value_at)}};
 }
 
-/// Puts what the message says into the header; what no reader asks for is passed over.
+/// Puts what the message says into the header; messages that no reader needs are skipped.
 void take(std::uint64_t message, const Bytes& body, Hdf5Header& header) {
   switch (message) {
   case hdf5_message::space:

@@ -1,5 +1,5 @@
-// The header of an object in an HDF5 file (version 1 of the format of headers): what a group or a
-// data set says of itself. See stored_hdf5.hpp for who reads it, and why.
+// The header of an object in an HDF5 file (version 1 of the header format): what a group or a data
+// set says about itself. See stored_hdf5.hpp for what it is used for.
 //
 // https://docs.hdfgroup.org/hdf5/v1_14/_f_m_t3.html, section IV.
 #pragma once
@@ -27,31 +27,32 @@ struct Hdf5Attribute {
   Bytes value;
 };
 
-/// Where the members of a group stand.
+/// Where the members of a group are: addresses.
 struct Hdf5Members {
   std::uint64_t tree;
   std::uint64_t heap;  ///< of their names
 };
 
-/// Where the elements of a data set stand: in one piece, or in chunks.
+/// Where the elements of a data set are: in one piece, or in chunks.
 struct Hdf5Layout {
   bool chunked;
-  std::uint64_t address;             ///< of the piece, or of the tree of chunks
-  std::uint64_t size;                ///< bytes of the piece
-  std::vector<std::uint64_t> chunk;  ///< elements of a chunk along each dimension, bytes of one
+  std::uint64_t address;  ///< of the piece, or of the tree of chunks
+  std::uint64_t size;     ///< bytes of the piece
+  /// Elements of a chunk along each dimension, then bytes of an element.
+  std::vector<std::uint64_t> chunk;
 };
 
 struct Hdf5Header {
-  std::optional<Hdf5Members> members;  ///< of a group
-  std::optional<Hdf5Type> type;        ///< of a data set, and all that follows
+  std::optional<Hdf5Members> members;  ///< of a group only
+  std::optional<Hdf5Type> type;        ///< of a data set only, as are the next three
   std::optional<std::vector<std::uint64_t>> extent;
   std::optional<Hdf5Layout> layout;
-  bool has_checksums = false;  ///< fletcher32 with each chunk
+  bool has_checksums = false;  ///< fletcher32, for each chunk
   std::map<std::string, Hdf5Attribute> attributes;
 };
 
 /// Reads the header at `address`; addresses are offsets in `file`. Throws Hdf5Error or OutOfBytes
-/// for what this program does not write.
+/// for anything that this program does not write.
 Hdf5Header read_hdf5_header(const Bytes& file, std::uint64_t address);
 
 }  // namespace riesel::io

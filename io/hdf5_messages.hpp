@@ -13,7 +13,7 @@ enum Type : std::uint16_t {
   filters = 0x0b,
   attribute = 0x0c,
   continuation = 0x10,
-  members = 0x11,  // of a group: where its tree and its names stand
+  members = 0x11,  // of a group: where its tree and its names are
 };
 
 }  // namespace riesel::io::hdf5_message

@@ -34,7 +34,7 @@ struct TypeOf<double> {
   static hid_t native() { return H5T_NATIVE_DOUBLE; }
 };
 
-/// A string of fixed length in UTF-8, filled up with zeros. HDF5 has none of length 0.
+/// A UTF-8 string of fixed length, padded with zeros. HDF5 has none of length 0.
 Hdf5Handle text_type(std::size_t length) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
   check_hdf5(H5Tset_size(type.id(), std::max<std::size_t>(length, 1)), "set the length of a text");
@@ -43,7 +43,7 @@ Hdf5Handle text_type(std::size_t length) {
   return type;
 }
 
-/// Where HDF5 may read the text: at least one byte.
+/// Where HDF5 may read at least one byte, even if the text is empty.
 const char* bytes_of(std::string_view text) { return text.empty() ? "" : text.data(); }
 
 std::string without_padding(std::string text) {
@@ -57,7 +57,7 @@ void check_type(hid_t type, hid_t expected, const std::string& what) {
   if (equal == 0) throw Hdf5Error("cannot " + what + ": it has another type");
 }
 
-/// The length of a text type; what is no text of fixed length is refused.
+/// The length of a text type. Throws Hdf5Error for anything but text of fixed length.
 std::size_t text_length(hid_t type, const std::string& what) {
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
     throw Hdf5Error("cannot " + what + ": it is no text of fixed length");
@@ -80,7 +80,7 @@ Hdf5Handle open_attribute(hid_t object, const std::string& name, const std::stri
   return attribute;
 }
 
-/// Replaces an attribute.
+/// Writes an attribute, in place of an older one.
 void write_attribute(hid_t object, const std::string& name, hid_t type, const void* memory,
                      hid_t memory_type, const std::string& what) {
   const htri_t exists = H5Aexists(object, name.c_str());
@@ -102,14 +102,14 @@ Hdf5Handle create_space(const Hdf5Shape& shape, const std::string& what) {
   return {H5Screate_simple(dimensions(shape), now.data(), most.data()), H5Sclose, what};
 }
 
-/// Creation properties that forget the time.
+/// Properties for the creation of a data set that records no times.
 Hdf5Handle timeless(const std::string& what) {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   check_hdf5(H5Pset_obj_track_times(properties.id(), false), what);
   return properties;
 }
 
-/// Chunks with checksums, except for an empty data set, which can have no chunks.
+/// Chunks with checksums, except for an empty data set that cannot grow: it can have no chunks.
 Hdf5Handle creation_properties(const Hdf5Shape& shape, const std::string& what) {
   auto properties = timeless(what);
   if (shape.rows == 0 && !shape.growing) return properties;
@@ -122,7 +122,7 @@ Hdf5Handle creation_properties(const Hdf5Shape& shape, const std::string& what) 
   return properties;
 }
 
-/// A data set of texts: nothing to be chunked.
+/// A data set of texts, which is not chunked.
 void write_new_data(hid_t group, const std::string& name, const Hdf5Handle& type,
                     const Hdf5Handle& space, const void* memory, const std::string& what) {
   const auto properties = timeless(what);

@@ -1,11 +1,12 @@
 // Groups, data sets and attributes of an HDF5 file, as far as this program needs them.
 //
-// Numbers are stored as what they are, little-endian: 32- and 64-bit integers and doubles. Data
+// Numbers are stored with their own types, little-endian: 32- and 64-bit integers and doubles. Data
 // sets of numbers are tables of rows, cut into chunks with a checksum each (fletcher32), so that
 // any reader notices damage. They carry no times, so that equal contents give equal files.
 //
-// Files are read back by stored_hdf5.hpp. What reads attributes and texts here, and what copies, is
-// for tests: they look with HDF5's library at what was written, as others do (Hdf5File::open()).
+// Files are read back by stored_hdf5.hpp. The members here that read attributes and texts, and
+// copy(), are for tests, which look at the written file with HDF5's own library, as other programs
+// do (Hdf5File::open()).
 //
 // All members throw Hdf5Error.
 #pragma once
@@ -61,7 +62,7 @@ class Hdf5Data : public Hdf5Object {
 public:
   Hdf5Shape shape() const;
 
-  /// All of it; the span has rows * columns elements. T is the type that is stored.
+  /// All of it; the span has rows * columns elements. T must be the stored type.
   template <Hdf5Number T>
   void write(std::span<const T> values);
   template <Hdf5Number T>
@@ -89,8 +90,8 @@ public:
   Hdf5Data create_data(const std::string& name, const Hdf5Shape& shape);
   Hdf5Data data(const std::string& name) const;
 
-  /// A text of any length, as a data set: a string of fixed length in UTF-8, without checksum.
-  /// A text that claims to be longer than `most_bytes` is not read.
+  /// A text of any length, as a data set: a UTF-8 string of fixed length, without checksum.
+  /// read_text() refuses one that claims to be longer than `most_bytes`.
   void write_text(const std::string& name, std::string_view text);
   std::string read_text(const std::string& name, std::size_t most_bytes) const;
 

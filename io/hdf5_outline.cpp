@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t undefined = UINT64_MAX;  // an address
 constexpr std::uint64_t unlimited = UINT64_MAX;  // an extent
 
-// Half of the members that a node has room for, by kind of node. The third cannot be chosen.
+// Half the number of entries that a node has room for, by kind of node. The format fixes the third.
 constexpr std::size_t leaf_k = 16, group_k = 16, chunk_k = 32;
 static_assert(Hdf5Outline::most_members == 2 * leaf_k * 2 * group_k);
 
@@ -55,7 +55,7 @@ std::string integer_type(std::uint64_t size) {
   return type_of(0, is_signed, size, ByteWriter().number(0, 2).number(8 * size, 2));
 }
 
-/// Places and sizes in bits of the parts of IEEE 754.
+/// `exponent` and `mantissa`: bits of these parts of an IEEE 754 number.
 std::string real_type(std::uint64_t size, std::uint32_t exponent, std::uint32_t mantissa) {
   constexpr std::uint32_t leading_bit_implied = 0x20;
   const std::uint32_t sign = exponent + mantissa;
@@ -141,7 +141,7 @@ std::string dimension_list(const std::vector<Hdf5Scale>& scales) {
   return attribute("DIMENSION_LIST", list_type(reference_type()), space(extent), lists.bytes());
 }
 
-/// A node of a tree, as large as all nodes of its kind.
+/// A node of a tree, padded to the size of all nodes of its kind.
 std::string tree_node(std::uint8_t kind, std::uint8_t level, std::size_t entries,
                       const std::array<std::uint64_t, 2>& siblings, const std::string& content,
                       std::size_t most_content) {
@@ -212,7 +212,7 @@ Hdf5Attributes& Hdf5Attributes::add_scale(const std::string& name, bool has_valu
     add(attribute, text_type(text.size(), Padding::terminated), {}, text);
   };
   add_terminated("CLASS", "DIMENSION_SCALE");
-  // In the words by which netCDF knows it.
+  // The text by which netCDF recognises it.
   add_terminated("NAME",
                  has_values ? name : "This is a netCDF dimension but not a netCDF variable.");
   return *this;
@@ -309,7 +309,8 @@ std::uint64_t Hdf5Outline::add_data(const Hdf5DataPlan& plan) {
   return add_header(messages);
 }
 
-/// Names in a heap, entries in leaves in the order of the names, and a tree of one node.
+/// The names go into a heap, the entries into leaves in the order of the names, and the leaves into
+/// a tree of one node.
 std::uint64_t Hdf5Outline::add_group(const std::map<std::string, std::uint64_t>& members,
                                      const Hdf5Attributes& attributes) {
   require_at_most(most_members, members.size(), "members of a group");

@@ -15,7 +15,7 @@ constexpr std::uint64_t highest_level = 8;
 /// A node of a tree: a key, a child, a key, a child, ...
 struct Node {
   Bytes entries;
-  std::uint64_t level, size;  // 0 for leaves; children
+  std::uint64_t level, size;  // 0 for leaves; number of children
 };
 
 Node read_node(const Bytes& file, std::uint64_t address, std::uint64_t type) {

@@ -13,8 +13,8 @@
 namespace riesel::io {
 namespace {
 
-/// Figures are drawn in dark ink: they keep their light paper in the dark. What is too wide for the
-/// window scrolls by itself.
+/// Figures are drawn in dark ink, so they keep a light background in dark mode. What is too wide
+/// for the window scrolls by itself.
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --ink: #222; --paper: #fff; --faint: #ddd; --soft: #555;
         --inset: #f5f5f5; --link: #1a5fb4; }
@@ -49,10 +49,10 @@ bool is_number(std::string_view cell) {
   return cell.find_first_not_of("0123456789+-.e %") == std::string_view::npos;
 }
 
-/// Stands on one line.
+/// Whether it fits on one line.
 bool is_short(std::string_view cell) { return cell.size() <= 40; }
 
-/// Of the cells of a column, see the style. Where nothing is known a cell is empty.
+/// The class of the cells of a column, see the style. A cell is empty where nothing is known.
 std::string_view class_of(const HtmlRows& rows, std::size_t column) {
   const auto all = [&](auto holds) {
     return std::all_of(rows.begin() + 1, rows.end(),

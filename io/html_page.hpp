@@ -1,5 +1,4 @@
-// A page in HTML that stands alone: style and figures are in it, nothing is fetched, nothing is
-// executed.
+// A self-contained HTML page: style and figures are in it, nothing is fetched, nothing is executed.
 #pragma once
 
 #include "io/svg.hpp"
@@ -11,7 +10,7 @@
 
 namespace riesel::io {
 
-/// Of a table.
+/// A cell of a table.
 struct HtmlCell {
   HtmlCell(std::string content, std::string address = "")  // NOLINT(google-explicit-constructor)
       : text(std::move(content)), link(std::move(address)) {}
@@ -29,13 +28,14 @@ public:
   explicit HtmlPage(std::string_view title);
 
   void heading(std::string_view text);
-  /// `name` is a class of the style below: "good", "doubtful", "bad"; or empty.
+  /// `name` is a CSS class, "good", "doubtful" or "bad", or empty.
   void paragraph(std::string_view text, std::string_view name = "");
   void list(const std::vector<std::string>& items);
-  /// The first row is the head; all rows are of one length. Columns of numbers stand on the right.
+  /// The first row is the head; all rows have the same length. Columns of numbers are set to the
+  /// right.
   void table(const HtmlRows& rows);
   void figure(const Svg& svg, std::string_view caption);
-  /// Text as it is, folded away under its name.
+  /// Verbatim text, folded away under its name.
   void folded(std::string_view name, std::string_view text);
 
   /// The whole page.

@@ -1,4 +1,4 @@
-// JSON values as values of a table. Internal.
+// JSON values as cells of a table. Internal.
 #pragma once
 
 #include "io/json_file.hpp"
@@ -9,8 +9,8 @@
 
 namespace riesel::io {
 
-/// Nothing for null, and for lists and maps; true and false are texts, and so are integers that a
-/// double cannot hold (a seed may be one).
+/// Nothing for null, lists and maps. true and false become texts, as do integers that a double may
+/// not hold exactly (a seed, for example).
 inline Cell cell_of(const Json& json) {
   constexpr std::int64_t most = std::int64_t{1} << 53;
   if (json.is_number_integer() && (json > most || json < -most)) return json.dump();

@@ -8,8 +8,8 @@
 namespace riesel::io {
 namespace {
 
-// A manifest of the most points that a sweep may have takes 5 MB, a summary of the most points that
-// a curve may have 22 MB. What is read takes up to 16 times as much memory.
+// The manifest of the largest sweep takes 5 MB, the summary of the longest curve 22 MB. Reading
+// takes up to 16 times as much memory.
 constexpr std::uint64_t most_bytes = 32'000'000;
 constexpr int deepest_nesting = 16;
 
@@ -21,7 +21,7 @@ std::vector<char> read_bytes(const std::filesystem::path& path, const std::strin
   }
 }
 
-/// Counted before anything is built: text in quotes does not count.
+/// Counted before anything is built. Brackets within quotes do not count.
 bool is_too_deep(const std::vector<char>& bytes) {
   int depth = 0;
   bool in_text = false;
@@ -42,7 +42,7 @@ bool is_too_deep(const std::vector<char>& bytes) {
 std::string flaw_of(const std::exception& error) {
   std::string text = error.what();
   if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
-    return text.substr(text.find("] ") + 2);  // behind the library's name and number for it
+    return text.substr(text.find("] ") + 2);  // after the library's name and number of the error
   if (dynamic_cast<const Json::exception*>(&error) != nullptr)
     return "a value in it is of another type";
   return text;

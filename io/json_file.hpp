@@ -15,12 +15,12 @@ namespace riesel::io {
 
 using Json = nlohmann::ordered_json;
 
-/// What the file holds; a discarded value if that is no JSON, or nested deeper than anything that
-/// this program writes (what walks through it could exhaust the stack). Throws FileError, with this
-/// remedy, if the file cannot be read or is larger than any that this program writes.
+/// The content of the file; a discarded value if it is not JSON, or is nested deeper than anything
+/// that this program writes (code that walks through it could exhaust the stack). Throws FileError,
+/// with this remedy, if the file cannot be read or is larger than any that this program writes.
 Json read_json(const std::filesystem::path& path, const std::string& remedy);
 
-/// An integer that is written as one and fits into T. Throws std::exception.
+/// A number that is written as an integer and fits into T. Throws std::exception for anything else.
 template <std::signed_integral T>
 T integer_of(const Json& json) {
   const bool fits = json.is_number_unsigned()
@@ -30,10 +30,10 @@ T integer_of(const Json& json) {
   return json.get<T>();
 }
 
-/// What is wrong with JSON that parses, for a message; `error` came of reading values from it.
+/// For a message: what is wrong with valid JSON, from which reading values has thrown `error`.
 std::string flaw_of(const std::exception& error);
 
-/// On several lines. Text that is no UTF-8 (a message of the system, say) does not stop it.
+/// On several lines. Bytes that are not UTF-8 (in a message of the system, say) are replaced.
 inline std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -6,8 +6,8 @@
 
 namespace riesel::io {
 
-/// The text as it stands in an element or in a quoted attribute: what has a meaning in markup is
-/// written as an entity, control characters other than line breaks and tabs as U+FFFD.
+/// The text as it must be written in an element or a quoted attribute: characters that mean
+/// something in markup as entities, control characters other than line breaks and tabs as U+FFFD.
 std::string escaped(std::string_view text);
 
 }  // namespace riesel::io

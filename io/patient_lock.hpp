@@ -4,8 +4,8 @@
 
 namespace riesel::io {
 
-/// Asks for the lock of an open file (flock) until nobody else has it, for `patience` at most.
-/// False, with errno, if it was not to be had: EWOULDBLOCK if another process has it.
+/// Tries to lock an open file (flock) until it succeeds, for at most `patience`. False, with errno
+/// set, if it does not: EWOULDBLOCK if another process holds the lock.
 bool lock_patiently(int descriptor, std::chrono::milliseconds patience);
 
 }  // namespace riesel::io

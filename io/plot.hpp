@@ -14,21 +14,21 @@
 
 namespace riesel::io {
 
-/// A curve of which no more can be seen: of the points that fall into one of `columns` >= 1 columns
-/// of equal width from the first point to the last only the first, the lowest, the highest and the
-/// last are kept. x ascends.
+/// A curve without the points that could not be seen: of those in each of `columns` >= 1 columns of
+/// equal width, from the first point to the last, only the first, the lowest, the highest and the
+/// last are kept. x must ascend.
 std::vector<Point> thinned(std::span<const Point> points, std::size_t columns);
 
 enum class Symbol { disc, square, triangle, diamond };
 
-/// What a curve is recognised by.
+/// What tells one curve from another.
 struct Look {
   std::string_view colour;
   Symbol symbol = Symbol::disc;
   std::string_view dashes{};
 };
 
-/// A different one for each small index; they begin again after 8 colours.
+/// A different one for each index below 8; then they begin again.
 Look look_of(std::size_t index);
 
 class Plot {
@@ -36,29 +36,31 @@ public:
   /// Draws the axes. Lengths in pixels.
   Plot(double width, double height, std::string_view description, Axis x, Axis y);
 
-  /// The place of a pair of values. A value that a logarithmic axis does not have is not finite.
+  /// Where a pair of values is drawn. Not finite if a logarithmic axis cannot show it.
   Point at(double x, double y) const;
 
-  /// A line through all pairs, x ascending; more of them than pixels are thinned. Pairs that are
-  /// not finite are gaps; one between two gaps is a small disc, open where the line is dashed.
+  /// A line through all pairs, thinned if there are more of them than pixels; x must ascend. Pairs
+  /// that are not finite make gaps; a pair between two gaps is a small disc, open if the line is
+  /// dashed.
   void curve(std::span<const double> x, std::span<const double> y, const Style& style);
-  /// What lies within the axes of a rectangle or a straight line.
+  /// The part within the axes of a rectangle or a horizontal line.
   void area(Interval x, Interval y, const Style& style);
   void level(Interval x, double y, const Style& style);
-  /// From the label down to the axis. Labels of neighbours stand in rows of their own, counted from
-  /// the top, those of larger x above: they point to where there is room, and cross no line.
+  /// A vertical line at x, from its label down to the axis. Neighbouring labels need different
+  /// rows, counted from the top, that of the larger x above: a label is written towards the middle.
   void moment(double x, std::string_view label, const Style& style, int row = 0);
 
-  /// Nothing for what is not known.
+  /// Draws nothing if one of the numbers is unknown.
   void error_bar(double x, double y, double error, std::string_view colour);
-  /// A value with its error, if that is known; full or open. Nothing for a value that is not known.
+  /// A value with its error bar, if the error is known; the symbol is filled or open. Draws nothing
+  /// if the value is unknown.
   void measured(double x, double y, double error, const Look& look, bool is_full);
-  /// Beside a value: it still grows.
+  /// An arrow above a value that is still growing.
   void arrow_up(double x, double y, const Look& look);
-  /// Over a value: it is not to be used.
+  /// A cross over a value that is not to be used.
   void cross(double x, double y, const Look& look);
-  /// Below the axes: what all share, if that is not empty, and each name with its look, as a symbol
-  /// on a line. Grows the drawing. For once.
+  /// Below the axes: `shared`, which holds for all entries, if it is not empty, then each name with
+  /// its look, a line with or without a symbol. Makes the drawing higher; to be called once.
   void legend(std::string_view shared, const std::vector<std::pair<std::string, Look>>& entries,
               bool with_symbols);
 

@@ -45,7 +45,7 @@ std::string date() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std
 std::string command_line(const std::vector<std::string>& arguments) {
   std::string line;
   for (const auto& argument : arguments) line += (line.empty() ? "" : " ") + in_quotes(argument);
-  return made_utf8(line);  // names of files may be anything
+  return made_utf8(line);  // file names may be any bytes
 }
 
 void add_build(Provenance& provenance) {

@@ -13,17 +13,17 @@ namespace riesel::io {
 /// Names and values, in the order in which they are worth reading. Values may have several lines.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
-/// What only the command knows of a run.
+/// What only the command knows about a run.
 struct RunOrigin {
   std::vector<std::string> arguments;  ///< argv
   std::int64_t seed = 0;
   int threads = 1;
   std::string source;                     ///< the user's settings file, verbatim
   std::string settings;                   ///< the effective settings, YAML
-  std::optional<std::uint64_t> run = {};  ///< see Checkpoint::run; of what can be resumed
+  std::optional<std::uint64_t> run = {};  ///< see Checkpoint::run; only if the run can be resumed
 };
 
-/// The name of RunOrigin::run in there, as 16 hexadecimal digits.
+/// The name of RunOrigin::run in a Provenance, where it has 16 hexadecimal digits.
 inline constexpr auto run_key = "run";
 
 /// The origin, the build, the libraries, the machine, the batch job if any, and the present time

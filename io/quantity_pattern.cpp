@@ -1,4 +1,4 @@
-// Regular expressions for quantities, in the words that all dialects share.
+// Regular expressions for quantities, in the syntax that all dialects share.
 #include "io/settings_schema.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace {
 const std::string prefix = "(?:da|[YZEPTGMkhdcmu\u00b5npfazy])?";
 const std::string long_prefix = "(?:kilo|centi|milli|micro|nano)?";
 
-/// The usual names of a unit that is a single word; empty if it is not known here.
+/// The usual names of a unit that is a single word; empty if this file does not know it.
 std::string names_of_unit(const std::string& unit) {
   static const std::map<std::string, std::string> known = {
       {"m", prefix + "m|" + long_prefix + "met(?:er|re)s?"},
@@ -31,7 +31,7 @@ std::string aliases_of_unit(const std::string& unit) {
   return "";
 }
 
-/// "N/m", "m/s^2", "1/s": one word above and one below; empty if it is something else.
+/// For "N/m", "m/s^2", "1/s", one word on each side of the slash; empty for anything else.
 std::string pattern_of_quotient(const std::string& unit) {
   const auto slash = unit.find('/');
   const std::string above = unit.substr(0, slash);

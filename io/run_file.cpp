@@ -44,8 +44,8 @@ void copy_texts(const StoredGroup& from, Hdf5Group& to) {
     if (!from.is_group(name)) to.write_text(name, from.text(name));
 }
 
-/// The texts of the start, and those of each resume in a group of its own. (No deeper: a damaged
-/// group may hold itself.)
+/// The texts of the start, and those of each resume, which are in groups of their own. (No deeper:
+/// a damaged group may contain itself.)
 void copy_history(const StoredGroup& from, Hdf5Group& to) {
   copy_texts(from, to);
   for (const auto& name : from.names()) {
@@ -135,7 +135,7 @@ void write_walls(Hdf5Group group, const State& state) {
   write_column<double>(group, "spacing", "m", spacing);
 }
 
-/// Which run they are of: a text that is the same in a resume.
+/// Identifies the run of a provenance, the same after a resume; empty if it cannot be resumed.
 std::string run_of(const Provenance& provenance) {
   const auto found = std::ranges::find(provenance, run_key, &Provenance::value_type::first);
   return found == provenance.end() ? "" : found->second;
@@ -147,7 +147,7 @@ void require_same_run(const StoredGroup& old, const Provenance& provenance) {
 
 }  // namespace
 
-/// The file in memory, and the rows that are not yet in there.
+/// The file in memory, and the rows that it does not contain yet.
 class RunFile::Contents {
 public:
   Contents(fs::path path, std::vector<Column> columns)
@@ -160,7 +160,7 @@ public:
   Hdf5Group root() const { return file_.root(); }
   std::int64_t rows() const { return rows_; }
 
-  /// Takes the first rows over from the series of another file.
+  /// Copies the first rows of the series of another file. Throws Hdf5Error if they do not fit.
   void take_rows(const StoredGroup& from, std::int64_t rows) {
     if (const auto found = from.text_attribute("columns"); found != names_of(columns_)) {
       throw Hdf5Error(fmt::format("its series are {} instead of {}", found, names_of(columns_)));

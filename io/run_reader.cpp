@@ -19,14 +19,14 @@
 namespace riesel::io {
 namespace {
 
-/// In the order of a report. What is about files (settings, source) is not among it.
+/// In the order of a report. Texts of whole files (settings, source) are left out.
 constexpr auto told_of_provenance = {
     "date",         "command",   "threads",      "seed",         "riesel_version",
     "git_commit",   "git_dirty", "compiler",     "flags",        "build_type",
     "cpu",          "host",      "slurm_job_id", "hdf5_version", "yaml_cpp_version",
     "eigen_version"};
 
-/// The parts of the stress by what carries them are left to who asks for them.
+/// The parts of the stress, by what carries them, are left out: the report does not show them.
 constexpr auto told_of_profiles = {"area_fraction", "mean_axial_velocity", "temperature_x",
                                    "temperature_y", "stress_xx",           "stress_xy",
                                    "stress_yy"};
@@ -40,7 +40,7 @@ std::vector<double> read_numbers(const StoredGroup& group, const std::string& na
   return values;
 }
 
-/// Rows of two components, one after the other.
+/// Rows of two components, x and y by turns.
 std::vector<double> read_pairs(const StoredGroup& group, const std::string& name,
                                std::size_t rows) {
   const auto data = group.data(name);
@@ -194,7 +194,7 @@ const Named& find(const std::vector<Named>& all, const std::string& name, const 
   return *found;
 }
 
-/// What `read` makes of the root of the file.
+/// Calls `read` with the root of the file and returns its result.
 template <class Read>
 auto read_file(const std::filesystem::path& path, Read read) {
   try {

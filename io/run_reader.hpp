@@ -1,4 +1,4 @@
-// run.h5 read back: what a report of a run that is over needs of it.
+// run.h5 read back: what the report of a finished run needs of it.
 #pragma once
 
 #include "engine/box.hpp"
@@ -15,14 +15,14 @@
 
 namespace riesel::io {
 
-/// /final: what there is to see of a State.
+/// /final: the parts of a State that a report shows.
 struct FinalState {
   Box box{};
   double time = 0.0;  ///< s
   std::int64_t step = 0;
-  std::vector<Grain> grains;  ///< a grain's id is its place
+  std::vector<Grain> grains;  ///< a grain's id is its index
   std::vector<WallLattice> walls;
-  std::vector<Contact> contacts;  ///< their names fit the grains and the walls
+  std::vector<Contact> contacts;  ///< their names refer to these grains and walls
 
   double mean_diameter() const;  ///< m
 };
@@ -32,7 +32,7 @@ struct Series {
   std::vector<double> values;
 };
 
-/// A quantity across the tube, by strip; not a number where it is not known.
+/// A quantity across the tube, a value per strip; NaN where it is unknown.
 struct ProfileWithErrors {
   Column column;
   std::vector<double> values, errors;
@@ -47,17 +47,17 @@ struct Profiles {
   const ProfileWithErrors& named(const std::string& name) const;
 };
 
-/// One of /histograms: how often contacts or visits ended after the transient, by bin.
+/// One of /histograms: how many contacts or visits ended per second after the transient, by bin.
 struct HistogramWithErrors {
-  Column column;                      ///< of what stands on the axis
+  Column column;                      ///< of the quantity on the axis
   std::vector<double> lower_edges;    ///< of the bins, positive and ascending
-  std::vector<double> rates, errors;  ///< 1/s; not a number where they are not known
+  std::vector<double> rates, errors;  ///< 1/s; NaN where they are unknown
 };
 
-/// What tells by whom and how a run was made.
+/// How a run was made, see Provenance.
 struct RunHistory {
   Provenance start;
-  std::vector<Provenance> resumes;  ///< the same of each time it was resumed
+  std::vector<Provenance> resumes;  ///< one for each time that the run was resumed
 };
 
 struct RunContents {
@@ -72,10 +72,10 @@ struct RunContents {
   const HistogramWithErrors& histogram_of(const std::string& name) const;
 };
 
-/// Throws FileError if the file cannot be read, is damaged, or is of something else than a flow.
+/// Throws FileError if the file cannot be read, is damaged, or is not that of a flow.
 RunContents read_run_file(const std::filesystem::path& path);
 
-/// Of any run. Throws FileError as above.
+/// Of any kind of run. Throws FileError if the file cannot be read or is damaged.
 RunHistory read_run_history(const std::filesystem::path& path);
 
 }  // namespace riesel::io

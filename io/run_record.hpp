@@ -1,8 +1,8 @@
 // attempts.json: how often a point of a sweep was started, and why it failed if it did.
 //
-// It stands in the directory of the point and is written by whoever runs the point, so that many
-// processes can work on one sweep. A run that failed for a reason would fail again; a run that was
-// merely stopped has no failure here.
+// It is in the directory of the point and is written by the process that runs the point, so that
+// many processes can work on one sweep. A run that failed for a reason would fail again; a run that
+// was merely stopped has no failure here.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ struct RunRecord {
   std::string failure;  ///< the reason; empty if the last attempt did not fail
 };
 
-/// Of the run in `directory`; all zero if there is none or it cannot be understood.
+/// The record of the run in `directory`; no attempts if there is none or it cannot be read.
 RunRecord read_run_record(const std::filesystem::path& directory);
 
 /// Throws FileError.

@@ -13,8 +13,8 @@
 namespace riesel::io {
 namespace {
 
-/// The value of a key that must be there, be it because the table says so or because has() was
-/// asked.
+/// The value of a key that must have one, either because the table says so or because the caller
+/// has asked has().
 template <typename T>
 const T& value_of(const SettingsContents& contents, const std::string& key) {
   const auto* entry = contents.find(key);

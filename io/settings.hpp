@@ -1,10 +1,10 @@
 // The settings of a run: a YAML file, checked against the table of its scenario and turned into SI
 // values.
 //
-// All of the file is checked before anything is handed out, so that a scenario reads values that
-// exist, have the right kind, lie in their range and are in SI units. What is left to a scenario
-// are conditions between several settings; it reports those through reject(), which points at the
-// place in the user's file.
+// All of the file is checked before anything is handed out, so that the values that a scenario
+// reads exist, have the right kind, lie in their range and are in SI units. Conditions between
+// several settings are left to the scenario; it reports a violation through reject(), which points
+// at the place in the user's file.
 #pragma once
 
 #include "io/settings_error.hpp"
@@ -27,7 +27,7 @@ struct YamlNode;
 class Settings {
 public:
   /// Reads a file. `overrides` are "key=value" with the value in YAML's flow style; they replace or
-  /// add to what the file says, the last one of a key wins; "key=" takes the key out. Throws
+  /// add to what the file says, the last one for a key wins; "key=" removes the key. Throws
   /// SettingsError.
   static Settings from_file(const std::filesystem::path& file, const SettingsTables& tables,
                             const std::vector<std::string>& overrides = {});
@@ -37,15 +37,15 @@ public:
                             const SettingsTables& tables,
                             const std::vector<std::string>& overrides = {});
 
-  /// The same from a map that was parsed from `text` before, and overrides with dotted keys that
-  /// know where they were written.
+  /// The same from a map that was parsed from `text` before, and from overrides with dotted keys
+  /// that carry the place where they were written.
   static Settings from_yaml(const YamlNode& file, const std::string& text,
                             const SettingsTables& tables, const std::vector<YamlEntry>& overrides);
 
   const std::string& scenario() const;
 
-  /// Values in the SI unit of the table. Keys that the table does not hold, of another kind, or
-  /// without a value (see has()) are mistakes of the program: std::logic_error.
+  /// Values in the SI unit of the table. Asking for a key that is not in the table, is of another
+  /// kind, or has no value (see has()) is a mistake of the program: throws std::logic_error.
   double number(const std::string& key) const;
   std::int64_t integer(const std::string& key) const;
   const std::string& text(const std::string& key) const;  ///< choices too
@@ -64,17 +64,17 @@ public:
   /// Rejects unless one and only one of the keys has a value.
   void require_exactly_one(const std::vector<std::string>& keys) const;
 
-  /// Settings file that gives the same values, bit by bit: each one written out in SI units,
+  /// A settings file that gives the same values, bit by bit: each one written out in SI units,
   /// defaults included.
   std::string effective_yaml() const;
 
   /// The part of it that belongs to the wanted rows of the table.
   std::string effective_yaml(const std::function<bool(const Setting&)>& wanted) const;
 
-  /// The keys that have a value, of those rows that are wanted.
+  /// The keys of the wanted rows that have a value.
   std::vector<std::string> keys(const std::function<bool(const Setting&)>& wanted) const;
 
-  /// The value of a key of any kind as effective.yaml has it; empty if there is none.
+  /// The value of a key of any kind as effective.yaml writes it; empty if it has none.
   std::string written(const std::string& key) const;
 
   /// The file verbatim, without the overrides.
@@ -83,7 +83,7 @@ public:
 private:
   explicit Settings(std::shared_ptr<const SettingsContents> contents);
 
-  /// Shared by copies, as nothing can change it.
+  /// Shared by copies, as it never changes.
   std::shared_ptr<const SettingsContents> contents_;
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 using Entry = SettingsContents::Entry;
 
-/// Conditions refer to earlier rows, see verify_table(): those that count have a value.
+/// Whether the condition is met. It refers to an earlier row (see verify_table()), which has a
+/// value unless its own condition is unmet.
 bool holds(const When& when, const SettingsContents& contents) {
   const auto* entry = contents.find(when.key);
   if (entry == nullptr) return false;
@@ -42,14 +43,14 @@ Entry read_row(const Setting& row, const GivenSettings& given, const SettingsCon
   return {row, read_default(row), {}};
 }
 
-/// Why a row does not count: the first of the conditions that it depends on.
+/// Why a row does not apply: the first unmet one of the conditions that it depends on.
 When unmet_condition(const std::string& key, const SettingsContents& contents) {
   const When& condition = std::ranges::find(contents.table, key, &Setting::key)->only_when.value();
   return contents.find(condition.key) != nullptr ? condition
                                                  : unmet_condition(condition.key, contents);
 }
 
-/// A setting without effect would be a lie about the run.
+/// A setting without effect would misrepresent the run.
 void refuse_idle_setting(const std::string& key, const Place& place,
                          const SettingsContents& contents) {
   const When condition = unmet_condition(key, contents);
@@ -58,7 +59,7 @@ void refuse_idle_setting(const std::string& key, const Place& place,
                       fmt::format("remove it; it applies only when {}", to_string(condition)));
 }
 
-/// Reads the rows of a table one by one, past mistakes.
+/// Reads the rows of a table one by one, and goes on after mistakes.
 class RowReader {
 public:
   RowReader(const GivenSettings& given, SettingsContents& contents, Mistakes& mistakes)
@@ -70,7 +71,7 @@ public:
       return;
     }
     if (row.only_when && !holds(*row.only_when, contents_)) return;
-    // What is missing may be what is misspelt.
+    // A setting that seems to be missing may have been given under a misspelt key.
     const bool is_given = given_.by_key.contains(row.key);
     const bool known = (row.required && !is_given && mistakes_.any()) ? false : mistakes_.note([&] {
       contents_.entries.push_back(read_row(row, given_, contents_));
@@ -90,7 +91,7 @@ private:
   const GivenSettings& given_;
   SettingsContents& contents_;
   Mistakes& mistakes_;
-  std::set<std::string> unknown_;  // what they are, or whether they count
+  std::set<std::string> unknown_;  // keys of unknown value, or unknown whether they apply
 };
 
 }  // namespace

@@ -25,18 +25,18 @@ struct SettingsContents {
   std::string source;                     ///< the file's name
   std::string source_text;                ///< verbatim
   SettingsTable table;                    ///< of the scenario
-  std::map<std::string, Place> sections;  ///< those that the file has
+  std::map<std::string, Place> sections;  ///< that are present in the file
   std::vector<Entry> entries;             ///< in table order, no key twice
 
-  /// Nothing if the table does not hold the key or no condition for it holds.
+  /// nullptr if the table does not hold the key, or if it holds it only under unmet conditions.
   const Entry* find(const std::string& key) const;
 
-  /// Of the key; if it was not given, of its innermost section that the file has; if there is none,
-  /// the file's beginning.
+  /// The place of the key; if it was not given, that of its innermost section in the file; if there
+  /// is none, the beginning of the file.
   Place place_of(const std::string& key) const;
 };
 
-/// `text` is what the map `file` was parsed from. Throws SettingsError.
+/// `file` is the map that was parsed from `text`. Throws SettingsError.
 SettingsContents read_settings(const YamlNode& file, const std::string& text,
                                const SettingsTables& tables,
                                const std::vector<YamlEntry>& overrides);
@@ -45,7 +45,7 @@ SettingsContents read_settings(const YamlNode& file, const std::string& text,
 std::string effective_yaml(const SettingsContents& contents,
                            const std::function<bool(const Setting&)>& wanted);
 
-/// A value as effective.yaml has it.
+/// A value as effective.yaml writes it.
 std::string written(const SettingsContents::Entry& entry);
 
 }  // namespace riesel::io

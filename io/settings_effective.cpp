@@ -13,8 +13,8 @@ using Entry = SettingsContents::Entry;
 
 constexpr std::size_t numbers_per_line = 4;
 
-/// The fewest digits that read back to the same double. There is always a point, because readers of
-/// YAML 1.1 (Python's is one) take "1e-06" for a text.
+/// The fewest digits that read back to the same double. Always with a point, because readers of
+/// YAML 1.1 (such as Python's) take "1e-06" for a text.
 std::string written(double value) {
   auto text = fmt::format("{}", value);
   if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
@@ -24,7 +24,7 @@ std::string written(double value) {
 std::string written(std::int64_t value) { return fmt::format("{}", value); }
 std::string written(bool value) { return value ? "true" : "false"; }
 std::string written(Auto) { return "auto"; }
-/// YAML takes all that JSON does but for one character.
+/// A text in JSON is one in YAML too, but for one character (DEL).
 std::string written(const std::string& text) {
   std::string quoted = nlohmann::json(text).dump();
   for (auto at = quoted.find('\x7f'); at != std::string::npos; at = quoted.find('\x7f', at))
@@ -50,7 +50,7 @@ std::string line(const Entry& entry) {
 
 using Wanted = std::function<bool(const Setting&)>;
 
-/// The wanted keys of a section; those outside of sections for "".
+/// The lines of the wanted keys of a section; for "", of those at the top level.
 std::vector<std::string> lines_of(const SettingsContents& contents, const std::string& section,
                                   const Wanted& wanted) {
   std::vector<std::string> lines;
@@ -61,7 +61,7 @@ std::vector<std::string> lines_of(const SettingsContents& contents, const std::s
   return lines;
 }
 
-/// All that is wanted of a section, its own sections last.
+/// The wanted settings of a section, its subsections last.
 std::string text_of(const SettingsContents& contents, const std::string& section,
                     const Wanted& wanted, const std::string& indent) {
   std::string text;

@@ -22,9 +22,9 @@ std::string to_string(const Place& place);
 /// Bad input. what() is "FILE:LINE:COLUMN: key: problem; remedy", on one line.
 class SettingsError : public std::runtime_error {
 public:
-  /// `key` is the dotted path, or empty if the problem is not that of a key.
+  /// `key` is the dotted path, or empty if the problem does not concern a key.
   SettingsError(Place place, std::string key, std::string problem, std::string remedy);
-  /// The same as the first, with what() of them all.
+  /// The first of several errors, with a what() that covers them all.
   SettingsError(const SettingsError& first, const std::string& what_of_all);
 
   const Place& place() const { return place_; }
@@ -39,10 +39,11 @@ private:
   std::string remedy_;
 };
 
-/// Those of one file or command line, told together.
+/// The mistakes in one file or command line, which are reported together.
 class Mistakes {
 public:
-  /// Calls read() and keeps the SettingsError that it throws; whether there was none.
+  /// Calls read() and keeps a SettingsError that it throws; true if it throws none. The twentieth
+  /// mistake is thrown at once, as by throw_if_any().
   template <class Read>
   bool note(Read read) {
     try {
@@ -56,7 +57,7 @@ public:
   }
 
   bool any() const { return !all_.empty(); }
-  /// Throws the SettingsError of the first in the file; its what() has one line for each.
+  /// Throws a SettingsError for the first in the file, whose what() has one line for each.
   void throw_if_any();
 
 private:

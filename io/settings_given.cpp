@@ -35,7 +35,7 @@ std::string in_sections(const std::string& key) {
   return fmt::format("{}: {{{}}}", key.substr(0, dot), in_sections(key.substr(dot + 1)));
 }
 
-/// The scenario decides about the table, so it is looked for before anything else is checked.
+/// The scenario decides which table applies, so it is read before anything else is checked.
 std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& overrides,
                           const SettingsTables& tables) {
   Setting row = {.key = "scenario", .kind = Kind::choice};
@@ -57,7 +57,7 @@ std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& ov
   return std::get<std::string>(read_value(row, *node));
 }
 
-/// Sorts entries into the collection, under the rules of one scenario.
+/// Collects entries under the rules of one scenario.
 class Gatherer {
 public:
   Gatherer(std::string scenario, const SettingsTables& tables, Mistakes& mistakes)

@@ -44,7 +44,7 @@ std::vector<std::string> sections_with(const std::string& name, const SettingsTa
   return sections;
 }
 
-/// For a key that is right but stands in the wrong section.
+/// For a correct key in the wrong section.
 std::optional<std::string> misplaced_remedy(const std::string& key, const SettingsTable& table) {
   const auto name = name_in_section(key);
   if (name != key && has_key(table, name)) {
@@ -86,7 +86,7 @@ std::optional<std::string> mistyped_remedy(const std::string& key, const Setting
   return {};
 }
 
-/// For keys that are no keys: YAML took something else apart.
+/// For text that is no key: YAML has split something else.
 std::optional<std::string> yaml_remedy(const std::string& key) {
   const auto name = name_in_section(key);
   if (const auto colon = name.find(':'); colon != std::string::npos && colon + 1 < name.size()) {

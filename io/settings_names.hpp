@@ -9,12 +9,12 @@
 
 namespace riesel::io {
 
-/// The candidate with the fewest typing errors from `name` (insertion, deletion, replacement or
-/// swap of a letter, case ignored); nothing if even that one is too different to be what was meant.
+/// The candidate that is the fewest typing errors from `name` (insertion, deletion, replacement or
+/// swap of a letter, case ignored); nothing if even that one differs too much to have been meant.
 std::optional<std::string> nearest_name(const std::string& name,
                                         const std::vector<std::string>& candidates);
 
-/// "did you mean 'b'?", of the nearest_name(); nothing if there is none.
+/// "did you mean 'b'?", with the nearest_name(); nothing if there is none.
 std::optional<std::string> did_you_mean(const std::string& name,
                                         const std::vector<std::string>& candidates);
 

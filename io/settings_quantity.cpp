@@ -14,12 +14,13 @@
 namespace riesel::io {
 namespace {
 
-/// Per list; so few that effective.yaml, which writes out each one, stays readable to this program.
+/// Per list. Few enough that effective.yaml, which writes out each one, is short enough for this
+/// program to read.
 constexpr std::size_t most_values = 10'000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The remedy for what does not even begin with a number.
+/// The remedy for a text that does not even begin with a number.
 std::string no_numeral_remedy(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const auto* name : {"inf", "nan"}) {
@@ -28,14 +29,14 @@ std::string no_numeral_remedy(std::string text) {
   return "begin with the number, as in the example";
 }
 
-/// 017 is 15 to some readers of YAML and 17 to others.
+/// Some readers of YAML take 017 for 15, others for 17.
 bool has_leading_zero(std::string_view numeral) {
   if (numeral.starts_with('-')) numeral.remove_prefix(1);
   return numeral.size() > 1 && numeral[0] == '0' && is_digit(numeral[1]);
 }
 
-/// The remedy for numbers that are written as in other places of the world or in programs; empty if
-/// this is none.
+/// The remedy for numbers written as in other countries or in programs; empty if the number is not
+/// one of these.
 std::string odd_numeral_remedy(const QuantityText& quantity) {
   if (has_leading_zero(quantity.numeral)) return "remove the leading zero, it looks octal";
   if (quantity.unit.empty() || quantity.unit.starts_with("1/")) return "";
@@ -48,7 +49,7 @@ std::string odd_numeral_remedy(const QuantityText& quantity) {
   return "";
 }
 
-/// The rows of {from, to, points, spacing}, so that its parts are read and checked like any
+/// The rows of {from, to, points, spacing}, so that its parts are read and checked like any other
 /// setting.
 SettingsTable span_rows(const Setting& row) {
   SettingsTable rows(2, row);
@@ -80,7 +81,7 @@ SettingValue read_span_entry(const Setting& entry_row, const YamlNode& map) {
   return read_value(entry_row, entry->value);
 }
 
-/// Interpolated in the logarithm or not; both ends come out exactly.
+/// Values at equal distances, or at equal ratios; both ends are exact.
 std::vector<double> spread(double from, double to, std::int64_t points, bool logarithmic) {
   std::vector<double> values;
   for (std::int64_t i = 0; i < points; ++i) {

@@ -1,4 +1,4 @@
-// Quantities in settings: numbers with or without a unit, and the ways to write many of them.
+// Quantities in settings: numbers with or without a unit, and the ways to write several of them.
 #pragma once
 
 #include "io/settings_table.hpp"
@@ -10,7 +10,7 @@ namespace riesel::io {
 
 struct YamlNode;
 
-/// In the row's unit, finite and in its range. Throws SettingsError at the node's place.
+/// The value in the row's unit, finite and in its range. Throws SettingsError at the node's place.
 double read_quantity(const Setting& row, const YamlNode& node);
 
 /// From a list of quantities, a single one, or {from, to, points, spacing}, whose first and last

@@ -23,7 +23,7 @@ On the command line, `--set contact.friction=0.3` replaces or adds a value, and 
 the file gives. A key with two dots is in a section of a section: `run: {until: {relative_error: 1 %, at_most: 20 s}}`.
 )";
 
-/// Quantities say their unit, numbers of other kinds their kind.
+/// The unit of a quantity, the kind of any other value.
 std::string kind_text(const Setting& row) {
   const auto unit = row.unit.empty() ? "SI number without unit" : row.unit;
   switch (row.kind) {
@@ -48,7 +48,7 @@ std::string kind_text(const Setting& row) {
 }
 
 std::string value_text(const Setting& row) {
-  // The kind tells the unit, except for angles: their ranges are in degrees.
+  // The kind gives the unit, except for angles, whose ranges are in degrees.
   const auto range = to_string(row.range, row.unit == "rad" ? row.unit : "");
   return range.empty() ? kind_text(row) : fmt::format("{}, {}", kind_text(row), range);
 }
@@ -74,19 +74,19 @@ std::string line(const Setting& row) {
 
 using Names = std::vector<std::string>;
 
-/// What is shared by most scenarios comes first.
+/// What more scenarios share comes first.
 struct MostFirst {
   bool operator()(const Names& a, const Names& b) const {
     return a.size() == b.size() ? a < b : a.size() > b.size();
   }
 };
 
-/// Fewer lines are not worth a section of several scenarios: each repeats them.
+/// Fewer shared lines do not get a section of their own: each scenario repeats them.
 constexpr std::size_t least_shared = 3;
 
-/// The lines of the tables, by the scenarios in which they are the same.
+/// The lines of the tables, by the scenarios that share them.
 std::map<Names, std::vector<std::string>, MostFirst> sections(const SettingsTables& tables) {
-  std::map<std::string, Names> sharing;  // a line
+  std::map<std::string, Names> sharing;  // by line
   for (const auto& [scenario, table] : tables)
     for (const auto& row : table) sharing[line(row)].push_back(scenario);
   std::map<Names, std::size_t> shared;

@@ -1,5 +1,5 @@
-// The reference page of the settings, written from the rows that also check them: the manual cannot
-// be out of date.
+// The reference page of the settings, written from the same rows that check them, so that the
+// manual cannot be out of date.
 #pragma once
 
 #include "io/settings_table.hpp"
@@ -8,8 +8,8 @@
 
 namespace riesel::io {
 
-/// Markdown: the settings that all scenarios share, then those that some do, then those of each
-/// scenario alone.
+/// Markdown: the settings that all scenarios share, then those that several share, then those of
+/// each scenario alone.
 std::string settings_reference(const SettingsTables& tables);
 
 }  // namespace riesel::io

@@ -23,7 +23,8 @@ Json in_range(const char* type, const Range& range) {
   return schema;
 }
 
-/// A number, or a text with a unit. The range counts for numbers; of texts only the sign is seen.
+/// A number, or a text with a unit. The range applies to numbers; of a text only the sign is
+/// checked.
 Json quantity(const Setting& row) {
   const std::string pattern = quantity_pattern(row.unit, row.range.low < 0.0);
   return {{"anyOf", {in_range("number", row.range), {{"type", "string"}, {"pattern", pattern}}}}};
@@ -79,7 +80,7 @@ Json described(const Setting& row) {
 
 // --- a scenario ---
 
-/// What a file must be if the setting has such a schema: the sections that lead to it around it.
+/// A file whose setting `key` fits `schema`: wraps the schema in the sections that lead to the key.
 Json around(const std::string& key, const Json& schema, bool required) {
   Json inner = {{"properties", {{name_in_section(key), schema}}}};
   if (required) inner["required"] = {name_in_section(key)};
@@ -87,7 +88,7 @@ Json around(const std::string& key, const Json& schema, bool required) {
   return section.empty() ? inner : around(section, inner, required);
 }
 
-/// That `when` holds, and the setting that it refers to counts; one that is not given has its
+/// The file meets `when`, and the setting that it refers to applies; one that is not given has its
 /// default.
 Json condition(const When& when, const SettingsTable& table) {
   const auto row = std::ranges::find(table, when.key, &Setting::key);
@@ -97,7 +98,7 @@ Json condition(const When& when, const SettingsTable& table) {
   return {{"allOf", Json::array({own, condition(*row->only_when, table)})}};
 }
 
-/// The names of a section, or of the file, for completion.
+/// The names in a section, or at the top level of a file, for completion.
 Json section(const SettingsTable& table, const std::string& path) {
   Json properties = Json::object();
   for (const std::string& part : names_of(table, path)) {
@@ -114,7 +115,7 @@ Json section(const SettingsTable& table, const std::string& path) {
   return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
 }
 
-/// Keys that count under conditions: where none holds they are mistakes.
+/// Keys with conditions: where none of these is met, the key is a mistake.
 Json conditions(const SettingsTable& table) {
   Json all = Json::array();
   std::map<std::string, When> when_any;
@@ -150,7 +151,7 @@ std::vector<std::string> names_of_scenarios(const SettingsTables& tables) {
   return names;
 }
 
-/// Of a settings file; `scenarios`: the definitions.
+/// Of a settings file. Refers to /definitions for the schema of each scenario.
 Json file_schema(const SettingsTables& tables) {
   Json choices = Json::array();
   for (const auto& [name, table] : tables)
@@ -172,7 +173,7 @@ Json definitions(const SettingsTables& tables) {
 
 // --- sweeps ---
 
-/// For each dotted key `of` the rows that it has in some scenario.
+/// For each dotted key, what `of` makes of the rows that it has in any scenario.
 template <class Of>
 Json overrides(const SettingsTables& tables, Of of) {
   std::map<std::string, std::vector<Json>> by_key;

@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  /// Whether the row counts as long as all choices are the default.
+  /// Whether the row applies as long as all choices have their defaults.
   bool counts(const Setting& row) const {
     if (!row.only_when) return true;
     const auto choice = std::ranges::find(*table_, row.only_when->key, &Setting::key);
@@ -61,14 +61,14 @@ private:
 
   bool gives(const Setting& row) const { return counts(row) && !row.starter.empty(); }
 
-  /// Whether a setting of the section stands there as one.
+  /// Whether the file gives any setting of the section.
   bool is_given(const std::string& section) const {
     return std::ranges::any_of(*table_, [&](const Setting& row) {
       return row.key.starts_with(section + ".") && gives(row);
     });
   }
 
-  /// A line that begins with a # in the first column if it is not given.
+  /// A line, with a # in the first column if the setting is not given.
   static std::string setting(const std::string& key, const std::string& value, bool given) {
     return fmt::format("{}{}{}:{}{}\n", given ? "" : "#", indent(section_of(key)),
                        name_in_section(key), value.empty() ? "" : " ", value);
@@ -83,7 +83,8 @@ private:
     return "...";
   }
 
-  /// Within the range: a number without a unit may be a part of something, or several times it.
+  /// Within the range: a number without a unit may be a fraction or a multiple, so that the usual
+  /// example does not always fit.
   static std::string example_of(const Setting& row) {
     const std::string example = describe_unit(row.unit).example;
     const bool is_pure = example.find(' ') == std::string::npos;

@@ -1,5 +1,5 @@
-// A settings file to begin with, from the rows that also check it: what has no default is given,
-// all else stands there as a comment.
+// A settings file to begin with, made from the same rows that check it: settings that have a
+// `starter` are given, all others appear as comments.
 #pragma once
 
 #include "io/settings_table.hpp"

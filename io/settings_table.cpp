@@ -21,7 +21,7 @@ void append_once(std::vector<std::string>& names, const std::string& name) {
   if (std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
-/// What follows the prefix in the keys that have it, up to the next dot.
+/// What follows the prefix in the keys that begin with it, up to the next dot.
 std::vector<std::string> names_below(const SettingsTable& table, const std::string& prefix) {
   std::vector<std::string> names;
   for (const auto& row : table) {
@@ -38,8 +38,8 @@ bool exclude_each_other(const Setting& a, const Setting& b) {
          == a.only_when->values.end();
 }
 
-/// The condition must refer to a row before this one, so that one pass in table order decides about
-/// all rows. Where that row does not count itself, this one does not either.
+/// The condition must refer to an earlier row, so that one pass in table order decides which rows
+/// apply. Where that row does not apply, this one does not either.
 void verify_condition(const Setting& row, const SettingsTable& earlier_rows) {
   const auto condition_row = std::ranges::find(earlier_rows, row.only_when->key, &Setting::key);
   if (condition_row == earlier_rows.end() || condition_row->kind != Kind::choice

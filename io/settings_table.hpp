@@ -1,9 +1,9 @@
-// The table of settings: one row per key says all that is known about it, its kind, unit, default,
+// The table of settings: one row per key holds all that is known about it, its kind, unit, default,
 // range and meaning.
 //
 // Everything that deals with settings works from these rows: reading and checking a file, the
 // errors, the recorded effective.yaml and the reference page of the manual. So a new setting is one
-// new row, and no two of these can disagree. The rows that all scenarios share are in
+// new row, and these cannot contradict each other. The rows that all scenarios share are in
 // common_settings(); a scenario appends its own.
 #pragma once
 
@@ -20,7 +20,7 @@ enum class Kind {
   integer,  ///< fits into 64 bits
   choice,   ///< one of Setting::choices
   text,     ///< not empty
-  path,     ///< of a file or directory; relative to the settings file it stands in
+  path,     ///< of a file or directory; relative to the settings file that gives it
   boolean,  ///< true or false
   numbers,  ///< a list of quantities, one quantity, or {from, to, points, spacing: log | linear}
   integer_or_auto,  ///< an integer or the word auto
@@ -42,7 +42,7 @@ Range at_least(double low);
 Range between(double low, double high);      ///< both ends included
 Range above_up_to(double low, double high);  ///< `low` excluded, `high` included
 
-/// The condition that an earlier setting of kind choice has one of some values.
+/// The condition that an earlier setting of kind choice has one of these values.
 struct When {
   std::string key;
   std::vector<std::string> values;
@@ -53,19 +53,21 @@ struct When {
 struct Setting {
   std::string key = {};  ///< "name", "section.name" or "section.subsection.name"
   Kind kind = Kind::number;
-  std::string unit = {};  ///< SI unit of the stored value, "1" for pure numbers; empty: a bare SI
-                          ///< number, no unit is taken
+  std::string unit = {};      ///< SI unit of the stored value, "1" for pure numbers; empty: an SI
+                              ///< number, for which no unit is accepted
   std::string fallback = {};  ///< the default as YAML text; empty: none
-  std::string starter = {};  ///< the value in a new file, where the default would not do or is none
-  std::string example = {};  ///< the value in a new file, behind a #, of what has no default
+  /// The value in a new file, where there is no default or it would not do.
+  std::string starter = {};
+  std::string example = {};  ///< without a default: the value in a new file, in a comment
   bool required = false;     ///< an error if not given (and if `only_when` holds)
   Range range = {};
   std::vector<std::string> choices = {};
   std::string doc = {};  ///< for the reference page; ends with a full stop
-  /// The row counts only under this condition, and under that of the row it refers to.
+  /// The row applies only under this condition, and under that of the row it refers to.
   std::optional<When> only_when = {};
-  bool matters = true;         ///< the results depend on it
-  bool names_content = false;  ///< of a path: they depend on what stands in the file, not on where
+  bool matters = true;  ///< the results depend on it
+  /// Of a path: the results depend on what the file contains, not on its name.
+  bool names_content = false;
 };
 
 using SettingsTable = std::vector<Setting>;
@@ -76,12 +78,12 @@ using SettingsTables = std::map<std::string, SettingsTable>;
 /// The rows of all scenarios: scenario, seed, grains.rotation, contact.*, run.*.
 SettingsTable common_settings();
 
-/// Throws std::logic_error if a row contradicts itself or another one (in code, not in a user's
-/// file).
+/// Throws std::logic_error if a row contradicts itself or another one (a mistake in the code, not
+/// in a user's file).
 void verify_table(const SettingsTable& table);
 
-/// The part of a key before the last dot; empty for a key at the top level. So too the section that
-/// a section is in.
+/// The part of a key before the last dot; empty for a key at the top level. Likewise the section
+/// that a section is in.
 std::string section_of(const std::string& key);
 /// The part of a key after the last dot.
 std::string name_in_section(const std::string& key);
@@ -91,11 +93,11 @@ std::string key_of(const std::string& section, const std::string& name);
 bool has_key(const SettingsTable& table, const std::string& key);
 bool has_section(const SettingsTable& table, const std::string& section);
 
-/// The names within a section, those of its own sections too, in table order, each once; of "" what
-/// stands at the top level of a file.
+/// The names within a section, including those of its own sections, in table order, each once; for
+/// "", the names at the top level of a file.
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section);
 
-/// "above 0 m", "from 1 to 1024", ..., of angles in degrees; empty if anything goes.
+/// "above 0 m", "from 1 to 1024", ...; for angles in degrees; empty if there is no limit.
 std::string to_string(const Range& range, const std::string& unit);
 /// "contact.law is power or hertz"
 std::string to_string(const When& when);

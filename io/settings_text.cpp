@@ -60,8 +60,7 @@ std::string read_settings_text(const std::filesystem::path& file) {
     throw SettingsError({source}, "", fmt::format("cannot be opened ({})", reason),
                         "check the path");
   }
-  // Sizes reported by the file system mean nothing for pipes, hence one byte more than allowed is
-  // tried.
+  // The file system does not know the size of a pipe, so one byte more than allowed is read.
   std::string text(largest_settings_text + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) throw SettingsError({source}, "", "cannot be read", "check the file");

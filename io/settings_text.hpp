@@ -1,4 +1,4 @@
-// The bytes of a settings file, before any YAML: what must be true of them whatever they say.
+// The bytes of a settings file before YAML: what must be true of them whatever they say.
 #pragma once
 
 #include "io/settings_error.hpp"
@@ -15,16 +15,16 @@ constexpr std::size_t largest_settings_text = 1'000'000;  ///< bytes
 /// The file verbatim. Throws SettingsError if it cannot be read, is a directory or is too large.
 std::string read_settings_text(const std::filesystem::path& file);
 
-/// With a line feed alone where lines end in carriage return and line feed.
+/// With each carriage return and line feed replaced by a line feed alone.
 std::string with_plain_line_ends(std::string_view text);
 
-/// The text as the YAML parser shall see it: without byte order mark, lines ending in \n. Throws
-/// SettingsError if it is too large, no UTF-8, contains control characters, or is indented with
+/// The text as the YAML parser is to see it: without byte order mark, lines ending in \n. Throws
+/// SettingsError if it is too large, is not UTF-8, contains control characters, or is indented with
 /// tabs.
 std::string clean_settings_text(std::string_view text, const std::string& source);
 
-/// Lines and columns of bytes of a text, counting columns in characters as editors do. Asking for
-/// places in ascending order takes time proportional to the text, once.
+/// The line and column of each byte in a text, columns counted in characters as editors do. Asking
+/// for places in ascending order takes time proportional to the text in all.
 class PlaceFinder {
 public:
   /// `text` must outlive the finder.

@@ -56,14 +56,14 @@ std::string read_text(const Setting& row, const YamlNode& node) {
   return text;
 }
 
-/// Absolute, so that the recorded settings mean the same wherever they are kept. What was not
-/// written in a file is relative to where the user is.
+/// Absolute, so that the recorded settings mean the same wherever they are moved. A path that is
+/// not written in a file is relative to the working directory.
 std::string read_path(const Setting& row, const YamlNode& node) {
   namespace fs = std::filesystem;
   const bool from_file = node.place.line > 0;
   const auto home = from_file ? fs::path(node.place.source).parent_path() : fs::path();
   std::string path = fs::absolute(home / read_text(row, node)).lexically_normal().string();
-  if (!is_utf8(path))  // nor would the files be in which it is recorded
+  if (!is_utf8(path))  // nor would the files that record it be
     refuse_value(row, node, "its whole path, " + path + ", is not UTF-8: rename that directory");
   return path;
 }

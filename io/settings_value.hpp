@@ -1,4 +1,4 @@
-// From the text of a value to the value: what a row of the table makes of a node of the YAML tree.
+// From the text of a value to the value: how a row of the table reads a node of the YAML tree.
 #pragma once
 
 #include "io/settings_table.hpp"
@@ -32,7 +32,7 @@ std::string expectation(const Setting& row);
 /// Throws the SettingsError "expected ..., got ...; remedy" at the node's place.
 [[noreturn]] void refuse_value(const Setting& row, const YamlNode& node, const std::string& remedy);
 
-/// Throws SettingsError at the node's place if the value is outside of the row's range.
+/// Throws SettingsError at the node's place if the value is outside the row's range.
 void check_range(const Setting& row, const YamlNode& node, double value);
 
 }  // namespace riesel::io

@@ -20,7 +20,7 @@ namespace {
 // Settings need three levels; the limit keeps hostile files from exhausting the stack.
 constexpr std::size_t deepest_nesting = 8;
 
-/// Marks of yaml-cpp count bytes from 0, and are -1 where it does not know.
+/// Marks of yaml-cpp count bytes from 0, and are -1 where the position is unknown.
 std::size_t offset_of(const YAML::Mark& mark) {
   return mark.pos < 0 ? 0 : static_cast<std::size_t>(mark.pos);
 }
@@ -33,7 +33,7 @@ YamlNode make_node(YamlNode::Shape shape, Place place, std::string scalar = "") 
   return node;
 }
 
-/// yaml-cpp lets the end of the file close a quote.
+/// yaml-cpp itself lets the end of the file close a quote.
 bool quote_is_closed(std::string_view text, std::size_t opening) {
   const char quote = text[opening];
   const char escape = quote == '"' ? '\\' : '\'';  // 'it''s'
@@ -48,7 +48,7 @@ bool quote_is_closed(std::string_view text, std::size_t opening) {
   return false;
 }
 
-/// Builds the tree from the parser's events and refuses what has no business in a settings file.
+/// Builds the tree from the parser's events and refuses what does not belong in a settings file.
 class TreeBuilder : public YAML::EventHandler {
 public:
   /// All nodes get the place `everywhere`, if given, instead of their own.

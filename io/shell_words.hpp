@@ -1,4 +1,4 @@
-// Words as a shell takes them: for command lines that are kept, shown to be copied, or called.
+// Words quoted for a shell: for command lines that are stored, shown for copying, or executed.
 #pragma once
 
 #include <string>

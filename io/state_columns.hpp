@@ -1,4 +1,4 @@
-// The lists of a State in HDF5: one data set per member, which every reader understands.
+// The lists of a State in HDF5: one data set per member, so that any HDF5 reader understands them.
 #pragma once
 
 #include "engine/state.hpp"
@@ -15,7 +15,7 @@
 
 namespace riesel::io {
 
-/// Writes numbers with their unit, `components` of them in a row.
+/// Writes numbers with their unit, in rows of `components` numbers.
 template <Hdf5Number T>
 Hdf5Data write_column(Hdf5Group& group, const std::string& name, const std::string& unit,
                       std::span<const T> values, std::size_t components = 1) {
@@ -42,7 +42,8 @@ void read_column(const StoredGroup& group, const std::string& name, Vector& valu
   data.read(std::span<T>(values));
 }
 
-/// Exact sums stand as rows of two integers: the upper 64 bits, and the lower as if signed.
+/// Exact sums are stored as rows of two integers: the upper 64 bits, and the lower ones as if
+/// signed.
 void write_column(Hdf5Group& group, const std::string& name, const std::string& unit,
                   const std::vector<ExactSum>& sums);
 void read_column(const StoredGroup& group, const std::string& name, std::vector<ExactSum>& sums);

@@ -1,8 +1,8 @@
-// The names and units under which the parts of a State stand in files: one list for whoever writes
-// and whoever reads, so that the two cannot drift apart.
+// The names and units under which the parts of a State are stored in files: one list for both
+// writers and readers, so that the two cannot drift apart.
 //
-// A member that is added to one of these structures must be added here. The compiler says so: the
-// structured bindings and the sizes no longer match.
+// A member that is added to one of these structures must be added here. The compiler enforces it:
+// the structured bindings and the sizes no longer match.
 #pragma once
 
 #include "engine/state.hpp"
@@ -14,8 +14,8 @@
 namespace riesel::io {
 
 /// Calls visit(name, unit, array, number) for each array of the grains (const or not), or part of
-/// one: number(element) is the number that stands in the file. Those of spins come last, and are
-/// empty where the grains do not rotate.
+/// one: number(element) is the number that is stored. The spins come last; their arrays are empty
+/// where the grains do not rotate.
 template <class AnyGrains, class Visit>
 void for_each_array(AnyGrains& grains, Visit visit) {
   auto& [position, u, kick, radius, mass, id, spin, spin_kick, inertia] = grains;
@@ -204,8 +204,8 @@ void for_each_kind(AnyTally& tally, Visit visit) {
   visit("visits", tally.visits);
 }
 
-/// Calls visit(name, value) for each number that stands alone in a State (const or not), in SI
-/// units. The bindings name the rest, too, which for_each_array() and the others are for.
+/// Calls visit(name, value) for each scalar of a State (const or not), in SI units. The bindings
+/// also name the members that are left to for_each_array() and the others, as they must name all.
 template <class AnyState, class Visit>
 void for_each_scalar(AnyState& state, Visit visit) {
   auto& [box, walls, gravity, time_step, step, grains, contacts, open_visits, tally, origin] =

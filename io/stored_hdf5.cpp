@@ -22,7 +22,7 @@ constexpr Hdf5Type::Kind kind_of<std::uint64_t> = Hdf5Type::Kind::uint64;
 template <>
 constexpr Hdf5Type::Kind kind_of<double> = Hdf5Type::Kind::real64;
 
-/// What `read` returns; errors say what was attempted.
+/// Returns what `read` returns; its errors say what was attempted.
 template <class Read>
 auto attempt(const std::string& what, Read read) {
   try {
@@ -50,7 +50,7 @@ std::uint64_t find_root(const StoredBytes& bytes, std::size_t user_block) {
 }  // namespace
 
 void StoredBytes::give(std::uint64_t size) {
-  constexpr std::uint64_t copies = 16;  // whoever reads all of a file needs two or three
+  constexpr std::uint64_t copies = 16;  // reading all of a file takes two or three
   require(size <= copies * all.size() - given, "it shows the same bytes in too many places");
   given += size;
 }
@@ -104,7 +104,7 @@ Hdf5Shape StoredData::shape() const {
     const auto& extent = *header().extent;
     require(!extent.empty(), "it is no table");
     const Hdf5Shape shape{.rows = extent[0], .columns = extent.size() == 2 ? extent[1] : 1};
-    // As many elements as this have room in the file: the sizes below cannot overflow.
+    // The file has room for at most this many elements, so the sizes below cannot overflow.
     const auto most = bytes()->all.size() / header().type->size;
     require(shape.columns > 0 && shape.columns <= most, "its size is impossible");
     require(shape.rows <= most / shape.columns, "its size is impossible");

@@ -1,12 +1,13 @@
-// HDF5 files read back without trust: files of runs come from anywhere and may be damaged, or made
-// to do damage. HDF5's own library is not written for that: it may crash on such files, loads
-// plugins and opens other files if they say so, and reserves whatever memory they claim to need.
+// HDF5 files read back without trust: the files of a run may come from anywhere, and may be damaged
+// or made to do damage. HDF5's own library is not written for that: it may crash on such files,
+// loads plugins and opens other files if they say so, and allocates whatever memory they claim to
+// need.
 //
 // What this program writes is a small part of the format (classic groups, numbers and texts, one
-// filter), so the reader is small, too. It works on the bytes of the file and follows no address
-// out of them, copies no more out of the file than a few times its length, takes each step along a
-// tree forwards, and refuses all that this program does not write. The words for errors are those
-// of Hdf5Error.
+// filter), so the reader is small, too. It works on the bytes of the file, follows no address
+// outside them, copies out no more than a few times their number, only moves forwards along a tree,
+// and refuses everything that this program does not write. Its errors are worded like those of
+// HDF5's library, see Hdf5Error.
 #pragma once
 
 #include "io/hdf5_header.hpp"
@@ -25,11 +26,11 @@ namespace riesel::io {
 /// The bytes of a file, shared by all that is read from it.
 struct StoredBytes {
   std::vector<char> all;
-  Bytes content;            ///< behind the user block: addresses count from here
-  std::uint64_t given = 0;  ///< bytes that were copied out of it
+  Bytes content;            ///< after the user block: addresses count from here
+  std::uint64_t given = 0;  ///< bytes that were copied out so far
 
-  /// Counts what is copied out. A forged file may show the same bytes in many places: throws
-  /// Hdf5Error where it gives far more than it has.
+  /// Counts what is copied out. A forged file may contain the same bytes in many places: throws
+  /// Hdf5Error once far more has been copied than the file has.
   void give(std::uint64_t size);
 };
 
@@ -62,7 +63,7 @@ class StoredData : public StoredObject {
 public:
   Hdf5Shape shape() const;
 
-  /// All of it, row by row, into a span of rows * columns elements. T is the type that is stored.
+  /// All of it, row by row, into a span of rows * columns elements. T must be the stored type.
   template <Hdf5Number T>
   void read(std::span<T> values) const;
 
@@ -96,8 +97,8 @@ private:
   std::map<std::string, std::uint64_t> members_;  ///< addresses of their headers
 };
 
-/// The root of the HDF5 file with these bytes, of which the first `user_block` are not HDF5's.
-/// Throws Hdf5Error.
+/// The root group of the HDF5 file with these bytes, the first `user_block` of which are not
+/// HDF5's. Throws Hdf5Error.
 StoredGroup stored_hdf5(std::vector<char> bytes, std::size_t user_block);
 
 }  // namespace riesel::io

@@ -18,11 +18,12 @@
 
 namespace riesel::io {
 
-/// Of what stands in the file: raised when a name that a reader needs changes its meaning, goes, or
-/// comes. Version 1 had no number; in version 2 names have come until riesel 0.5.0.
+/// Version of the contents of the file: raised when a name that a reader needs changes its meaning,
+/// is removed, or is added. Version 1 had no number; names were added to version 2 until riesel
+/// 0.5.0.
 inline constexpr int summary_format = 2;
 
-/// What every summary tells.
+/// What every summary contains.
 struct RunSummary {
   std::string scenario;
   std::int64_t grains = 0;
@@ -33,7 +34,7 @@ struct RunSummary {
   int threads = 1;
 };
 
-/// Not a number stands as null in the file.
+/// A mean with its error. NaN is null in the file.
 using Measured = Estimate;
 
 /// Means are over the samples after the transient.
@@ -41,16 +42,16 @@ struct FlowSummary {
   RunSummary run;
   double time = 0.0;           ///< s, simulated
   double transient_end = 0.0;  ///< s
-  /// Why the run ended: `duration`, `precision` (its mean is known as well as was asked for) or
-  /// `at_most` (it is not, and the time was up).
+  /// Why the run ended: `duration`, `precision` (its mean has the precision that was asked for) or
+  /// `at_most` (it has not, but the time was up).
   std::string ended_by = "duration";
   std::string state;                  ///< steady, accelerating, drifting or too_short
-  std::string judged_by = "mean_vy";  ///< the series that `state` is a verdict on
-  Measured mean_axial_velocity;       ///< m/s; while a flow accelerates its error is not known
+  std::string judged_by = "mean_vy";  ///< the series that `state` was judged by
+  Measured mean_axial_velocity;       ///< m/s; while a flow accelerates its error is unknown
   double independent_samples = 0.0;
   double granular_temperature = 0.0;  ///< (m/s)^2
 
-  /// Of the grains' velocities, over the whole tube at one moment.
+  /// The scatter of the grains' velocities over the whole tube at one moment.
   struct Fluctuations {
     Measured sigma_vx, sigma_vy;    ///< m/s
     Measured granular_temperature;  ///< (m/s)^2
@@ -58,7 +59,7 @@ struct FlowSummary {
 
   std::array<Measured, density_waves> structure_factor{};  ///< along the tube, n = 1, 2, ...
 
-  /// Of a part of the tube's width: engine/tube_profiles.hpp.
+  /// A part of the tube's width, see engine/tube_profiles.hpp.
   struct Zone {
     Measured area_fraction;
     Measured mean_axial_velocity;           ///< m/s
@@ -66,7 +67,7 @@ struct FlowSummary {
     Measured stress_xx, stress_yy;          ///< N/m
   } core, wall_layers;
 
-  /// Eq. (9): in a steady state n_dot dv_y = gravity.
+  /// Eq. (9) of the paper: in a steady state n_dot dv_y = gravity.
   struct Balance {
     Measured n_dot;        ///< 1/s, wall contacts per grain
     Measured dv_y;         ///< m/s, momentum lost per wall contact over the mean mass
@@ -80,58 +81,61 @@ struct FlowSummary {
   /// together carry the weight.
   struct BrakingForce {
     Measured left{unknown, unknown};  ///< N
-    std::optional<Measured> right;    ///< N; none of a chute, which has its bottom only
+    std::optional<Measured> right;    ///< N; none for a chute, which has only its bottom
     double weight = unknown;          ///< N, of all grains
   } braking_force;
 
-  /// J; since the start, but kinetic, rotational and elastic energy are those at the end.
+  /// J; totals since the start, except that kinetic, rotational and elastic energy are those at the
+  /// end.
   struct Energy {
     double initial = 0.0, kinetic = 0.0, rotational = 0.0, elastic = 0.0, gravity_work = 0.0,
            wall_work = 0.0, normal_loss = 0.0, friction_loss = 0.0, residual = 0.0;
-    /// What the residual is measured by, here as in the verdict.
+    /// What the residual is compared with, here as in the verdict.
     double turned_over() const { return energy_turned_over(initial, gravity_work, wall_work); }
   } energy;
 
-  /// What grains do at a wall between coming and going.
+  /// What happens to grains between their arrival at a wall and their departure.
   struct WallVisits {
-    double visits = 0.0;  ///< how many the means are of
+    double visits = 0.0;  ///< how many of them the means are over
     Measured contacts;    ///< per visit
     Measured dv_y;        ///< m/s, axial velocity lost
     Measured dv_x;        ///< m/s, velocity gained away from the wall
     Measured entry_rate;  ///< m/s, normal velocity at the beginning of the first contact
-    Measured entry_slip;  ///< m/s, its slip speed
-    std::array<std::int64_t, VisitTally::longest> of_contacts{};  ///< since the start
+    Measured entry_slip;  ///< m/s, slip speed at that moment
+    /// Numbers of visits since the start, see VisitTally::of_contacts.
+    std::array<std::int64_t, VisitTally::longest> of_contacts{};
   } wall_visits;
 
   struct Validity {
     ValidityVerdict verdict{};
     double v_crit = 0.0;  ///< m/s, above which a typical wall contact is cut short
     double t_col_grains = unknown, t_col_walls = unknown;  ///< s, of typical contacts
-    double friction_failure_fraction = 0.0;  ///< of the friction loss at walls, by those cut short
-    std::vector<std::string> warnings;       ///< that were given of limits
+    /// Part of the friction loss at walls that is due to contacts cut short.
+    double friction_failure_fraction = 0.0;
+    std::vector<std::string> warnings;  ///< about exceeded limits, one line each
   } validity;
 };
 
-/// Means are not a number (null in the file) where no start counts.
+/// Means are over the starts that count; NaN (null in the file) if none does.
 struct CurvePoint {
   double v_x = 0.0, v_y = 0.0, dv_x = 0.0, dv_y = 0.0;  ///< m/s
-  double contacts = 0.0;                                ///< number of those begun
+  double contacts = 0.0;                                ///< number of contacts begun
   double contact_time = 0.0;                            ///< s, sum of their durations
   double max_overlap = 0.0;                             ///< m
   int passed = 0;                       ///< how many starts went through the wall; not in the means
-  int stuck = 0;                        ///< how many were given up; not in the means
+  int stuck = 0;                        ///< how many starts were given up; not in the means
   double cut_short = 0.0;               ///< mean number of contacts cut short
-  double brake_failure_fraction = 0.0;  ///< part of the braking that they did
+  double brake_failure_fraction = 0.0;  ///< part of the braking that was due to these
   Validity verdict = Validity::valid;
-  std::string cause = {};  ///< the finding that it follows from; empty for valid points
+  std::string cause = {};  ///< the finding that decided the verdict; empty for valid points
 };
 
-/// What the points of one v_x come to.
+/// What follows from the points with the same v_x.
 struct CurveLine {
   double v_x = 0.0;                                     ///< m/s
   double largest_dv_y = unknown, largest_at = unknown;  ///< m/s, of points where the brake works
   double brake_fails_at = unknown;   ///< m/s, v_y from which half of the braking fails
-  double two_contacts_at = unknown;  ///< m/s, v_y from which an impact has two contacts in the mean
+  double two_contacts_at = unknown;  ///< m/s, v_y from which an impact has two contacts on average
 };
 
 struct CurveSummary {
@@ -142,11 +146,11 @@ struct CurveSummary {
 
 /// One drop of a column of beads.
 struct ColumnPoint {
-  double gap_ratio = 0.0;                   ///< gap over velocity times t_col
+  double gap_ratio = 0.0;                   ///< gap / (velocity * t_col)
   double gap = 0.0;                         ///< m
   double restitution = 0.0, rebound = 0.0;  ///< see engine/bead_column.hpp
   double detachment = 0.0;                  ///< see engine/validity.hpp
-  double contacts = 0.0;                    ///< number of those begun
+  double contacts = 0.0;                    ///< number of contacts begun
   double contact_time = 0.0;                ///< s, sum of their durations
   double max_overlap = 0.0;                 ///< m
   Validity verdict = Validity::valid;

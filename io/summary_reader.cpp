@@ -106,7 +106,7 @@ Validity validity(const Json& json) {
   throw std::runtime_error("there is no verdict " + text);
 }
 
-/// What it says is what the file says; its words are those of this program.
+/// Its value, thresholds and verdict come from the file, its wording from this program.
 Finding read_finding(const Json& json) {
   const std::string name = json.at("name");
   const double value = number(json, "value");
@@ -194,7 +194,7 @@ FlowSummary read_flow(const Json& json) {
                        .warnings = validity.value("warnings", std::vector<std::string>{})}};
 }
 
-/// Of riesel, which wrote it; empty if it does not tell.
+/// The version of riesel that wrote it; empty if it does not say.
 std::string version_in(const Json& json) {
   const bool tells = json.is_object() && json.contains("version") && json["version"].is_string();
   return tells ? json["version"].get<std::string>() : "";
@@ -205,7 +205,8 @@ FileError of_another_version(const std::filesystem::path& path, const std::strin
   return {path, difference, "use riesel " + version + ", which wrote it, or make the run again"};
 }
 
-/// Throws FileError for the summary of another program or of another time.
+/// Throws FileError for another format. A file without a version, which riesel has not written, is
+/// left to the caller.
 void require_this_format(const std::filesystem::path& path, const Json& json) {
   const std::string version = version_in(json);
   if (version.empty()) return;
@@ -229,7 +230,7 @@ Summary read_summary(const std::filesystem::path& path) {
     if (json.contains("column")) return read_column(json);
     return read_flow(json);
   } catch (const std::exception& error) {
-    // The format has stayed the same while some names came.
+    // Names were added without a change of the format.
     const std::string version = version_in(json);
     if (!version.empty() && version != build_info().version)
       throw of_another_version(

@@ -10,8 +10,8 @@ namespace riesel::io {
 
 using Summary = std::variant<FlowSummary, CurveSummary, ColumnSummary>;
 
-/// What to_json() wrote; null is not a number again. Verdicts and thresholds are those of the file,
-/// the words of a finding those of this program. Throws FileError if the file cannot be read, is
+/// What to_json() wrote, with null read as NaN. Verdicts and thresholds are those of the file, the
+/// wording of a finding is that of this program. Throws FileError if the file cannot be read, is
 /// damaged, or has another format than summary_format.
 Summary read_summary(const std::filesystem::path& path);
 

@@ -11,11 +11,11 @@ struct Unit {
   std::string_view name, unit;
 };
 
-/// Of all that begins like this.
+/// For all names that begin like this.
 constexpr std::array<Unit, 3> of_sections = {
     {{"braking_force.", "N"}, {"energy.", "J"}, {"validity.t_col.", "s"}}};
 
-/// By the last part of the name.
+/// For all names whose last part is this.
 constexpr auto of_values = std::to_array<Unit>({
     {"time", "s"},
     {"transient_end", "s"},

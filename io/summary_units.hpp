@@ -1,4 +1,4 @@
-// The units of what a summary tells, for tables in which its values stand by their names.
+// The units of the values in a summary, for tables that list them by name.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@
 namespace riesel::io {
 namespace {
 
-/// Two decimals and no more than it needs.
+/// Two decimals at most.
 std::string number(double value) {
   if (!std::isfinite(value)) throw std::invalid_argument("a coordinate that is not finite");
   auto text = fmt::format("{:.2f}", value);
@@ -96,7 +96,7 @@ void Svg::upward_text(Point at, std::string_view text, const Style& style) {
 
 std::string Svg::with_name_space(std::string_view name_space) const {
   const auto width = number(width_), height = number(height_);
-  // To assistive technology an image is one thing, without the links in it.
+  // Assistive technology takes an image for one thing and hides the links in it.
   const std::string_view role = has_links_ ? "group" : "img";
   return "<svg" + attribute("xmlns", name_space) + attribute("width", width)
          + attribute("height", height) + attribute("viewBox", "0 0 " + width + " " + height)

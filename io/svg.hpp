@@ -28,19 +28,19 @@ struct Style {
 /// Members throw std::invalid_argument for a coordinate that is not finite.
 class Svg {
 public:
-  /// `description` is for who cannot see it.
+  /// `description` is for readers who cannot see the drawing.
   Svg(double width, double height, std::string_view description);
 
   double width() const { return width_; }
 
-  /// More room below.
+  /// Makes the drawing higher by `height`, at its lower end.
   void extend(double height) { height_ += height; }
 
-  /// What follows up to end_group() is in a group of this class and style. Groups may be nested.
+  /// Everything up to end_group() is in a group of this class and style. Groups may be nested.
   void begin_group(std::string_view name, const Style& style = {});
   void end_group();
 
-  /// What follows up to end_link() leads to `address`, and says `tip` when it is pointed at.
+  /// Everything up to end_link() is a link to `address`, with `tip` as its tooltip.
   void begin_link(std::string_view address, std::string_view tip);
   void end_link();
 

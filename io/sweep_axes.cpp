@@ -13,7 +13,7 @@ namespace {
 
 using Shape = YamlNode::Shape;
 
-/// Whether the row counts, as far as `given` and the defaults tell.
+/// Whether the row applies, as far as `given` and the defaults tell.
 bool may_count(const Setting& row, const GivenSettings& given, const SettingsTable& table) {
   if (!row.only_when) return true;
   const auto& [key, values] = *row.only_when;
@@ -28,7 +28,7 @@ public:
   AxisReader(const GivenSettings& given, const SettingsTables& tables)
       : given_(given), tables_(tables), table_(tables.at(given.scenario)) {}
 
-  /// The keys of `map` go together.
+  /// The keys of `map` vary together.
   SweepAxis zipped(const YamlNode& map) const {
     SweepAxis axis;
     for (const auto& entry : map.entries) add(entry, axis);
@@ -102,7 +102,7 @@ private:
     return values;
   }
 
-  /// Of the rows of a key the one whose condition holds.
+  /// Of the rows with this key, the one that applies; if none does, the first.
   const Setting& row_of(const std::string& key) const {
     const auto counts = [&](const Setting& row) {
       return row.key == key && may_count(row, given_, table_);

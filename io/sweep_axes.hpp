@@ -10,9 +10,9 @@
 
 namespace riesel::io {
 
-/// From a map, each of its keys an axis of its own, or from a list of maps, the keys of one map
-/// zipped. The values of a key are a list, or the range of a quantity. `given` are the settings
-/// without the axes: they decide which unit a range has where that depends on another setting.
+/// Of a map, each key is an axis of its own; of a list of maps, each map is an axis whose keys vary
+/// together. The values of a key are a list, or the range of a quantity. `given`: the settings
+/// without the axes; they decide which unit a range has where that depends on another setting.
 /// Throws SettingsError.
 std::vector<SweepAxis> read_axes(const YamlNode& node, const GivenSettings& given,
                                  const SettingsTables& tables);

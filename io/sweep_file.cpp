@@ -119,7 +119,7 @@ SweepContinuation read_continuation(const YamlNode& node, const std::vector<Swee
                       keys.empty() ? "give the sweep an axis" : "choose " + enumerate(keys));
 }
 
-/// Who sets a key: two that do so would hide each other.
+/// Where each key is set: of two places that set it, one would hide the other.
 class Claims {
 public:
   void claim(const std::string& key, const Place& place) {
@@ -155,7 +155,7 @@ void refuse_varied_scenario(const std::vector<YamlEntry>& entries) {
   }
 }
 
-/// Unknown keys are found here, before any value is.
+/// Finds unknown keys before any value is read.
 GivenSettings gather(const SweepFile& sweep, const SettingsTables& tables) {
   auto entries = sweep.overrides;
   for (const auto& branch : sweep.branches) {

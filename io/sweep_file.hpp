@@ -1,10 +1,10 @@
 // A sweep file: many runs in one page of YAML. A base (a settings file), overrides for all, axes
 // along which settings vary, seeds, branches, and the axis along which runs continue each other.
 //
-// What is read here is the plan alone. Values stay YAML nodes that know their place in the file,
-// and become overrides of the base: the same checks that read a settings file read them, and their
-// errors point into the sweep file. See sweep_points.hpp for what becomes of it, docs/sweeps.md for
-// the user's view.
+// Only the plan is read here. Values stay YAML nodes that know their place in the file, and become
+// overrides of the base: they pass the same checks as a settings file, and their errors point into
+// the sweep file. See sweep_points.hpp for how the plan is carried out, docs/sweeps.md for the
+// user's view.
 #pragma once
 
 #include "io/settings_table.hpp"
@@ -21,7 +21,7 @@ namespace riesel::io {
 /// Settings that vary together: one key, or several that are zipped.
 struct SweepAxis {
   std::vector<std::string> keys;               ///< dotted
-  std::vector<std::vector<YamlEntry>> values;  ///< for each place on the axis one entry per key
+  std::vector<std::vector<YamlEntry>> values;  ///< for each place on the axis, one entry per key
 };
 
 /// A named set of overrides, such as a slow and a fast start.
@@ -50,8 +50,8 @@ struct SweepFile {
   std::optional<SweepContinuation> continuation;
 };
 
-/// Reads a sweep file and its base. The keys are known to the scenario then, none is varied twice,
-/// and no axis is empty; values are not looked at, except where a range is spread out. Throws
+/// Reads a sweep file and its base. All its keys are then known to the scenario, none is set twice,
+/// and no axis is empty; values are not checked, except where a range is spread out. Throws
 /// SettingsError.
 SweepFile read_sweep_file(const std::filesystem::path& file, const SettingsTables& tables);
 

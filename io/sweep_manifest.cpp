@@ -42,7 +42,7 @@ Json to_json(const ManifestPoint& point, const std::vector<VariedSetting>& varie
           {"reason", point.reason}};
 }
 
-/// The name of a point is that of its directory: no other place may come of it.
+/// A point's name is that of its directory, so it must not lead anywhere else.
 void require_name_of_point(const std::string& name) {
   const auto is_hex_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
   if (name.size() != 16 || !std::ranges::all_of(name, is_hex_digit))
@@ -84,7 +84,7 @@ Manifest manifest_of(const Json& json) {
 
 }  // namespace
 
-/// A list, as effective.yaml has it.
+/// A list of effective.yaml without its line breaks.
 std::string in_one_line(std::string text) {
   for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end))
     text.replace(end, text.find_first_not_of(" \n", end) - end, " ");

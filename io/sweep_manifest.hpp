@@ -1,8 +1,8 @@
 // manifest.json: what a sweep consists of and how far it has come, for people, scripts and for
-// `riesel status`, `collect` and `sweep-task`, which need no sweep file any more.
+// `riesel status`, `collect` and `sweep-task`, which then need no sweep file.
 //
 // The points with their settings and directories are the plan and do not change while a sweep runs.
-// What has become of them is a snapshot; the truth is in the directories of the runs.
+// Their status is a snapshot; the truth is in the directories of the runs.
 #pragma once
 
 #include "io/settings.hpp"
@@ -15,7 +15,7 @@
 
 namespace riesel::io {
 
-/// A value of a table: nothing, a number, or a text.
+/// A cell of a table: empty, a number, or a text.
 using Cell = std::variant<std::monostate, double, std::string>;
 
 /// A setting in which the points differ.
@@ -25,14 +25,14 @@ struct VariedSetting {
 };
 
 struct ManifestPoint {
-  std::string name;           ///< of its directory below points/; equal for equal runs
+  std::string name;           ///< of its directory in points/; equal for equal runs
   std::string parent;         ///< name of the run that it continues, or empty
   std::string branch;         ///< or empty
   std::string leg;            ///< forward, backward, or empty
   std::vector<Cell> values;   ///< of the varied settings, in their order
   double expected_seconds{};  ///< s, on one thread
-  int most_threads = 1;       ///< that are of use
-  std::string status;         ///< when the manifest was written
+  int most_threads = 1;       ///< more would not make it faster
+  std::string status;         ///< at the time when the manifest was written
   int attempts = 0;           ///< how often it was started or resumed
   std::string reason;         ///< why it failed or waits; or empty
 };

@@ -16,11 +16,11 @@
 namespace riesel::io {
 namespace {
 
-// What a scenario that can be continued calls it; see scenarios/continued_start.hpp.
+// The settings by which scenarios continue another run; see scenarios/continued_start.hpp.
 constexpr auto start_section = "start";
 constexpr auto start_kind = "start.kind";
 
-/// Which place on each axis, which branch, which seed.
+/// Indices: of the place on each axis, of the branch, and of the seed.
 using Combination = std::vector<std::size_t>;
 
 /// All combinations of 0 ... count - 1 for each of the counts, the last one fastest.
@@ -45,8 +45,8 @@ std::string hash_text(std::string_view text) {
   return fmt::format("{:016x}", hash.value());
 }
 
-/// Of what stands in a file, or in the checkpoint of a run's directory, if it can be read: whether
-/// it can is for the run to say.
+/// Hash of the content of a file, or of the checkpoint in a run's directory; "none" if it cannot be
+/// read, which the run will report.
 std::string hash_content(const std::string& path) {
   namespace fs = std::filesystem;
   try {
@@ -121,7 +121,8 @@ private:
     return sweep_.branches.empty() ? "" : sweep_.branches[combination[sweep_.axes.size()]].name;
   }
 
-  /// What the results depend on: those of the wanted settings that matter, files by their content.
+  /// What the results depend on: the wanted settings that matter, and the content of files that
+  /// they name.
   template <class Wanted>
   std::string identity_of(const Settings& settings, Wanted wanted) {
     std::string text = settings.effective_yaml(
@@ -150,7 +151,7 @@ private:
                        .leg = ""});
   }
 
-  /// The same, from the final state of the point before.
+  /// The same, starting from the final state of the point before.
   void add_continued_point(const Combination& combination, const std::string& leg) {
     auto settings = settings_of(combination);
     const auto parent = points_.size() - 1;

@@ -1,13 +1,13 @@
 // From a sweep file to its points: every combination of the places on the axes, the branches and
-// the seeds, each with its whole settings.
+// the seeds, each with its full settings.
 //
-// A point is run in a directory that is named by a hash of what its results depend on: its settings
-// and, where it continues a neighbour, that neighbour's name. So a run is found again however the
-// sweep file was rearranged or extended, and equal points are one run.
+// A point runs in a directory named by a hash of what its results depend on: its settings and, if
+// it continues a neighbour, that neighbour's name. So a run is found again however the sweep file
+// is rearranged or extended, and equal points are one run.
 //
-// In a continuation each combination of all else is a chain: forward along the axis, and back again
-// from the far end, each point from the final state of the one before. The two legs meet the same
-// settings with another past, which is what shows hysteresis.
+// In a continuation, each combination of everything else is a chain: forward along the axis, and
+// back again from its far end, each point from the final state of the one before. The two legs meet
+// the same settings with different pasts, which is what shows hysteresis.
 #pragma once
 
 #include "io/settings.hpp"
@@ -21,8 +21,8 @@
 namespace riesel::io {
 
 struct SweepPoint {
-  Settings settings;  ///< checked; in a continuation with the start of the first
-  std::string yaml;   ///< the settings file of the run; its start is the neighbour, if it has one
+  Settings settings;  ///< checked; in a continuation, with the start of the chain's first point
+  std::string yaml;   ///< the settings file of the run; a continued one starts from its parent
   std::string name;   ///< 16 hexadecimal digits; equal for points that are the same run
   std::optional<std::size_t> parent;  ///< index of the neighbour that it starts from
   std::string branch;                 ///< its name; empty if the sweep has none
@@ -32,11 +32,11 @@ struct SweepPoint {
 constexpr std::size_t most_sweep_points = 10'000;
 
 /// All points, a parent before its children. The order is that of the sweep file: axes first, then
-/// branches, then seeds; in a continuation its legs come last. Throws SettingsError for values that
-/// no run can have, and for a continuation that the scenario does not know.
+/// branches, then seeds; the legs of a continuation come last. Throws SettingsError for values that
+/// no run can have, and for a continuation if the scenario has none.
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables);
 
-/// The keys whose values tell the points apart, in the order of the file; `seed` is the last one.
+/// The keys whose values tell the points apart, in the order of the file; `seed` comes last.
 std::vector<std::string> varied_keys(const SweepFile& sweep);
 
 }  // namespace riesel::io

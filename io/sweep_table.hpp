@@ -18,12 +18,12 @@ class SweepTable {
 public:
   explicit SweepTable(std::size_t rows) : rows_(rows) {}
 
-  /// A column of its own, or one more value of the column with this name.
+  /// Sets a value of the column with this name, which is added if there is none.
   void set(std::size_t row, const std::string& column, Cell value, const std::string& unit = "");
 
   struct Column {
     std::string name;
-    std::string unit;  ///< empty if not known or none
+    std::string unit;  ///< empty if unknown or none
     std::vector<Cell> cells;
   };
   const std::vector<Column>& columns() const { return columns_; }
@@ -34,21 +34,21 @@ private:
   std::vector<Column> columns_;
 };
 
-/// All single values of the summary.json of a run, nested names joined by dots
-/// ("mean_axial_velocity.error"); of lists only `findings`, by their names, and `lines`, by their
-/// v_x. Throws FileError.
+/// All single values of a run's summary.json, nested names joined by dots
+/// ("mean_axial_velocity.error"). Of lists it takes only `findings`, by their names, and `lines`,
+/// by their v_x. Throws FileError.
 std::vector<std::pair<std::string, Cell>> flat_summary(const std::filesystem::path& path);
 
 inline constexpr auto sweep_csv_name = "sweep.csv";
 inline constexpr auto sweep_h5_name = "sweep.h5";
 
-/// A line of names, then a line per row; quoted as RFC 4180 says, nothing for a missing value.
-/// Numbers have the digits that give the same double.
+/// A line of names, then a line per row; quoted as in RFC 4180, empty for a missing value. Numbers
+/// have enough digits to read back to the same double.
 std::string to_csv(const SweepTable& table);
 
-/// One data set /points/NAME per column: doubles with NaN for a missing value, or strings, empty
-/// for one; and the sweep file verbatim. Throws FileError; in particular for a column with a name
-/// that no data set can have ("a/b"), which only a summary.json of somebody else has.
+/// One data set /points/NAME per column, of doubles (NaN for a missing value) or of strings (empty
+/// for one), and the sweep file verbatim. Throws FileError; in particular for a column whose name
+/// no data set can have ("a/b"), which only a summary.json of another program has.
 void write_hdf5(const std::filesystem::path& path, const SweepTable& table,
                 std::string_view sweep_file);
 

@@ -29,14 +29,14 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t components = trajectory_components;
 
-/// What HDF5 reads at once: it keeps a megabyte in memory.
+/// HDF5 reads a chunk as a whole: half of the megabyte that it keeps in memory.
 constexpr std::uint64_t bytes_of_a_chunk = 524288;
-/// So that a short trajectory of few grains is no large file.
+/// Keeps the file of a short trajectory of few grains small.
 constexpr std::uint64_t most_frames_in_a_block = 64;
-/// What HDF5 can count in a chunk.
+/// HDF5 counts the bytes of a chunk in 32 bits.
 constexpr std::uint64_t most_grains = UINT32_MAX / (components * sizeof(float));
 
-/// Of the largest array that frames have.
+/// The number of vectors in the largest array of a frame.
 std::uint64_t most_places(const TrajectoryFacts& facts) {
   return std::max(facts.grains, facts.walls_move ? facts.wall_grains : 0);
 }
@@ -81,7 +81,7 @@ FixedArrays place_fixed_arrays(const TrajectoryFacts& facts) {
   return {radius, mass, id, wall_position, wall_radius, wall_id, end};
 }
 
-/// Below the end of the period, to which a float may not be rounded.
+/// Below the end of the period, which rounding to float must not reach.
 float place_y(const Box& box, double y) {
   return std::min(static_cast<float>(y), std::nextafter(static_cast<float>(box.length), 0.0F));
 }
@@ -123,7 +123,7 @@ std::string fixed_arrays_of(const State& state, const TrajectoryFacts& facts) {
   return bytes.bytes();
 }
 
-/// Grains in the order of their ids, in SI units.
+/// One frame: grains in the order of their ids, in SI units.
 struct Frame {
   std::vector<float> position, velocity;  // x, y, 0
   std::vector<float> spin;                // 0 where they do not rotate
@@ -220,8 +220,8 @@ public:
   }
 
   void commit() {
-    // After one that failed the disk may point to either outline, and the next would be written
-    // over that in use.
+    // After a failed commit the disk may point to either outline, and the next one might be written
+    // over the one in use.
     if (std::exchange(is_committing_, true))
       throw std::logic_error("a commit of the trajectory has failed before");
     const auto [root, outline] = next_outline();
@@ -246,7 +246,7 @@ private:
     head_.wall_grains = facts_.wall_grains;
   }
 
-  /// The address of a block, which is at the end of the file if there is none yet.
+  /// The address of a block; a new one is placed at the end of the file.
   std::uint64_t block_of(std::uint64_t number) {
     if (number == blocks_.size())
       blocks_.push_back(std::exchange(head_.end, head_.end + layout_.size));
@@ -265,13 +265,14 @@ private:
     try {
       const auto root = outline_trajectory(outline, facts_, fixed_, layout_, blocks_, head_.frames);
       return {.root = root, .bytes = blocks.bytes() + outline.bytes()};
-    } catch (const Hdf5Error& error) {  // only the settings can be as long as they like
+    } catch (const Hdf5Error& error) {  // only the settings can be too long
       throw FileError(path_, fmt::format("cannot hold the settings ({})", error.what()),
                       "shorten them, or run without a trajectory");
     }
   }
 
-  /// For the place that is not in use, which the head takes for the one in use from now on.
+  /// The outline for the place that is not in use, which from now on counts in the head as the one
+  /// in use.
   Outline next_outline() {
     head_.in_use = 1 - head_.in_use;
     OutlinePlace& place = head_.places.at(head_.in_use);
@@ -320,7 +321,7 @@ private:
   TrajectoryHead head_;
   std::vector<std::uint64_t> blocks_;  // addresses
   std::optional<Descriptor> file_;
-  bool is_committing_ = false;  // for ever, if that has failed
+  bool is_committing_ = false;  // stays true if that has failed
 };
 
 TrajectoryFile::TrajectoryFile(std::unique_ptr<Contents> contents)

@@ -7,7 +7,7 @@
 namespace riesel::io {
 namespace {
 
-/// An array that belongs to no frame.
+/// A whole array of the file; `precision`: bytes of a number.
 std::string whole(std::string_view file, std::string_view path, const std::string& extent,
                   int precision) {
   return fmt::format(
@@ -15,7 +15,7 @@ std::string whole(std::string_view file, std::string_view path, const std::strin
       extent, precision, file, path);
 }
 
-/// One frame of an array of so many vectors.
+/// One frame of an array with `count` vectors per frame.
 std::string of_frame(const TrajectoryIndex& index, std::string_view path, std::uint64_t count,
                      std::uint64_t frame) {
   return fmt::format(
@@ -24,7 +24,7 @@ std::string of_frame(const TrajectoryIndex& index, std::string_view path, std::u
       count, frame, whole(index.file, path, fmt::format("{} {} 3", index.frames, count), 4));
 }
 
-/// One frame of an array of numbers, of the grains.
+/// One frame of an array with one number per grain.
 std::string numbers_of_frame(const TrajectoryIndex& index, std::string_view path,
                              std::uint64_t frame) {
   return fmt::format(

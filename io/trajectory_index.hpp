@@ -1,4 +1,4 @@
-// What tells ParaView where the arrays of trajectory.h5 are: an index in XDMF 2. ParaView 5.11
+// The index that tells ParaView where the arrays of trajectory.h5 are, in XDMF 2. ParaView 5.11
 // reads it under the ending .xdmf2; for .xdmf it chooses a reader that cannot.
 #pragma once
 
@@ -14,6 +14,7 @@ struct TrajectoryIndex {
   double interval;  ///< s, between two frames
 };
 
+/// The text of the index.
 std::string trajectory_index(const TrajectoryIndex& index);
 
 }  // namespace riesel::io

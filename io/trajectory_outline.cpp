@@ -14,7 +14,7 @@ using Members = std::map<std::string, std::uint64_t>;
 
 constexpr std::uint64_t all = trajectory_components;
 
-/// Makes the objects of the tree one by one; those that come in two places are made once.
+/// Makes the objects of the tree one by one; one that appears in two places is made once.
 class Tree {
 public:
   Tree(Hdf5Outline& outline, const TrajectoryFacts& facts, const FixedArrays& fixed,
@@ -48,7 +48,7 @@ private:
                            .attributes = Hdf5Attributes().add_scale(scale, true)});
   }
 
-  /// The dimensions of AMBER's names.
+  /// The scales of the dimensions that AMBER's names have.
   void make_scales() {
     const auto dimension = Hdf5Attributes().add_scale("", false);
     amber_["frame"] = out_->add_data({.element = Hdf5Element::real32,
@@ -61,7 +61,7 @@ private:
         {.element = Hdf5Element::real32, .extent = {facts_->wall_grains}, .attributes = dimension});
     amber_["spatial"] = text("xyz", "spatial");
     amber_["cell_spatial"] = text("abc", "cell_spatial");
-    // Its names, "alpha" to "gamma", would need another dimension; nobody reads them.
+    // The names of the angles, "alpha" to "gamma", would need another dimension; nobody reads them.
     amber_["cell_angular"] = text("abg", "cell_angular");
     const std::array<std::uint64_t, 6> order = {amber_["frame"],        amber_["atom"],
                                                 amber_["wall_grain"],   amber_["spatial"],
@@ -71,12 +71,12 @@ private:
     cell_ = scales[4], angle_ = scales[5];
   }
 
-  /// `unit` in both manners: H5MD's attribute and netCDF's.
+  /// A unit in both conventions: H5MD's attribute and netCDF's.
   static Hdf5Attributes unit(const std::string& symbol, const std::string& name) {
     return Hdf5Attributes().add("unit", symbol).add("units", name);
   }
 
-  /// A part of each frame, which stands in its block at `offset`.
+  /// An array with a row per frame, which is in each block at `offset`.
   std::uint64_t of_frames(std::uint64_t offset, Hdf5DataPlan plan) {
     std::vector<std::uint64_t> chunks;
     const auto used = (frames_ + layout_->frames_per_block - 1) / layout_->frames_per_block;
@@ -118,7 +118,7 @@ private:
     return scale.index == atom_.index ? facts_->grains : facts_->wall_grains;
   }
 
-  /// Of all grains or of all wall grains.
+  /// The vectors of all grains or of all wall grains.
   std::uint64_t vectors(std::uint64_t offset, const Hdf5Scale& scale,
                         const Hdf5Attributes& attributes) {
     return of_frames(offset, {.element = Hdf5Element::real32,
@@ -148,7 +148,7 @@ private:
                            Hdf5Attributes().add("version", {1, 1}));
   }
 
-  /// What made the run.
+  /// What made the run: its settings and the commit.
   std::uint64_t parameters() {
     return out_->add_group(
         {},
@@ -183,7 +183,7 @@ private:
     return out_->add_group({{"grains", out_->add_group(grains)}, {"walls", walls}});
   }
 
-  /// H5MD's element that changes.
+  /// An element of H5MD that depends on time.
   std::uint64_t in_time(std::uint64_t value) {
     return out_->add_group({{"step", step_}, {"time", amber_["time"]}, {"value", value}});
   }
@@ -204,7 +204,7 @@ private:
   const FrameBlocks* layout_;
   const std::vector<std::uint64_t>* blocks_;
   std::uint64_t frames_;
-  Members amber_;  // what stands in the root group
+  Members amber_;  // the members of the root group
   Hdf5Scale frame_{}, atom_{}, wall_grain_{}, spatial_{}, cell_{}, angle_{};
   std::uint64_t step_ = 0;
 };

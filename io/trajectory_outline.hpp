@@ -12,18 +12,18 @@
 
 namespace riesel::io {
 
-/// What stays as it is while a run lasts.
+/// What does not change during a run.
 struct TrajectoryFacts {
   std::uint64_t grains;
   std::uint64_t wall_grains;
-  bool walls_move = false;  ///< their grains are in all frames
+  bool walls_move = false;  ///< then each frame has the positions of their grains
   bool grains_rotate = false;
   double width, length;     ///< m, of the box; periodic along y
   double largest_diameter;  ///< m
   std::string settings;     ///< the effective settings, YAML
 };
 
-/// Where the arrays stand that belong to no frame: addresses.
+/// Addresses of the arrays that belong to no frame.
 struct FixedArrays {
   std::uint64_t radius, mass, id;                               // of grains
   std::uint64_t wall_position, wall_radius, wall_id, wall_end;  // and the end of all
@@ -38,11 +38,11 @@ struct FrameBlocks {
   FrameBlocks(const TrajectoryFacts& facts, std::uint64_t frames);
 };
 
-/// Frames are rows of so many components, of which the last is 0.
+/// Vectors are stored with this many components, the last of which is 0.
 inline constexpr std::uint64_t trajectory_components = 3;
 
-/// The root group of a trajectory of so many frames, in blocks at these addresses, goes to
-/// `outline`. Returns its address.
+/// Adds to `outline` the root group of a trajectory of `frames` frames, in blocks at these
+/// addresses, and everything in it. Returns the address of the group.
 std::uint64_t outline_trajectory(Hdf5Outline& outline, const TrajectoryFacts& facts,
                                  const FixedArrays& fixed, const FrameBlocks& layout,
                                  const std::vector<std::uint64_t>& blocks, std::uint64_t frames);

@@ -1,12 +1,12 @@
-// Calls of the system that signals may interrupt, on network file systems even open() and fsync().
+// System calls that signals may interrupt; on network file systems even open() and fsync().
 #pragma once
 
 #include <cerrno>
 
 namespace riesel::io {
 
-/// What call() returns when no signal has interrupted it: a number that is negative, with errno, if
-/// it failed.
+/// Repeats call() until no signal interrupts it, and returns its result: a number that is negative,
+/// with errno set, if it failed.
 template <class Call>
 auto uninterrupted(Call call) {
   for (;;)

@@ -115,7 +115,7 @@ private:
 // --- what a settings file may say ---
 
 /// UDUNITS-2 takes "5 m", "m 5" and "m/1000" for units, and "s^0.5" for "5 s^0". In a settings file
-/// numbers belong into the numeral; within a unit only whole exponents and the 1 of "1/s" are
+/// numbers belong in the numeral; within a unit only integer exponents and the 1 of "1/s" are
 /// plausible.
 bool has_only_exponents(std::string_view unit) {
   if (unit.starts_with("1/")) unit.remove_prefix(2);
@@ -157,7 +157,7 @@ std::optional<int> power_of_ten(double factor) {
   return static_cast<int>(exponent);
 }
 
-/// The double, unless zero or infinity stands for something else, or digits were lost to
+/// The double if it is zero or normal; others are infinite, NaN, or have lost digits to
 /// denormalisation.
 std::optional<double> if_normal(double value) {
   if (value == 0.0 || std::isnormal(value)) return value;
@@ -195,7 +195,8 @@ UnitDescription describe_unit(const std::string& si_unit) {
 
 std::optional<QuantityText> split_quantity(std::string_view text) {
   text = without_blanks(text);
-  // from_chars knows no leading plus, but names of infinities, which are no numerals here.
+  // from_chars accepts no leading plus, but does accept names of infinities, which are no numerals
+  // here.
   const std::size_t sign = text.starts_with('+') || text.starts_with('-') ? 1 : 0;
   if (sign == text.size() || !(is_digit(text[sign]) || text[sign] == '.')) return {};
   if (text.starts_with('+')) text.remove_prefix(1);

@@ -26,7 +26,7 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// How messages speak of the quantity behind an SI unit.
+/// How messages describe a quantity with this SI unit.
 struct UnitDescription {
   std::string noun;     ///< "a length"
   std::string example;  ///< "0.66 mm"
@@ -43,8 +43,8 @@ struct QuantityText {
 /// is checked further.
 std::optional<QuantityText> split_quantity(std::string_view text);
 
-/// The value of a decimal numeral times 10^shift, rounded once; nothing if that overflows or leaves
-/// the normal range of a double towards zero.
+/// The value of a decimal numeral times 10^shift, rounded once; nothing if that overflows or is too
+/// small for a normal double.
 std::optional<double> decimal_value(std::string_view numeral, int shift = 0);
 
 /// The value of `quantity` in `si_unit`. Without a unit the numeral counts as SI. Nothing if no

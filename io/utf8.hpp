@@ -1,4 +1,4 @@
-// What UTF-8 is made of, as far as it is looked at here. Internal.
+// The parts of UTF-8 that are needed here. Internal.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,8 @@ inline std::size_t character_length(std::string_view text, std::size_t i) {
   const std::size_t length = lead < 0xE0U ? 2 : lead < 0xF0U ? 3 : 4;
   if (text.size() - i < length) return 0;
 
-  // The second byte is narrower after these leads: overlong forms, surrogates, beyond U+10FFFF.
+  // After these leads the second byte has a narrower range: no overlong forms, no surrogates,
+  // nothing beyond U+10FFFF.
   const unsigned second = byte_at(i + 1);
   const unsigned lowest = lead == 0xE0U ? 0xA0U : lead == 0xF0U ? 0x90U : 0x80U;
   const unsigned highest = lead == 0xEDU ? 0x9FU : lead == 0xF4U ? 0x8FU : 0xBFU;
@@ -43,7 +44,7 @@ inline bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// With a question mark for each byte that is no part of it.
+/// With a question mark in place of each byte that is not valid UTF-8.
 inline std::string made_utf8(std::string_view text) {
   std::string made;
   for (std::size_t i = 0; i < text.size();) {
@@ -54,7 +55,7 @@ inline std::string made_utf8(std::string_view text) {
   return made;
 }
 
-/// Editors of other systems put one at the beginning of a file.
+/// Some editors put one at the beginning of a file.
 inline std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   return text.starts_with(mark) ? text.substr(mark.size()) : text;

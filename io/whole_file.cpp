@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 class File {
 public:
-  /// A pipe without a writer would keep a plain open() waiting.
+  /// O_NONBLOCK, because a plain open() would wait for the writer of a pipe.
   explicit File(const fs::path& path)
       : path_(path),
         descriptor_(
@@ -41,7 +41,7 @@ public:
     return static_cast<std::uint64_t>(about.st_size);
   }
 
-  /// As many bytes as fit into the buffer; fewer if the file ends before. Returns how many.
+  /// Fills the buffer unless the file ends before. Returns the number of bytes read.
   std::size_t read(std::span<char> buffer) {
     std::size_t size = 0;
     while (size < buffer.size()) {
@@ -59,7 +59,7 @@ private:
   int descriptor_;
 };
 
-/// A sparse file may be longer than any disk.
+/// Limits what is read: a sparse file may be longer than any disk.
 std::uint64_t memory_of_this_machine() {
   return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES))
          * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));

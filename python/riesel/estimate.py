@@ -16,12 +16,12 @@ class _ValueAndError(NamedTuple):
 
 
 class Estimate(_ValueAndError):
-    """A mean with its 68 % error bar; NaN where it is not known. Sums and differences are those of
-    independent means; plain numbers, also as factors, are exact. There are no products of two, as
-    means of one run depend on each other."""
+    """A mean with its 68 % error bar; NaN where it is unknown. Sums and differences take the means
+    for independent, and plain numbers, also as factors, for exact. Two estimates cannot be
+    multiplied or divided, as means of one run depend on each other."""
 
     __slots__ = ()
-    __array_ufunc__ = None  # so that numbers of numpy on the left leave it to what stands here
+    __array_ufunc__ = None  # so that numpy numbers on the left use the operators below
 
     def __array__(self, *_: object, **__: object) -> NoReturn:
         raise TypeError("estimates make no array, which would take error bars for values: give "
@@ -31,9 +31,9 @@ class Estimate(_ValueAndError):
         return f"{self.value:{form}} +- {self.error:{form}}" if form else str(self)
 
     def __str__(self) -> str:
-        """Two digits of the error, and the value as far: "1.534 +- 0.050"."""
+        """The error to two digits, and the value to the same place: "1.534 +- 0.050"."""
         if 0.0 < self.error < math.inf:
-            # Of the error as it is told: 0.0996 is 0.10.
+            # Of the error as it is printed: 0.0996 becomes 0.10.
             decimals = 1 - int(f"{self.error:.1e}".partition("e")[2])
             if decimals <= 6:
                 return f"{self.value:.{max(0, decimals)}f} +- {self.error:.{max(0, decimals)}f}"
@@ -41,7 +41,7 @@ class Estimate(_ValueAndError):
             return f"{self.value:.{max(1, order + decimals)}e} +- {self.error:.1e}"
         return f"{self.value:.4g} +- {self.error:.2g}"
 
-    # Also reversed and of numbers: in their place would be those of tuples, which join and repeat.
+    # The reversed ones are needed too: a tuple's would join and repeat instead.
 
     def __add__(self, other: object) -> Estimate:
         if isinstance(other, Estimate):
@@ -80,8 +80,8 @@ class Estimate(_ValueAndError):
 
 def mean_of(values: Sequence[float]) -> Estimate:
     """The mean of independent values, such as those of runs that differ in their seeds. Its error
-    is the standard error by their scatter times Student's 68 % point: three know little of their
-    own scatter. NaN of a single one. Raises TypeError for estimates and other than numbers."""
+    is the standard error times Student's 68 % point, because a few values know little of their own
+    scatter; NaN for a single value. Raises TypeError for anything but plain numbers."""
     n = len(values)
     if not all(isinstance(value, Real) for value in values):
         raise TypeError("mean_of: takes numbers; of estimates give the values, as in "
@@ -95,8 +95,8 @@ def mean_of(values: Sequence[float]) -> Estimate:
 
 
 def _student_68(freedom: int) -> float:
-    """Student's two-sided point of 68.27 %, one standard deviation of the normal distribution: exact
-    for one degree of freedom, else by the expansion of Cornish and Fisher, to 0.001."""
+    """Student's two-sided 68.27 % point (one standard deviation if the distribution were normal):
+    exact for one degree of freedom, else by the Cornish-Fisher expansion, to 0.001."""
     if freedom == 1:
         return math.tan(0.5 * math.pi * math.erf(math.sqrt(0.5)))
     return 1.0 + (0.5 + (0.25 + 0.0625 / freedom) / freedom) / freedom

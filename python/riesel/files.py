@@ -1,4 +1,4 @@
-"""Opening what riesel has written, and what is said where it is not there or no longer whole."""
+"""Opening what riesel has written, and the errors for what is missing or damaged."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ _RESTORE = "restore the file, or make the run again"
 
 
 class NotThere(LookupError):
-    """A file or a part of it that was not written (yet); the text tells why and what to do."""
+    """A file, or a part of one, that was not written (yet). The text says why and what to do."""
 
 
 class Unreadable(ValueError):
-    """A file that is there and cannot be read as what riesel writes: it is damaged, or of another
-    program or format; the text tells which file, why, and what to do."""
+    """A file that is there but cannot be read as riesel's: it is damaged, or of another
+    program or format. The text says which file, why, and what to do."""
 
 
 @contextlib.contextmanager
 def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE) -> Iterator[Any]:
-    """The HDF5 file, for what is read of it at once. The texts are remedies. Raises NotThere, and
-    Unreadable for any flaw that h5py finds meanwhile."""
+    """The HDF5 file, open as long as the `with` block lasts. The texts are remedies for the
+    messages. Raises NotThere if it is missing, and Unreadable for any flaw that h5py finds in the
+    block."""
     _require(path, if_missing)
     try:
         with h5py.File(path, "r") as file:
@@ -35,8 +36,8 @@ def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE) -> I
 
 
 def part(file: Any, name: str, remedy: str) -> Any:
-    """A group of the HDF5 file. Raises NotThere if there is none, or nothing in it: riesel makes
-    that of the series for every run."""
+    """A group of the HDF5 file. Raises NotThere if it is missing or empty: riesel makes that of the
+    series for every run, even if it has none."""
     if not len(file.get(name, ())):
         raise NotThere(f"{file.filename}: has no {name}; {remedy}")
     return file[name]
@@ -44,13 +45,13 @@ def part(file: Any, name: str, remedy: str) -> Any:
 
 def members(path: pathlib.Path, parse: Callable[[str], Any], if_missing: str,
             if_damaged: str = _RESTORE) -> dict[str, Any]:
-    """Of the one mapping that the text file is, by json.loads or yaml.safe_load. The texts are
-    remedies. Raises NotThere and Unreadable."""
+    """The mapping that the text file holds; `parse` is json.loads or yaml.safe_load. The texts are
+    remedies for the messages. Raises NotThere, and Unreadable if it is damaged or no mapping."""
     _require(path, if_missing)
     try:
         values = parse(path.read_text(encoding="utf-8"))
     except (ValueError, yaml.YAMLError) as error:
-        flaw = " ".join(str(error).split())  # PyYAML tells it in several lines
+        flaw = " ".join(str(error).split())  # PyYAML describes it on several lines
         raise Unreadable(f"{path}: is damaged ({flaw}); {if_damaged}") from error
     if not isinstance(values, dict):
         raise Unreadable(f"{path}: is damaged (it has no names); {if_damaged}")

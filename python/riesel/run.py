@@ -42,14 +42,14 @@ class Validity(NamedTuple):
     findings: list[Finding]
 
     def reasons(self) -> list[Finding]:
-        """The findings that are not valid."""
+        """The findings whose verdict is not valid."""
         return [finding for finding in self.findings if finding.verdict != "valid"]
 
 
 @dataclass(frozen=True, eq=False)
 class Histogram:
-    """Four equal bins in each octave: `rate` is how many per second ended in each after the
-    transient, `count` how many since the start."""
+    """Contacts or visits by one of their properties, in four equal bins per octave: `rate` is how
+    many per second ended in each bin after the transient, `count` how many since the start."""
 
     lower_edge: NDArray[np.float64]
     count: NDArray[np.int64]
@@ -60,7 +60,7 @@ class Histogram:
 
     @property
     def edges(self) -> NDArray[np.float64]:
-        """One more than there are bins, as matplotlib's `stairs` wants them."""
+        """One more than there are bins, as matplotlib's `stairs` expects them."""
         end_of_last_octave = 2.0 * self.lower_edge[-4]
         return np.append(self.lower_edge, end_of_last_octave)
 
@@ -80,9 +80,8 @@ class FinalState:
 
 
 class Run:
-    """What a run has left in its directory. Parts that are not there raise NotThere, files that are
-    damaged Unreadable. What has been read is kept, so make a new Run to see what a run that goes on
-    has written since."""
+    """What a run has left in its directory. Missing parts raise NotThere, damaged files Unreadable.
+    What has been read is kept: to see what a run in progress has written since, make a new Run."""
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = pathlib.Path(directory)
@@ -94,7 +93,7 @@ class Run:
 
     @property
     def is_done(self) -> bool:
-        """Whether it has come to its end: then there is a summary."""
+        """Whether the run has come to its end: only then is there a summary."""
         return self._summary_file.exists()
 
     @cached_property
@@ -105,9 +104,9 @@ class Run:
 
     @cached_property
     def summary(self) -> Tree:
-        """summary.json: summary["balance.n_dot"]. What is not known is None."""
+        """summary.json: summary["balance.n_dot"]. Values that are unknown are None."""
         summary = Tree(members(self._summary_file, json.loads, self._go_on))
-        number = summary.get("format", 1)  # the first one did not tell
+        number = summary.get("format", 1)  # files of format 1 do not say
         if number != _SUMMARY_FORMAT:
             version = summary.get("version", "?")
             raise Unreadable(f"{self._summary_file}: has format {number} of riesel {version}, and "
@@ -116,8 +115,8 @@ class Run:
         return summary
 
     def estimate(self, name: str) -> Estimate:
-        """A value of the summary that has an error: estimate("mean_axial_velocity"). That of
-        estimate("balance.n_dot") stands among the errors of the balance."""
+        """A value of the summary with its error: estimate("mean_axial_velocity"). For
+        estimate("balance.n_dot") the error is among those of the balance. Raises KeyError."""
         section, _, last = name.rpartition(".")
         for value, error in ((f"{name}.value", f"{name}.error"),
                              (name, f"{section}.errors.{last}")):
@@ -127,7 +126,7 @@ class Run:
 
     @cached_property
     def validity(self) -> Validity:
-        """Of a flow. The points of a curve each have a verdict of their own, in its table."""
+        """The verdict on a flow. The points of a curve have one each, in the table `curve`."""
         if "validity.verdict" not in self.summary:
             raise NotThere(f"{self.directory}: impacts and columns of beads have no verdict of the "
                            "whole run; see curve['verdict']")
@@ -137,27 +136,27 @@ class Run:
 
     @cached_property
     def series(self) -> Table:
-        """Of a flow: one row per output.interval, while it goes on up to the last checkpoint."""
+        """Of a flow: one row per output.interval; while it runs, up to the last checkpoint."""
         with opened(self._run_file, self._go_on) as file:
             return table_of(part(file, "series", "only flows have one"))
 
     @cached_property
     def profiles(self) -> Table:
-        """Across the tube: "x" in the middle of each strip, and NAME with NAME_error."""
+        """Profiles across the tube: "x", the middle of each strip, and NAME with NAME_error."""
         with opened(self._run_file, self._go_on) as file:
             return table_of(part(file, "profiles", self._written_at_the_end))
 
     @cached_property
     def histograms(self) -> Mapping[str, Histogram]:
-        """Of contacts and of visits to walls, by name."""
+        """Histograms of contacts and of visits to walls, by name."""
         with opened(self._run_file, self._go_on) as file:
             group = part(file, "histograms", self._written_at_the_end)
             return {name: _histogram(item) for name, item in group.items()}
 
     @cached_property
     def final(self) -> FinalState:
-        """Of a flow, the state at the last checkpoint: if `is_done` that at its end, and of a run
-        that failed that in which it did. `step` and `time` tell which it is."""
+        """Of a flow, the state at its last checkpoint: its end if `is_done`, and of a run that
+        failed, the state in which it failed. `step` and `time` tell which it is."""
         with opened(self._run_file, self._go_on) as file:
             group = part(file, "final", "only flows have one, from their first checkpoint on")
             return FinalState(time=float(group.attrs["time"]), step=int(group.attrs["step"]),
@@ -167,7 +166,7 @@ class Run:
 
     @cached_property
     def trajectory(self) -> Trajectory:
-        """The frames of trajectory.h5, if the run was told to write some."""
+        """The frames of trajectory.h5, if the run was told to write them."""
         return Trajectory(self.directory / "trajectory.h5")
 
     @cached_property
@@ -184,7 +183,7 @@ class Run:
 
     @cached_property
     def resumptions(self) -> list[Mapping[str, str]]:
-        """The same of each time it was resumed."""
+        """The same for each time the run was resumed."""
         return self._provenances[1:]
 
     @cached_property
@@ -208,7 +207,7 @@ class Run:
         checkpoints = ("checkpoint.h5", "checkpoint.h5.previous")
         if any((self.directory / name).exists() for name in checkpoints):
             return f"let the run come to its end, or see 'riesel resume {self.directory}'"
-        # Of impacts and columns of beads there are none, nor of a flow that has just begun.
+        # Impacts and columns of beads write no checkpoints, nor has a flow that has just begun.
         return "let the run come to its end, or start it again if it was stopped"
 
     _written_at_the_end = "only flows have them, when they have come to their end"

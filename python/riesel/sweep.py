@@ -21,8 +21,8 @@ from .table import Table, table_of
 
 @dataclass(frozen=True)
 class Point:
-    """One run of a sweep as its manifest has it. `status`, `attempts` and `reason` are those of the
-    moment in which the manifest was written; `is_done` looks at the directory itself."""
+    """One run of a sweep as listed in the manifest. `status`, `attempts` and `reason` are as they
+    were when the manifest was written; `is_done` looks at the directory itself."""
 
     directory: pathlib.Path
     name: str
@@ -36,7 +36,7 @@ class Point:
 
     @property
     def run(self) -> Run:
-        """The run itself. Raises NotThere if its directory was removed, to begin it anew."""
+        """The run itself. Raises NotThere if its directory was removed (to start it afresh)."""
         return Run(self.directory)
 
     @property
@@ -47,22 +47,22 @@ class Point:
 
 @dataclass(frozen=True)
 class _OfRuns:
-    """Of the runs of a sweep that differ in one setting alone, the seed for instance."""
+    """A result over runs of a sweep that differ in one setting only, such as the seed."""
 
-    settings: Mapping[str, float | str | None]  #: the others that vary, in SI units
+    settings: Mapping[str, float | str | None]  #: the other settings that vary, in SI units
     branch: str  #: or ""
     leg: str  #: or ""
-    runs: int  #: that count
-    steady: int  #: how many of them are steady flows; of impacts none is
-    valid: int  #: how many of them the verdict calls valid: look before using a mean of others
+    runs: int  #: how many the mean is over
+    steady: int  #: how many of them are steady flows; impacts never are
+    valid: int  #: how many of them have the verdict valid: check before using the mean
 
 
 @dataclass(frozen=True)
 class Mean(_OfRuns):
-    """Of a result, over the runs that have it."""
+    """The mean of a column of the table, over the runs that have a number there."""
 
     value: float
-    error: float  #: 68 %, by the scatter of the runs, see mean_of(); NaN of a single one
+    error: float  #: 68 %, from the scatter of the runs, see mean_of(); NaN for a single run
 
     def __str__(self) -> str:
         return f"{Estimate(self.value, self.error)} ({self.runs} runs, {self.steady} steady, {self.valid} valid)"
@@ -70,16 +70,16 @@ class Mean(_OfRuns):
 
 @dataclass(frozen=True)
 class MeanProfiles(_OfRuns):
-    """Of the profiles, over the runs that are done."""
+    """The means of the profiles, over the runs that are done."""
 
-    profiles: Table  #: as Run.profiles; errors by the scatter of the runs; no columns if none is done
+    profiles: Table  #: as Run.profiles, with errors from the scatter; no columns if none is done
 
 
 class Sweep:
     """What `riesel sweep` has left in its directory."""
 
     varied: Mapping[str, str]  #: the settings in which the points differ, with their units
-    points: list[Point]  #: in the order of the sweep file, equal ones as often as they stand in it
+    points: list[Point]  #: in the order of the sweep file; equal ones as often as it has them
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = pathlib.Path(directory)
@@ -104,9 +104,9 @@ class Sweep:
             return table_of(part(file, "points", remedy))
 
     def means(self, column: str, over: str = "seed") -> list[Mean]:
-        """The means of a column of `table` over the points that differ in the setting `over` alone, in
-        the order of the sweep file. Whether runs that are not steady, or not valid, may count is for you to say:
-        the means tell how many are."""
+        """The means of a column of `table` over the points that differ only in the setting `over`,
+        in the order of the sweep file. All runs count; each mean tells how many are steady and how
+        many are valid, and whether the others may count is for you to decide."""
         groups = self._groups(over)
         table = self.table
         if column not in table or table[column].dtype.kind != "f":
@@ -126,8 +126,8 @@ class Sweep:
         return means
 
     def mean_profiles(self, over: str = "seed") -> list[MeanProfiles]:
-        """The means of the profiles over the points that differ in the setting `over` alone, strip by
-        strip, likewise."""
+        """The means of the profiles, strip by strip, over the points that differ only in the
+        setting `over`, otherwise as means(). Raises NotThere if their strips differ."""
         found = []
         for group in self._groups(over):
             done = [point.run for point in group if point.is_done]
@@ -138,7 +138,8 @@ class Sweep:
         return found
 
     def _groups(self, over: str) -> list[list[Point]]:
-        """Points that differ in this setting alone, each once, in the order of the sweep file."""
+        """Groups of points that differ only in this setting, each point once, in the order of the
+        file."""
         if over not in self.varied:
             raise NotThere(f"{self.directory}: does not vary {over}; choose one of {', '.join(self.varied)}")
         groups: dict[tuple[Any, ...], dict[str, Point]] = {}
@@ -155,7 +156,7 @@ class Sweep:
 
 
 def _common(point: Point, over: str) -> dict[str, Any]:
-    """What a group of points has in common, by one of them."""
+    """What a group of points has in common, taken from one of them."""
     return {"settings": {key: value for key, value in point.settings.items() if key != over},
             "branch": point.branch, "leg": point.leg}
 

@@ -1,4 +1,4 @@
-"""Named columns with units, and how they come out of an HDF5 file of riesel."""
+"""Named columns with units, and how they are read from an HDF5 file of riesel."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Table(Mapping[str, NDArray[Any]]):
     """Columns by name: numpy arrays of equal length, numbers or texts. `unit[name]` is SI, "1" for
     pure numbers and "" where there is none; `doc[name]` says what it is. Equal only to itself."""
 
-    __eq__ = object.__eq__  # that of mappings asks for the truth of arrays
+    __eq__ = object.__eq__  # that of mappings would need the truth value of arrays
     __hash__ = object.__hash__
 
     def __init__(self, columns: Mapping[str, NDArray[Any]], unit: Mapping[str, str],
@@ -25,7 +25,7 @@ class Table(Mapping[str, NDArray[Any]]):
         self.doc = doc
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        """Raises KeyError, with the names that are most like it."""
+        """Raises KeyError, which lists the names most like this one."""
         if name not in self._columns:
             alike = difflib.get_close_matches(str(name), self._columns) or sorted(self._columns)
             raise KeyError(f"{name}: there is no such column; there is {', '.join(alike)}")
@@ -35,11 +35,11 @@ class Table(Mapping[str, NDArray[Any]]):
         return iter(self._columns)
 
     def __len__(self) -> int:
-        """How many columns."""
+        """The number of columns."""
         return len(self._columns)
 
     def label(self, name: str) -> str:
-        """For an axis: "mean_vy (m/s)"."""
+        """The label for an axis: "mean_vy (m/s)"."""
         unit = self.unit[name]
         return name if unit in ("", "1") else f"{name} ({unit})"
 
@@ -48,7 +48,7 @@ class Table(Mapping[str, NDArray[Any]]):
 
 
 def text(value: Any) -> str:
-    """Of an attribute or a data set of a single text."""
+    """The text of an attribute, or of a data set that is a single text."""
     return value.decode() if isinstance(value, bytes) else str(value)
 
 

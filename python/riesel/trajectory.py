@@ -1,4 +1,4 @@
-"""The frames of a run, one at a time: they may be more than fit into the memory."""
+"""The frames of a run, read one at a time: all of them may not fit into memory."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Frame:
 
 
 class Trajectory(Sequence[Frame]):
-    """trajectory.h5: len(), [i] and iteration give frames, read when they are asked for."""
+    """trajectory.h5 as a sequence of frames, each of which is read when it is asked for."""
 
     def __init__(self, path: pathlib.Path) -> None:
         self._path = path
@@ -60,8 +60,8 @@ class Trajectory(Sequence[Frame]):
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         index = range(len(self))[index]
-        # Opened anew for each frame of a loop, too: a run that goes on writes over what HDF5 knows
-        # of the file (its outline, io/trajectory_file.hpp).
+        # Opened anew for each frame, even in a loop: a run in progress overwrites what HDF5 has
+        # read of the file (its outline, io/trajectory_file.hpp).
         with opened(self._path, _REMEDY) as file:
             grains, walls = file["particles/grains"], file["particles/walls/position"]
             return Frame(time=float(self.time[index]), step=int(self.step[index]),
