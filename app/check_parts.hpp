@@ -1,5 +1,5 @@
-// What `riesel check` tells of every kind of problem: lines and warnings, contacts, the time step
-// and the cost.
+// What `riesel check` prints about problems of every kind: lines and warnings, contacts, the time
+// step and the cost.
 #pragma once
 
 #include "app/cost.hpp"

@@ -86,7 +86,7 @@ struct SweepTaskOptions {
 
 int sweep_task(const SweepTaskOptions& options);
 
-/// How far the sweep in a directory has come.
+/// Prints how far the sweep in a directory has come.
 int sweep_status(const std::filesystem::path& directory);
 
 /// Gathers the results of the sweep in a directory into one table.
