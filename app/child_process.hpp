@@ -40,7 +40,6 @@ public:
   std::optional<ProcessEnd> end();
 
   /// Does nothing once end() has returned a value.
-
   void send(int signal) const;
 
 private:
