@@ -10,7 +10,7 @@ namespace riesel::app {
 
 namespace {
 
-/// Six digits, which hide what arithmetic leaves behind them, if they tell the number.
+/// Six digits, which hide rounding errors, if that is the number; otherwise as many as it takes.
 std::string text_of(double number) {
   constexpr double rounding = 1e-12;
   std::string text = fmt::format("{:.6g}", number);

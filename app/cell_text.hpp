@@ -1,4 +1,4 @@
-// A value of a sweep's settings, as a text.
+// A value of a sweep's settings, as text.
 #pragma once
 
 #include "io/sweep_manifest.hpp"
@@ -7,7 +7,7 @@
 
 namespace riesel::app {
 
-/// With its unit; in as many digits as tell it from others; empty for nothing.
+/// The value followed by its unit, with as many digits as tell it from any other; "" for no value.
 std::string text_of(const io::Cell& cell, const std::string& unit = "");
 
 }  // namespace riesel::app

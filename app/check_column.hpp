@@ -1,4 +1,4 @@
-// What `riesel check` tells of a column of beads.
+// What `riesel check` prints about a column of beads.
 #pragma once
 
 #include "io/settings.hpp"

@@ -45,7 +45,8 @@ double bytes_of_series(double rows) {
   return rows * static_cast<double>(series_columns().size() * sizeof(double));
 }
 
-/// Bytes of a trajectory, and of its index, which is made anew in memory with each save.
+/// Number of frames, and bytes of a trajectory and of its index. The index is made anew in memory
+/// with each save.
 struct TrajectorySize {
   double frames = 0.0, file = 0.0, index = 0.0;
 };
@@ -59,16 +60,17 @@ TrajectorySize size_of_trajectory(const State& state, std::int64_t steps_per_fra
           .index = frames * static_cast<double>(frame.index)};
 }
 
-/// Memory that a save takes besides what stepping does: a copy of the state, both files as they are
-/// written, and what grows, the series and the index of the trajectory. Measured: 140 to 390 bytes
-/// per grain, fewest where grains are many; 1.3 times the series.
+/// Memory, in bytes, that a save takes in addition to stepping: a copy of the state, run.h5 and the
+/// checkpoint as they are written, and what grows: the series and the index of the trajectory.
+/// Measured: 140 to 390 bytes per grain, least where there are many grains; 1.3 times the series.
 double bytes_to_save(std::size_t grains, double rows, const TrajectorySize& trajectory) {
   constexpr double per_grain = 200.0, per_byte_of_series = 1.3;
   return per_grain * static_cast<double>(grains) + per_byte_of_series * bytes_of_series(rows)
          + trajectory.index;
 }
 
-/// Only if it is worth a thought. `duration`: s, simulated.
+/// Prints the size of the series if it is large, and warns if there are too few or too many rows.
+/// `duration`: s, simulated.
 void print_series(double rows, double duration) {
   constexpr double hardly_any = 3, few = 1e5, many = 1e6;
   if (rows < hardly_any)
@@ -93,7 +95,7 @@ void print_trajectory(const TrajectorySize& size) {
          io::trajectory_index_name);
 }
 
-/// One restitution is that of one mass.
+/// The restitution depends on the mass. Prints nothing if all grains are about equally heavy.
 void print_contacts_of_sizes(const ContactModel& model, const Grains& grains, double speed) {
   const auto [lightest, heaviest] = std::ranges::minmax(grains.mass);
   constexpr double alike = 1.5;
@@ -102,13 +104,13 @@ void print_contacts_of_sizes(const ContactModel& model, const Grains& grains, do
   print_contact("two heaviest grains", model, 0.5 * heaviest, speed);
 }
 
-/// Seen by what lies on it, in units of gravity where there is some.
+/// The motion of walls that shake, as a grain lying on them would feel it.
 void print_shaking(const State& state) {
   const WallMotion& motion = state.walls.front().motion;
   if (!motion.oscillates()) return;
   const double omega = 2.0 * std::numbers::pi * motion.frequency;
   const double speed = motion.fastest_oscillation();
-  if (speed == 0.0) return;  // it has been stopped away from its place
+  if (speed == 0.0) return;  // it has been stopped, but away from its place
   const double gravity = std::hypot(state.gravity.x, state.gravity.y);
   line("walls shake", "up to {:.3g} m/s and {:.3g} m/s^2{}, {:.0f} steps per period", speed,
        omega * speed, gravity > 0.0 ? fmt::format(" ({:.3g} g)", omega * speed / gravity) : "",
@@ -130,7 +132,7 @@ void print_bodies(const State& state) {
   warn_of_open_walls(state);
 }
 
-/// Without collisions grains that start upwards rise so far, which may be too far.
+/// Warns if grains that start upwards could, without collisions, rise so high that they are lost.
 void warn_of_low_chute(const State& state) {
   if (state.walls.size() > 1 || state.gravity.x >= 0.0) return;
   const GrainView grains(state);
@@ -147,15 +149,15 @@ void warn_of_low_chute(const State& state) {
          highest, lost);
 }
 
-/// Of a grain of mean mass and size, as in the summary of a run. `random`: m/s, root mean square of
-/// the random velocities at the start, per component; `mean_vx`: m/s, of all together, which
-/// brings no two to each other, but each to a wall.
+/// For grains of mean mass and size, as in the summary of a run. `random`: m/s, root mean square of
+/// the random velocities at the start, per component; `mean_vx`: m/s, which all grains share, so
+/// that it counts in collisions with walls only.
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random,
                     double mean_vx) {
   const State& state = flow.state;
   const double mass = mean_mass(state.grains);
   const double radius = 0.5 * mean_diameter(state.grains);
-  // Grains of a normal distribution are rarely faster than four standard deviations.
+  // In a normal distribution grains are rarely faster than four standard deviations.
   const double fastest = std::max(4.0 * random, 1e-3);
   const double both_fastest = std::numbers::sqrt2 * fastest;
   const double smaller = state.walls.front().smaller_radius(radius);
@@ -176,8 +178,8 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
 }
 
-/// `across`: m/s, the typical velocity towards a wall. How fast grains that are at rest across will
-/// be is not known.
+/// `across`: m/s, the typical velocity towards a wall. If grains start at rest in that direction,
+/// how fast they will be is not known, and there is no v_crit to print.
 void print_brake(const scenarios::Flow& flow, double across, double mean_vy) {
   if (flow.state.walls.front().smooth()) return;
   if (across < slowest_across) {
@@ -191,7 +193,7 @@ void print_brake(const scenarios::Flow& flow, double across, double mean_vy) {
                           std::abs(mean_vy));
 }
 
-/// Those that the run would be beyond from its beginning.
+/// Warns of limits that the run would exceed from its beginning.
 void warn_of_limits(const io::Settings& settings, const State& state) {
   const scenarios::RunLimits limits = scenarios::run_limits(settings);
   if (const double speed = fastest_grain(state).speed; limits.speed && speed > *limits.speed)

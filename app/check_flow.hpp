@@ -1,4 +1,4 @@
-// What `riesel check` tells of a flow: grains and walls, contacts, brake failure, cost.
+// What `riesel check` prints about a flow: grains and walls, contacts, brake failure, cost.
 #pragma once
 
 #include "io/settings.hpp"

@@ -1,4 +1,4 @@
-// What `riesel check` tells of impacts on a wall.
+// What `riesel check` prints about impacts on a wall.
 #pragma once
 
 #include "io/settings.hpp"

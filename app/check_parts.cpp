@@ -14,7 +14,7 @@ namespace riesel::app {
 
 namespace {
 
-/// Of a law whose restitution depends on the speed.
+/// For a law whose restitution depends on the speed.
 void print_contact_at_speeds(const char* what, const ContactModel& model, double reduced_mass,
                              double speed) {
   const double t_col = collision_time(model.normal, reduced_mass, speed), slower = 0.1 * speed;

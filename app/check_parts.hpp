@@ -1,5 +1,5 @@
-// What `riesel check` tells of every kind of problem: lines and warnings, contacts, the time step
-// and the cost.
+// What `riesel check` prints about problems of every kind: lines and warnings, contacts, the time
+// step and the cost.
 #pragma once
 
 #include "app/cost.hpp"
@@ -22,24 +22,27 @@ void warn(fmt::format_string<Parts...> format, Parts&&... parts) {
   fmt::print("  warning: {}\n", fmt::format(format, std::forward<Parts>(parts)...));
 }
 
-/// t_col and e_N: of the linear law in closed form, of others at `speed` (m/s) and at a tenth of
-/// it.
+/// Prints t_col and e_N: for the linear law in closed form, for other laws at `speed` (m/s), and
+/// e_N also at a tenth of it. `reduced_mass`: kg.
 void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed);
 
-/// A head-on contact of the kind that a system has.
+/// The most violent head-on contact to be expected between two kinds of bodies.
 struct HeadOnContact {
   double reduced_mass;    ///< kg
-  double speed;           ///< m/s, the fastest to be expected
+  double speed;           ///< m/s
   double smaller_radius;  ///< m
 };
 
-/// As the verdict on the run will measure it: over the radius of the smaller body.
+/// The largest overlap over the radius of the smaller body, as the verdict on the run measures it;
+/// without damping.
 double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact);
 
-/// The largest such ratio, and the speed of the impact with it; a warning only if it is too large.
+/// Prints the largest such ratio and the speed (m/s) of its impact, with a warning if it is too
+/// large.
 void warn_of_overlap(double ratio, double speed);
 
-/// The spring and the damping of the slip, between bodies of such a reduced mass (kg).
+/// Prints half a period of the tangential spring between bodies of this reduced mass (kg), and
+/// warns if the tangential damping is too strong for `time_step` (s).
 void print_slip(const io::Settings& settings, const SlipLaw& slip, double reduced_mass,
                 double time_step);
 
@@ -47,7 +50,7 @@ void warn_of_time_step(const io::Settings& settings);
 
 void print_cost_of_curve(const CurveCost& cost, int threads);
 
-/// The most that this process has used so far, and so many bytes more.
+/// Prints the peak memory of this process so far plus `more` bytes.
 void print_memory(double more);
 
 }  // namespace riesel::app

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int exit_cannot_execute = 127;
 
-/// While it lives no signal is handled: one that comes to a child before it has become a program
-/// would be taken by its parent's handlers, and lost.
+/// Blocks all signals while it lives. Otherwise a signal that reaches a child between fork and exec
+/// would be handled by its parent's handlers, and lost.
 class SignalsHeldBack {
 public:
   SignalsHeldBack() {
@@ -42,7 +42,7 @@ private:
 [[noreturn]] void become(char* const* arguments, int log, pid_t parent, const sigset_t& signals) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(exit_cannot_execute);  // it died before it was watched
+  if (getppid() != parent) _exit(exit_cannot_execute);  // the parent died before prctl()
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
   dup2(nothing, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);

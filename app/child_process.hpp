@@ -1,5 +1,5 @@
-// Runs of a sweep are processes of their own: whatever one of them does, crash included, the others
-// and the sweep go on.
+// Each run of a sweep is a process of its own, so that the others and the sweep go on whatever it
+// does, even if it crashes.
 #pragma once
 
 #include <sys/types.h>
@@ -11,8 +11,8 @@
 
 namespace riesel::app {
 
-/// Whoever ignores the ends of its children (SIGCHLD) hands that on to the programs that it starts,
-/// and those could not learn how theirs end. From now on this one can.
+/// A program that ignores SIGCHLD passes that on to the programs that it starts, which then cannot
+/// learn how their own children end. From now on this program can.
 void heed_ends_of_children();
 
 /// How a process ended.
@@ -21,14 +21,14 @@ struct ProcessEnd {
   int signal = 0;  ///< the signal that ended it, or 0
 };
 
-/// This program, called with other arguments. Signals of the terminal do not reach it: whoever
-/// started it passes them on. Should its parent die, it gets SIGTERM.
+/// This program, started again with other arguments. Signals of the terminal do not reach it: its
+/// parent has to pass them on with send(). If its parent dies, it gets SIGTERM.
 class ChildProcess {
 public:
-  /// What it prints is appended to `log`. Throws io::FileError if that cannot be written, or if
-  /// there can be no more processes.
+  /// What it prints is appended to `log`. Throws io::FileError if `log` cannot be written, or if no
+  /// process can be started.
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log);
-  /// Stops a process that still runs, politely, and waits for its end.
+  /// Asks a process that still runs to stop (SIGTERM), and waits for its end.
   ~ChildProcess();
 
   ChildProcess(const ChildProcess&) = delete;
@@ -36,9 +36,10 @@ public:
   ChildProcess(ChildProcess&&) = delete;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Nothing while it runs.
+  /// How it ended; nothing while it runs. Does not wait.
   std::optional<ProcessEnd> end();
 
+  /// Does nothing once end() has returned a value.
   void send(int signal) const;
 
 private:

@@ -1,4 +1,4 @@
-// Time on the clock.
+// Real time.
 #pragma once
 
 #include <chrono>

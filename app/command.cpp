@@ -57,7 +57,7 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
   add_set(command, overrides, "Change a setting: key.path=value");
 }
 
-/// To go on with the runs of a sweep.
+/// --set of the commands that go on with the runs of a sweep.
 CLI::Option* add_changes(CLI::App& command, std::vector<std::string>& overrides) {
   return add_set(command, overrides,
                  "Follow all runs further, also those that are done, as by run.duration='4 s'");
@@ -123,15 +123,15 @@ public:
     });
   }
 
-  /// Throws CLI::ParseError, and app::UnusableInput for a subcommand that there is not.
+  /// Throws CLI::ParseError, and app::UnusableInput for an unknown subcommand.
   void parse() {
     std::vector<std::string> words(arguments_.begin() + 1, arguments_.end());
-    if (!words.empty() && words.front() == "help") {  // help run: run --help
+    if (!words.empty() && words.front() == "help") {  // "help run" means "run --help"
       words.erase(words.begin());
       words.emplace_back("--help");
     }
     if (!words.empty() && !words.front().starts_with('-')) refuse_unknown_command(words.front());
-    std::ranges::reverse(words);  // as CLI11 wants them
+    std::ranges::reverse(words);  // the order that CLI11 takes
     program_.parse(words);
   }
 
@@ -275,7 +275,7 @@ private:
         [this] { command_ = [this] { return app::print_schema(schema_of_sweeps_); }; });
   }
 
-  /// A subcommand whose only argument is the directory of something that was made.
+  /// A subcommand whose only argument is the directory of a run or a sweep.
   void add_directory(const std::string& name, const std::string& what, const std::string& of,
                      int (*act)(const std::filesystem::path&)) {
     CLI::App* subcommand = program_.add_subcommand(name, what);
@@ -283,8 +283,8 @@ private:
     set_command(*subcommand, *directory, [this, act] { return act(directory_); });
   }
 
-  /// The argument is required, but asked for only after CLI11 has complained of unknown options,
-  /// which say more.
+  /// The argument is required, but this is checked only after CLI11 has complained about unknown
+  /// options, which says more about what is wrong.
   void set_command(CLI::App& subcommand, const CLI::Option& argument,
                    const std::function<int()>& command) {
     subcommand.callback([this, &argument, command] {
@@ -308,7 +308,7 @@ private:
   std::function<int()> command_;
 };
 
-/// Each line says who speaks.
+/// Prints the message; each line begins with the name of the program.
 int fail(int status, const char* message) noexcept {
   std::fputs("riesel: ", stderr);
   for (const char* letter = message; *letter != '\0'; ++letter) {
@@ -330,13 +330,13 @@ int fail_for_want_of_memory() noexcept {
   return fail(app::exit_failed, "out of memory; choose fewer grains");
 }
 
-/// No exception can leave a team of threads: the others would wait for ever.
+/// In a parallel region an exception cannot be thrown: the other threads would wait for ever.
 void give_up_without_memory() {
   if (omp_in_parallel() == 0) throw std::bad_alloc();
   _exit(fail_for_want_of_memory());
 }
 
-/// What is printed goes to the disk when it likes, and may not get there.
+/// Standard output is buffered, so that an error may show only when it is flushed at the end.
 int tell_if_not_printed(int status) {
   const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   return printed || status != app::exit_done ? status : fail_to_print();
@@ -347,7 +347,7 @@ int run_program(int argc, char** argv) {
   app::occupy_closed_streams();
   app::heed_ends_of_children();
   app::end_on_interrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // the write that is cut off tells of it then (EFBIG)
+  std::signal(SIGXFSZ, SIG_IGN);  // so that a write beyond the limit of a file fails with EFBIG
   std::set_new_handler(give_up_without_memory);
   CommandLine line(argc, argv);
   try {

@@ -9,7 +9,7 @@ namespace riesel::app {
 
 namespace {
 
-/// By the names that are used throughout, see command.cpp.
+/// By the name, as command.cpp uses the same names throughout.
 WordKind kind_of(const std::string& name) {
   static const std::map<std::string, WordKind> known = {
       {"FILE", WordKind::file}, {"DIR", WordKind::directory}, {"SCENARIO", WordKind::scenario},

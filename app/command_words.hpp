@@ -1,4 +1,4 @@
-// The words of the command line, as those want them who write about it.
+// The words of the command line, as completion scripts and the manual page need them.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -8,25 +8,25 @@
 
 namespace riesel::app {
 
-/// What stands at a place of the command line.
+/// What a word of the command line stands for.
 enum class WordKind { flag, file, directory, scenario, key, shell, other };
 
 struct CommandWord {
-  std::vector<std::string> names;  ///< "--out"; of what is known by its place "FILE"
-  std::string value;               ///< "DIR"; empty if it takes none
+  std::vector<std::string> names;  ///< "--out"; for a positional argument "FILE"
+  std::string value;               ///< "DIR"; empty if it takes no value
   std::string meaning;
   WordKind kind;
 };
 
 struct Subcommand {
   std::string name, meaning;
-  std::vector<CommandWord> places;   ///< in their order
-  std::vector<CommandWord> options;  ///< with --help
+  std::vector<CommandWord> places;   ///< positional arguments, in order
+  std::vector<CommandWord> options;  ///< --help included
 };
 
 std::vector<Subcommand> subcommands_of(const CLI::App& program);
 
-/// What may stand after --set, and scenarios.
+/// The keys that --set takes: those of all scenarios, sorted, each once.
 std::vector<std::string> keys_of_settings();
 std::vector<std::string> names_of_scenarios();
 

@@ -1,5 +1,5 @@
-// The subcommands of riesel, one file each. They return the exit status, and throw
-// io::SettingsError or UnusableInput for bad input, anything else where a run fails.
+// The subcommands of riesel, one file each. They return the exit status. They throw
+// io::SettingsError or UnusableInput for bad input, other exceptions if a run fails.
 #pragma once
 
 #include "app/flow_options.hpp"
@@ -22,8 +22,8 @@ class UnusableInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What read() returns; what it cannot use is bad input, rather than a failure. Throws
-/// UnusableInput instead of io::FileError.
+/// Returns read(). A file that it cannot use counts as bad input, not as a failed run: throws
+/// UnusableInput in place of io::FileError.
 template <class Read>
 auto as_input(Read read) {
   try {
@@ -44,8 +44,8 @@ int run(const RunOptions& options, const Arguments& arguments);
 
 struct ResumeOptions {
   std::filesystem::path checkpoint;  ///< the file, or the directory of the run
-  /// "key=value"; only what does not make it another run: duration, threads, stepping, limits, how
-  /// often checkpoints are written.
+  /// "key=value"; only settings that leave the physics as it is: duration or precision, threads,
+  /// stepping, limits, the interval of checkpoints.
   std::vector<std::string> overrides;
   FlowOptions flow;
 };
@@ -62,12 +62,12 @@ int check(const CheckOptions& options);
 struct SweepOptions {
   std::filesystem::path file;                      ///< the sweep file, or the directory of a sweep
   std::optional<std::filesystem::path> directory;  ///< where the results go
-  std::vector<std::string> overrides;              ///< "key=value", to go on with, see Prolongation
+  std::vector<std::string> overrides;              ///< "key=value", see Prolongation
   std::optional<int> jobs;                         ///< runs side by side [as many as cores]
-  bool dry_run = false;                            ///< only tell what would be run
+  bool dry_run = false;                            ///< only list what would be run
   bool prepare_only = false;                       ///< write the plan, run nothing
-  bool retry_failed = false;                       ///< run again what failed
-  std::optional<double> max_walltime;  ///< s on the clock: of the command, or of a task of Slurm
+  bool retry_failed = false;                       ///< start failed points again
+  std::optional<double> max_walltime;  ///< s of real time: for the command, or for each Slurm task
   bool to_slurm = false;               ///< leave the running to Slurm
   SlurmOptions slurm;
 };
@@ -78,22 +78,21 @@ struct SweepTaskOptions {
   std::filesystem::path directory;     ///< of a sweep that was prepared
   std::size_t index = 0;               ///< of the point, as --dry-run lists them; or of the part
   std::optional<std::size_t> parts;    ///< how many the sweep is cut into, see sweep_parts.hpp
-  std::optional<int> threads;          ///< [as many as cores, if that many are of use]
-  std::optional<double> max_walltime;  ///< s on the clock, to stop before; from the program's start
+  std::optional<int> threads;          ///< [as many as cores, or fewer if more are of no use]
+  std::optional<double> max_walltime;  ///< s of real time since the program started
   bool retry_failed = false;
-  std::vector<std::string> overrides;  ///< "key=value", to go on with, see Prolongation
+  std::vector<std::string> overrides;  ///< "key=value", see Prolongation
 };
 
 int sweep_task(const SweepTaskOptions& options);
 
-/// How far the sweep in a directory has come.
+/// Prints how far the sweep in a directory has come.
 int sweep_status(const std::filesystem::path& directory);
 
 /// Gathers the results of the sweep in a directory into one table.
 int sweep_collect(const std::filesystem::path& directory);
 
-/// Writes a page with figures beside the files of the finished run, or of the sweep, in a
-/// directory.
+/// Writes report.html and its figures into the directory of a finished run, or of a sweep.
 int report(const std::filesystem::path& directory);
 
 int list_scenarios();
@@ -103,13 +102,13 @@ struct NewFileOptions {
   std::optional<std::filesystem::path> file;  ///< [SCENARIO.yaml]
 };
 
-/// Writes a settings file to begin with.
+/// Writes a settings file for the user to start from.
 int new_file(const NewFileOptions& options);
 
-/// The reference page of the settings, in Markdown.
+/// Prints the reference page of the settings, in Markdown.
 int print_settings();
 
-/// The JSON Schema of settings files, or of sweep files.
+/// Prints the JSON Schema of settings files, or of sweep files.
 int print_schema(bool of_sweeps);
 
 }  // namespace riesel::app

@@ -11,7 +11,7 @@ namespace {
 
 // --- bash ---
 
-/// The command that puts what may stand there into COMPREPLY.
+/// The shell command that puts the possible words of this kind into COMPREPLY.
 std::string bash_reply(WordKind kind) {
   switch (kind) {
   case WordKind::file:
@@ -37,7 +37,7 @@ std::string bash_case(const Subcommand& command) {
       after += fmt::format("        {}) {}; return ;;\n", fmt::join(option.names, "|"),
                            bash_reply(option.kind));
   }
-  // Enough for commands whose places all want the same, or of which the first is what is hard to
+  // The kind of the first place stands for all: commands have only one, or the others are easy to
   // type.
   const std::string place =
       bash_reply(command.places.empty() ? WordKind::other : command.places.front().kind);
@@ -49,7 +49,7 @@ std::string bash_case(const Subcommand& command) {
 
 // --- zsh ---
 
-/// Within single quotes, and where brackets and colons mean something.
+/// Escaped for use within single quotes, where brackets and colons have a meaning.
 std::string zsh_text(const std::string& text) {
   std::string quoted;
   for (const char c : text) {

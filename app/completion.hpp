@@ -1,4 +1,5 @@
-// What shells and `man` are told of the command line: made from the table that also reads it.
+// Shell completion and the manual page, made from the same description that parses the command
+// line, so that they cannot disagree with it.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -8,7 +9,7 @@
 
 namespace riesel::app {
 
-/// Those for which there is a script.
+/// The shells for which there is a completion script.
 inline constexpr std::array shells = {"bash", "zsh"};
 
 /// Scripts that complete subcommands, options, files, scenarios and keys of settings.

@@ -16,10 +16,10 @@ namespace riesel::app {
 
 namespace {
 
-/// Particle-steps per second: any number does for a run that will not last.
+/// Particle-steps per second, for a run that fails in its first steps: any number does.
 constexpr double speed_of_what_fails_at_once = 1e7;
 
-/// Evenly spread, so that there are `sample` of them at most.
+/// At most `sample` of them, evenly spread.
 template <class Item>
 std::vector<Item> sample_of(const std::vector<Item>& all, std::size_t sample) {
   std::vector<Item> some;
@@ -27,7 +27,7 @@ std::vector<Item> sample_of(const std::vector<Item>& all, std::size_t sample) {
   return some;
 }
 
-/// What `all` problems cost if they are like `some`, whose results solve() returns.
+/// The cost of `all` problems if they are like `some`. solve() returns the results of `some`.
 template <class Item, class Solve>
 CurveCost cost_of_all(const std::vector<Item>& some, std::size_t all, Solve solve) {
   const auto start = Clock::now();

@@ -1,4 +1,4 @@
-// What a run will cost, from a few real steps of it.
+// What a run will cost, measured by running a small part of it.
 #pragma once
 
 #include "io/settings.hpp"
@@ -9,25 +9,26 @@
 
 namespace riesel::app {
 
-/// Time steps that a flow takes in all; the most, if it ends when it is precise.
+/// Time steps of a flow; at most as many, if it ends when its mean is precise enough.
 double steps_of(const io::Settings& settings, const scenarios::Flow& flow);
 
-/// Particle-steps per second, measured for about so many seconds at the start of the flow.
+/// Particle-steps per second, measured at the start of the flow during at least `seconds`.
 double measured_speed(const io::Settings& settings, const scenarios::Flow& flow, int threads,
                       double seconds);
 
-/// What measuring a row of the series takes (s), at the start of the flow.
+/// Seconds that measuring a row of the series takes, at the start of the flow.
 double seconds_per_row(const scenarios::Flow& flow);
 
+/// The cost of a whole curve.
 struct CurveCost {
   double steps;
   double seconds;
 };
 
-/// Of all impacts, from about `sample` of them, evenly spread over the curve.
+/// Extrapolated from at most `sample` impacts, evenly spread over the curve.
 CurveCost measured_cost(const scenarios::ImpactCurve& curve, int threads, std::size_t sample);
 
-/// Of all drops, likewise.
+/// Likewise, from at most `sample` drops.
 CurveCost measured_cost(const scenarios::ColumnCurve& curve, int threads, std::size_t sample);
 
 /// "45 s", "12 min", "3.4 h"

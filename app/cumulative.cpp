@@ -8,7 +8,7 @@ namespace riesel::app {
 
 namespace {
 
-/// Of the mean; not a number where there is no scatter to take it from.
+/// NaN if there are too few samples to have a scatter.
 double error_of_mean(const std::vector<double>& samples) {
   return samples.size() > 1 ? estimate_mean(samples).error : unknown;
 }

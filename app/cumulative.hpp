@@ -1,5 +1,5 @@
-// Rates and ratios from series that count since the start of a run: what happened after the
-// transient, with error bars that know of correlations.
+// Rates and ratios from series that accumulate since the start of a run: what happened after the
+// transient, with error bars that take correlations into account.
 #pragma once
 
 #include "io/run_file.hpp"
@@ -11,18 +11,18 @@
 
 namespace riesel::app {
 
-/// The rows of a run from row `first` on, which is one of them; `interval` (s) lies between two.
+/// The rows of a run from row `first` on, which must exist; rows are `interval` (s) apart. `file`
+/// must outlive this.
 class CumulativeSeries {
 public:
   CumulativeSeries(const io::RunFile& file, std::size_t first, double interval)
       : file_(&file), first_(first), interval_(interval) {}
 
-  /// What came since row `first`.
+  /// Increase since row `first`.
   double total(const std::string& name) const;
   /// Per second.
   io::Measured rate(const std::string& name) const;
-  /// One total over the other; the error is that of a ratio estimator. Not a number if nothing came
-  /// of the second.
+  /// total(part) / total(whole), with the error of a ratio estimator. NaN if total(whole) is 0.
   io::Measured ratio(const std::string& part, const std::string& whole) const;
 
 private:

@@ -11,11 +11,11 @@ namespace {
 
 using Points = std::vector<io::CurvePoint>;
 
-/// v_y at which the value rises through the level, not to come below it again, on the straight line
-/// between the points on both sides: the means of few starts scatter, and may touch it before.
+/// v_y at which the value rises through the level for the last time and stays above, interpolated
+/// linearly between two points: as means of few starts scatter, it may touch the level before.
 double where_it_rises(const Points& points, double io::CurvePoint::*value, double level) {
   const io::CurvePoint* below = nullptr;
-  double rise = unknown;  // also if it is above from the beginning
+  double rise = unknown;  // also if the value is above the level from the beginning
   for (const io::CurvePoint& point : points) {
     if (std::isnan(point.*value)) continue;
     if (point.*value < level) {
@@ -29,7 +29,7 @@ double where_it_rises(const Points& points, double io::CurvePoint::*value, doubl
   return rise;
 }
 
-/// `points`: of one v_x, by v_y.
+/// `points`: of one v_x, by increasing v_y.
 io::CurveLine line_of(const Points& points) {
   io::CurveLine line{.v_x = points.front().v_x};
   line.brake_fails_at =

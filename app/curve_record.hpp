@@ -1,4 +1,4 @@
-// What a finished curve left, and the report that is made of it.
+// What a finished curve has left on disk, and the report made of it.
 #pragma once
 
 #include "app/report_parts.hpp"
@@ -15,8 +15,8 @@ struct CurveRecord {
   std::string effective_settings;
 };
 
-/// tell_result(summary, page), show_curves(summary, draft), list_points(summary, page): what
-/// differs from one kind of curve to the other.
+/// The parts that differ between kinds of curves are passed in: tell_result(summary, page),
+/// show_curves(summary, draft), list_points(summary, page).
 template <class Summary, class TellResult, class ShowCurves, class ListPoints>
 Report report_of(const CurveRecord<Summary>& record, TellResult tell_result, ShowCurves show_curves,
                  ListPoints list_points) {

@@ -1,4 +1,4 @@
-// What a flow cannot go on with, looked at with each row of its series.
+// States from which a flow cannot go on; checked with each row of its series and each look.
 #pragma once
 
 #include "engine/observables.hpp"
@@ -9,16 +9,16 @@
 
 namespace riesel::app {
 
-/// Says, with the remedy, that a grain of this diameter (m) fits between the grains of a wall, if
-/// it does.
+/// If a grain of this diameter (m) fits between the grains of a wall, a message that says so, with
+/// the remedy.
 std::optional<std::string> way_through_a_wall(const State& state, double diameter);
 
-/// Throws RunFailure, with time and remedy, if grains move so fast that nothing can be told of
-/// them, nor of how they went on (largest_speed), or are so heavy that sums do not hold what they
-/// do (largest_sum).
+/// Throws RunFailure, with time and remedy, if grains are too fast for the fixed-point numbers that
+/// hold their motion (largest_speed), or so heavy that sums of energies or impulses would overflow
+/// (largest_sum).
 void fail_if_out_of_range(const State& state);
 
-/// Likewise if grains have gone through a wall. `seen` is of `state`.
+/// Likewise if grains have gone through a wall. `seen` are the observables of `state`.
 void fail_if_through_a_wall(const State& state, const Observables& seen);
 
 }  // namespace riesel::app

@@ -1,4 +1,4 @@
-// What a flow has been seen to do: the last look at it, and the sums for its profiles and
+// What has been measured of a flow: the latest observables, and the sums for its profiles and
 // histograms.
 #pragma once
 
@@ -11,15 +11,16 @@ namespace riesel::app {
 
 class FlowMeasurements {
 public:
-  /// Of a flow that begins with `start`.
+  /// For a flow that begins with `start`.
   explicit FlowMeasurements(const State& start);
-  /// Of one that goes on with it: `profiles` and `histograms` as they were. Throws
-  /// std::invalid_argument if they cannot be.
+  /// For a flow that goes on from `start`, with the sums so far. Throws std::invalid_argument if
+  /// they do not fit.
   FlowMeasurements(const State& start, TimeBlocks profiles, TimeBlocks histograms);
 
+  /// Updates last() only.
   void look(const State& state) { last_ = observe(state); }
 
-  /// A look that counts: one with each row of the series.
+  /// Updates last() and adds to the sums: once for each row of the series.
   void add(const Simulation& simulation);
 
   const Observables& last() const { return last_; }

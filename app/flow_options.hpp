@@ -9,8 +9,8 @@ namespace riesel::app {
 
 struct FlowOptions {
   Verbosity verbosity = Verbosity::normal;
-  bool profile = false;                ///< tell where the time went
-  std::optional<double> max_walltime;  ///< s on the clock, to stop before; from the program's start
+  bool profile = false;                ///< print where the time went
+  std::optional<double> max_walltime;  ///< s of real time since the program started
 };
 
 }  // namespace riesel::app

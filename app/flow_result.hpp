@@ -1,4 +1,4 @@
-// What a flow writes when it has come to its end, besides its last checkpoint.
+// What a flow writes at its end, besides its last checkpoint.
 #pragma once
 
 #include "app/flow_measurements.hpp"
@@ -9,8 +9,9 @@
 
 namespace riesel::app {
 
-/// The verdict, profiles and histograms into run.h5; then summary.json: where that is, the others
-/// are, too. Means are from sample `first` on; `interval` (s) lies between two.
+/// Writes the verdict, profiles and histograms into run.h5, and then summary.json, so that where
+/// there is a summary, the others are complete. Means are over samples from `first` on, which are
+/// `interval` (s) apart.
 void write_result(const io::FlowSummary& summary, const FlowMeasurements& measurements,
                   const Tally& tally, std::int64_t first, double interval, RunFiles& files);
 

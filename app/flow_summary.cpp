@@ -20,7 +20,7 @@ namespace riesel::app {
 
 namespace {
 
-/// Of one series after the transient.
+/// Mean of one series from row `first` on, which is the end of the transient.
 io::Measured mean_of(const io::RunFile& file, const std::string& name, std::size_t first) {
   const std::vector<double> series = file.series(name);
   const MeanEstimate mean = estimate_mean(std::span(series).subspan(first));
@@ -41,7 +41,7 @@ std::array<io::Measured, density_waves> structure_factors_of(const io::RunFile& 
   return factors;
 }
 
-/// The core of the tube, and the layers at the walls.
+/// Means over the core of the tube, and over the layers at the walls.
 std::pair<io::FlowSummary::Zone, io::FlowSummary::Zone>
 zones(const TimeBlocks& blocks, const Strips& strips, std::size_t walls, std::int64_t first) {
   const auto profiles =
@@ -65,14 +65,15 @@ io::Measured scaled(const io::Measured& m, double factor) {
   return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
 }
 
-/// Walls take what gravity gives, but for what the grains have more at the end than at the
-/// beginning. So the mean braking errs by the difference of two moments over the time between them:
-/// less than its increments tell by themselves, as much of what is taken in one is missing in the
-/// next. `mean_vy`: m/s, after the transient, `interval` (s) apart; `error`: m/s, of its mean.
+/// Walls take the momentum that gravity gives, except for the difference between the grains'
+/// momentum at the end and at the beginning. So the error of the mean braking is the scatter of
+/// that difference over the time between. This is less than the increments by themselves suggest,
+/// as much of what is taken in one is missing in the next. `mean_vy`: m/s, after the transient,
+/// `interval` (s) apart; `error`: m/s, of its mean.
 io::Measured balanced(const io::Measured& braking, std::span<const double> mean_vy, double error,
                       double interval) {
   if (mean_vy.size() < 2) return braking;
-  // About the true mean, from which that of a short series is off.
+  // The scatter about the true mean: that of a short series is off by `error`.
   const double deviation = std::hypot(standard_deviation(mean_vy), error);
   const double of_difference = std::numbers::sqrt2 * deviation;
   const double seconds = interval * static_cast<double>(mean_vy.size() - 1);
@@ -122,20 +123,20 @@ io::FlowSummary::Energy energy_of(const State& state, const Energies& e) {
           .residual = e.residual};
 }
 
-/// A flow that gains speed only passes through its mean: there is nothing that a bar could cover.
-/// That of the temperature likewise, if that is what grows.
+/// A flow that still gains speed only passes through its mean, so that an error bar would mean
+/// nothing. Likewise for the temperature, if the flow is judged by it.
 void take_error_bars_off(io::FlowSummary& s) {
   s.mean_axial_velocity.error = unknown;
   if (s.judged_by == "granular_temperature") s.fluctuations.granular_temperature.error = unknown;
 }
 
-constexpr double enough_contacts = 20.0;  // fewer tell nothing of a flow
+constexpr double enough_contacts = 20.0;  // fewer say nothing about a flow
 
-/// What walls do is looked at after the transient, the rest since the start.
+/// Contacts with walls are judged after the transient, all else since the start.
 Evidence evidence(const CumulativeSeries& series, const State& state, const Energies& energies,
                   double v_crit, std::size_t warnings) {
   const bool enough = series.total("wall_contacts_ended") >= enough_contacts;
-  // Then none of the braking failed, also if there is none: at smooth walls without friction.
+  // Then no braking failed, even if there is none, as at smooth walls without friction.
   const bool none_failed = enough && series.total("wall_contacts_cut_short") == 0.0;
   const auto of_walls = [&](const char* part, const char* whole) {
     return enough ? series.ratio(part, whole).value : unknown;
@@ -201,7 +202,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
       zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(first));
   s.balance = balance(series, state, std::span(mean_vy).subspan(first), s.mean_axial_velocity.error,
                       interval);
-  // Each contact is one of two grains.
+  // Each contact counts for both of its grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
   s.braking_force = braking_force(series, state);

@@ -17,26 +17,26 @@ namespace riesel::app {
 /// What a flow leaves to be summarised.
 struct FlowRecords {
   const io::RunFile& file;
-  const SteadyState& steady;  ///< what the series says by which it is judged
+  const SteadyState& steady;  ///< the assessment of the series that judged_by() names
   const Strips& strips;
   const TimeBlocks& profiles;                ///< a sample of the strips with each row of the series
   double interval;                           ///< s, between two rows
-  const std::vector<std::string>& warnings;  ///< that were given of limits
+  const std::vector<std::string>& warnings;  ///< given because limits were exceeded
 };
 
-/// By which of the series a flow is judged steady: its mean velocity, or how hot it is where
-/// gravity does not drive it along the walls.
+/// The series by which a flow is judged steady: its mean axial velocity or, if gravity does not
+/// drive it along the walls, its granular temperature.
 struct Judged {
   const char* series;
-  std::optional<double> free_fall_gain;  ///< per row, for the verdict
+  std::optional<double> free_fall_gain;  ///< m/s per row, of free fall; see assess_steady_state()
 };
 Judged judged_by(const State& state, double interval);
 
-/// Steps that the shortest twentieth of the contacts of a kind has lasted at most, since the start;
-/// not a number while there are too few.
+/// The 5 % quantile of the durations of contacts since the start, in time steps: of those between
+/// grains or with walls, whichever is less. NaN while there are too few contacts.
 double steps_per_contact(const State& state);
 
-/// All but `run`. `last` are the observables of `state`.
+/// The summary, except for its `run` and `ended_by`. `last`: the observables of `state`.
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
                           const Observables& last);
 

@@ -12,20 +12,20 @@ namespace riesel::app {
 
 namespace {
 
-/// The handler runs on any thread of the program.
+// Atomic, as the handler may run on any thread.
 std::atomic<int> received = 0;
 std::atomic<std::int64_t> received_at = 0;  // s
 static_assert(std::atomic<int>::is_always_lock_free);
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
-/// s, of a clock that only goes on; may be asked for in a signal handler.
+/// s, of a monotonic clock; safe in a signal handler.
 std::int64_t now() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
   return time.tv_sec;
 }
 
-/// Only calls that a signal handler may make.
+/// Makes only calls that are safe in a signal handler.
 void end(int signal) {
   constexpr std::string_view message =
       "\nriesel: interrupted, nothing is left half-written; call it again to start anew\n";
@@ -34,9 +34,10 @@ void end(int signal) {
   _exit(128 + signal);
 }
 
-/// One wish may come several times: of a terminal that goes, through its shell and by itself
-/// (SIGHUP); of a batch system or a shutdown, to all processes, from the sweep that has started
-/// this one, and as that ends (SIGTERM). There is no such thing of whoever presses keys (SIGINT).
+/// One request may arrive as several signals. A terminal that is closed sends SIGHUP itself and
+/// through its shell. A batch system or a shutdown sends SIGTERM to all processes: one comes
+/// directly, one from the sweep that has started this run, and one as that ends. SIGINT comes just
+/// once for each press of the keys.
 void remember(int signal) {
   constexpr std::int64_t same_wish = 5;  // s
   if (received == 0) {
@@ -54,7 +55,7 @@ void on(int signal, void (*act)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
-/// As nohup asks for.
+/// nohup, for instance, has SIGHUP ignored.
 bool is_ignored(int signal) {
   struct sigaction action = {};
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;

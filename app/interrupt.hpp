@@ -1,23 +1,23 @@
-// SIGINT, SIGTERM and SIGHUP as a polite request: what has something to save stops at the next
-// occasion, after a checkpoint, and a second signal ends it at once: but not SIGHUP, nor SIGTERM
-// within some seconds, which may come several times of one wish. What has nothing to save ends at
-// once.
+// SIGINT, SIGTERM and SIGHUP are requests to end. A command that has something to save writes a
+// checkpoint first, at the next occasion; a second signal ends it at once, except a SIGHUP, or a
+// SIGTERM within a few seconds, as one request may send several of these. A command that has
+// nothing to save ends at once.
 #pragma once
 
 namespace riesel::app {
 
-/// From now on a signal ends the program with a message and the status 128 + signal. For whatever
-/// has no results that could be lost: files are replaced as a whole.
+/// From now on a signal ends the program with a message and the status 128 + signal. For commands
+/// that have no results to lose; no file is left half-written, as files are replaced as a whole.
 void end_on_interrupts();
 
-/// From now on the first signal only asks for the end, and whoever has read its messages may go
-/// (SIGPIPE).
+/// From now on the first signal is only noted (interrupting_signal()), and a reader of the output
+/// that goes away does not end the program (SIGPIPE).
 void catch_interrupts();
 
-/// From now on signals do what they do to any program. Safe between fork and exec.
+/// From now on signals have their default effect. Safe between fork and exec.
 void forget_interrupts();
 
-/// The signal that has asked for the end, or 0.
+/// The first signal since catch_interrupts(), or 0.
 int interrupting_signal();
 
 }  // namespace riesel::app

@@ -12,7 +12,7 @@ namespace riesel::app {
 
 namespace {
 
-/// The contact that had it, and when.
+/// The contact with the largest overlap, and its times.
 std::string contact_with(const LargestOverlap& largest, const State& state) {
   const Contact& contact = *largest.contact;
   const std::string bodies = bodies_of(contact.name);
@@ -65,14 +65,14 @@ std::vector<std::string> LimitWatch::newly_exceeded(const State& state, const Ob
     if (!limit || !exceeded || (!limits_.stop && has_warned_of(key))) return;
     messages.push_back(fmt::format("{} is exceeded {}: {}", key, when(state), message()));
   };
-  // What is not a number keeps no limit.
+  // With a negated comparison, so that NaN counts as exceeded.
   const LargestOverlap largest = limits_.overlap ? largest_overlap(state) : LargestOverlap{};
   look(limits_.overlap, "limits.overlap", !(largest.ratio <= limits_.overlap),
        [&] { return overlap_exceeded(state, largest); });
   const double error = energy_error_ratio(state, seen.energies);
   look(limits_.energy_error, "limits.energy_error", !(error <= limits_.energy_error),
        [&] { return energy_error_exceeded(error); });
-  // But too few contacts to tell are no offence.
+  // Not negated: NaN, too few contacts to tell, does not count as exceeded.
   const double steps = limits_.steps_per_contact ? steps_per_contact(state) : 0.0;
   look(limits_.steps_per_contact, "limits.steps_per_contact", steps < limits_.steps_per_contact,
        [&] { return steps_too_few(steps); });

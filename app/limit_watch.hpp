@@ -1,4 +1,4 @@
-// Looks whether a run has left the range that its user allows.
+// Watches whether a run leaves the range that its user allows.
 #pragma once
 
 #include "engine/observables.hpp"
@@ -13,17 +13,17 @@ namespace riesel::app {
 
 class LimitWatch {
 public:
-  /// `warnings` are those that an earlier part of the run has given.
+  /// `warnings` are those given before the run was resumed.
   LimitWatch(const scenarios::RunLimits& limits, std::vector<std::string> warnings);
 
   bool stops() const { return limits_.stop; }
 
-  /// All that were given so far, one for each limit. None stops the run.
+  /// All warnings given so far, at most one for each limit. None of them stops the run.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// What exceeds a limit for the first time, one sentence each: which, when, how much, which
-  /// grains, and what to do. Unless they stop the run they are warnings from now on, and not new
-  /// any more. `seen` is of `state`.
+  /// A sentence for each limit that is exceeded for the first time: which, when, by how much, by
+  /// which grains, and what to do. Unless stops(), they are then among warnings() and not returned
+  /// again. `seen` are the observables of `state`.
   std::vector<std::string> newly_exceeded(const State& state, const Observables& seen);
 
 private:

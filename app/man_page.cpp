@@ -10,7 +10,7 @@ namespace riesel::app {
 
 namespace {
 
-/// As roff wants it: no line begins with a dot or a quote, and hyphens are not broken.
+/// Escaped for roff: no line begins with a dot or a quote, and hyphens stay as they are.
 std::string roff(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

@@ -1,4 +1,4 @@
-// Programs of others, such as sbatch: called, waited for, and what they say.
+// Calling other programs, such as sbatch, and reading what they print.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@ namespace riesel::app {
 
 struct ProgramEnd {
   int status = 0;      ///< exit status, or 128 + the signal that ended it
-  std::string output;  ///< what it printed
+  std::string output;  ///< what it printed on standard output
 };
 
-/// What it complains of goes to stderr as it is, or nowhere.
+/// Whether the program's standard error goes to this one's, or nowhere.
 enum class Complaints { shown, hidden };
 
-/// `arguments` begin with the name of the program, which is looked for in PATH. Nothing if it
-/// cannot be started.
+/// Runs a program to its end. `arguments` begin with its name, which is looked up in PATH. Nothing
+/// if it cannot be started.
 std::optional<ProgramEnd> run_other_program(const std::vector<std::string>& arguments,
                                             Complaints complaints);
 

@@ -59,14 +59,15 @@ std::string explanation_of_end(const std::string& ended_by) {
 
 namespace {
 
-/// The power of ten of the first digit, after rounding to so many: -1 of 0.0996 by two, 0.10.
+/// The power of ten of the first digit after rounding to `digits` digits: -1 for 0.0996 and two
+/// digits, as that is 0.10.
 int order_of(double x, int digits) {
   const std::string text = fmt::format("{:.{}e}", x, digits - 1);
   return std::stoi(text.substr(text.find('e') + 1));
 }
 
-/// "1.534" and "0.050": an error bar of `error_digits` digits, and a value that ends where it does.
-/// Where the bar is not known or none, the value has `digits` digits, and no bar is told.
+/// "1.534" and "0.050": the error with `error_digits` digits, and the value rounded to the same
+/// place. If the error is not known or 0, the value has `digits` digits and `error` is empty.
 struct Digits {
   std::string value, error;
 };
@@ -74,7 +75,7 @@ struct Digits {
 Digits digits_of(const io::Measured& m, int digits, int error_digits) {
   if (!(m.error > 0.0) || !std::isfinite(m.error))
     return {fmt::format("{:.{}g}", m.value, digits), ""};
-  constexpr int most_decimals = 6;  // smaller ones have an exponent
+  constexpr int most_decimals = 6;  // beyond, numbers are written with an exponent
   const int last = order_of(m.error, error_digits) - error_digits + 1;
   const int decimals = std::max(0, -last);
   if (decimals <= most_decimals)
@@ -149,8 +150,8 @@ LeftOut left_out_of(const io::CurveSummary& summary) {
 
 namespace {
 
-/// What a finding of points says that is beyond its threshold, or, of what brakes nothing, not
-/// known. `cause` is empty in summaries of versions that did not tell it.
+/// Explains the finding `cause`, which is beyond its threshold or, where nothing brakes, not
+/// `known`. `cause` is empty in summaries of versions that did not record it.
 std::string explanation_of_points(Validity verdict, const std::string& cause, bool known) {
   const auto finding = finding_named(cause, HUGE_VAL);
   if (!finding) return "for a reason that this summary does not tell";
@@ -202,7 +203,7 @@ std::string where_hard(const io::ColumnSummary& summary) {
     return judge_drop(0.0, p.detachment, 0.0) != Validity::valid;
   };
   std::vector<io::ColumnPoint> points = summary.column;
-  // Drops that were given up tell nothing of how many beads touch at once.
+  // Drops that were given up say nothing about how many beads touch at once.
   std::erase_if(points, [](const io::ColumnPoint& p) { return std::isnan(p.detachment); });
   std::ranges::sort(points, std::ranges::greater{}, &io::ColumnPoint::gap_ratio);
   const auto soft = std::ranges::find_if(points, touches_several);

@@ -23,7 +23,7 @@ void print_profile(const Simulation& simulation, const RunTimes& times, std::int
   double phases = 0.0;
   for (std::size_t p = 0; p < Profile::phases; ++p)
     phases += profile.seconds(static_cast<Phase>(p));
-  // Estimates from samples: together they may come out longer than the whole.
+  // The phases are estimated from samples, and may add up to more than the whole.
   const double scale = std::min(1.0, times.stepping / phases);
   const auto seconds = [&](Phase phase) { return scale * profile.seconds(phase); };
   const std::array rows{Row{"fly", seconds(Phase::fly)},

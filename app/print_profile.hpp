@@ -7,12 +7,13 @@
 
 namespace riesel::app {
 
-/// Wall-clock time of a run, s.
+/// Real time that a run has spent, s.
 struct RunTimes {
   double stepping = 0.0, measuring = 0.0, output = 0.0;
 };
 
-/// A table of phases with their shares, and how was stepped; `steps` are those done.
+/// Prints a table of phases with their shares, and the way of stepping in use at the end. `steps`:
+/// the number of steps done in `times`.
 void print_profile(const Simulation& simulation, const RunTimes& times, std::int64_t steps);
 
 }  // namespace riesel::app

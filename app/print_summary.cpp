@@ -12,7 +12,7 @@ namespace riesel::app {
 
 namespace {
 
-/// As the screen has it.
+/// In ASCII, for the screen.
 std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int error_digits = 2) {
   return with_error(m, unit, "+-", digits, error_digits);
 }
@@ -41,7 +41,7 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
              text_of(v.contacts, "contacts", 3, 1), text_of(v.dv_y, "m/s", 3, 1), v.visits);
 }
 
-/// Whether the mean is that of a steady flow; how to come to one if the run was too short.
+/// Whether the mean is that of a steady flow, and how to go on if the run was too short.
 void print_state(const io::FlowSummary& s, const std::filesystem::path& directory) {
   fmt::print("  {:<22}{}: {}\n", "state",
              coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
@@ -57,7 +57,7 @@ Colour colour_of(Validity verdict) {
   return verdict == Validity::suspect ? Colour::yellow : Colour::red;
 }
 
-/// The verdict, and the findings that are the reason for it.
+/// The verdict, and the findings that are the reasons for it.
 void print_validity(const ValidityVerdict& v) {
   fmt::print("  {:<22}{}\n", "validity", coloured(name(v.verdict), colour_of(v.verdict)));
   for (const Finding& f : v.findings) {

@@ -33,9 +33,9 @@ std::string coordinates_of(const io::ManifestPoint& point, const io::Manifest& m
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-/// s: that of all runs shared by the jobs, or of the longest chain if that takes longer.
+/// s: the time of all runs divided by the jobs, or that of the longest chain if it is longer.
 double seconds_left(const io::Manifest& manifest, int jobs) {
-  std::map<std::string, double> until_end;  // of a run, with all that it waits for
+  std::map<std::string, double> until_end;  // s, of a run together with those it waits for
   double all = 0.0, longest = 0.0;
   for (const io::ManifestPoint& point : manifest.points) {
     if (until_end.contains(point.name)) continue;
@@ -48,7 +48,7 @@ double seconds_left(const io::Manifest& manifest, int jobs) {
   return std::max(all / jobs, longest);
 }
 
-/// Of the flows that are done: how many are steady and valid, and what the others are.
+/// Prints how many of the flows that are done are steady and valid, and what the others are.
 void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& sweep) {
   std::map<std::string, int> verdicts;
   for (const io::ManifestPoint& point : manifest.points) {

@@ -7,11 +7,12 @@
 
 namespace riesel::app {
 
-/// Every point with its directory and its expected time, and the expected time of all.
+/// Prints every point with its index, directory, expected time, status and settings, and the
+/// expected time of all with `jobs` runs side by side.
 void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep, int jobs);
 
-/// How many points are done, running and so on, and why those that failed did. The manifest must be
-/// up to date.
+/// Prints how many points are done, running and so on, and the reasons why points failed or wait.
+/// The manifest must be up to date, see refresh().
 void print_status(const io::Manifest& manifest, const std::filesystem::path& sweep);
 
 }  // namespace riesel::app

@@ -18,13 +18,13 @@ using namespace std::chrono_literals;
 constexpr auto between_updates_of_a_line = 200ms;
 constexpr auto between_lines = 10s;
 
-/// Hours, minutes and seconds; there may be more than a day of them.
+/// "hh:mm:ss"; hours may exceed 24.
 std::string as_on_a_clock(std::chrono::seconds time) {
   const auto seconds = time.count();
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-/// Over what stood in the line before. A line that reached the edge would go on in the next one.
+/// Overwrites the previous line. Leaves the last column free, as a full line would wrap.
 void show_in_place(const std::string& line) {
   const std::size_t room = terminal_width() - 1;
   tell("\r{:<{}}", std::string_view(line).substr(0, room), room);

@@ -1,5 +1,5 @@
-// Tells the user how far a run is: one line that renews itself on a terminal, a line now and then
-// elsewhere. All of it goes to standard error, so that standard output holds results only.
+// Tells the user how far a run is: on a terminal one line that is updated in place, elsewhere a new
+// line now and then. Goes to standard error, so that standard output holds results only.
 #pragma once
 
 #include "app/clock.hpp"
@@ -14,9 +14,9 @@ class Progress {
 public:
   explicit Progress(Verbosity verbosity);
 
-  /// `done` from 0 to 1; `text` says what is worth knowing now.
+  /// `done`: from 0 to 1; `text`: what else to show.
   void show(double done, const std::string& text);
-  /// Ends the line, before other text is printed.
+  /// Ends the line; to be called before other text is printed.
   void finish();
 
 private:

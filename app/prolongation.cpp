@@ -44,8 +44,8 @@ void reject_without_length(const io::Settings& settings, const fs::path& sweep) 
                         + " have no length in time; there is nothing to go on with");
 }
 
-/// Of the flow that is done; nothing if it is not, or cannot be understood, as those of other
-/// versions.
+/// The summary of a flow that is done; nothing if it is not, or if its summary cannot be read, as
+/// one written by another version.
 std::optional<io::FlowSummary> result_of(const fs::path& point) {
   try {
     const io::Summary any = io::read_summary(point / io::summary_name);
@@ -55,7 +55,7 @@ std::optional<io::FlowSummary> result_of(const fs::path& point) {
   return {};
 }
 
-/// That the run went by to its result; nothing if nobody can tell.
+/// The length that the run was to have when it ended; nothing if its settings cannot be read.
 std::optional<scenarios::RunLength> length_of(const fs::path& point) {
   try {
     return scenarios::run_length(
@@ -68,7 +68,7 @@ std::optional<scenarios::RunLength> length_of(const fs::path& point) {
 bool has_reached(const scenarios::RunLength& wanted, const fs::path& point,
                  const io::FlowSummary& summary) {
   const double step = summary.time / static_cast<double>(summary.run.steps);
-  if (wanted.at_most < summary.time + 0.5 * step) return true;  // it ends with a whole step
+  if (wanted.at_most < summary.time + 0.5 * step) return true;  // runs end with a whole step
   if (!wanted.relative_error || summary.ended_by != "precision") return false;
   const auto had = length_of(point);
   return had && had->relative_error && *had->relative_error <= *wanted.relative_error;
@@ -128,7 +128,7 @@ void Prolongation::look_ahead(io::Manifest& manifest, const fs::path& sweep) con
 
 std::vector<std::string> Prolongation::overrides_for(const fs::path& point) const {
   const Goal* goal = goal_of(point);
-  // What has not come to its plan is not cut short.
+  // A shorter goal does not cut short a run that has not reached its plan.
   const bool goes_on =
       goal != nullptr && (goal->wanted.at_most >= goal->planned || result_of(point));
   return goes_on ? overrides_ : std::vector<std::string>();

@@ -1,9 +1,7 @@
-// Going on with the runs of a sweep beyond what was planned for them: further, or to a better
-// precision.
+// Going on with the runs of a sweep beyond their plan: for a longer time, or to a better precision.
 //
-// A point remains what it is, the run of its settings; only how far it is followed changes, and
-// what else may change when a run is resumed. Nothing is noted anywhere: whether a point has been
-// prolonged is seen from what its result says of its length.
+// A point keeps its settings, except for those that may change when a run is resumed. That it has
+// been prolonged is recorded nowhere: its result says how long it is.
 #pragma once
 
 #include "app/sweep_directory.hpp"
@@ -21,25 +19,25 @@ class Prolongation {
 public:
   /// Nothing goes on.
   Prolongation() = default;
-  /// `overrides` ("key=value") are for those points of `sweep`, a directory, that have these
-  /// `names`; all if there are none. Throws SettingsError for settings that may not change or have
-  /// no such value, UnusableInput for runs that cannot go on: those that have no length, and those
-  /// that others have started from.
+  /// `overrides` ("key=value") apply to the points of `sweep`, a directory, with these `names`; to
+  /// all points if `names` is empty. Throws io::SettingsError for settings that may not change or
+  /// values that they cannot have, UnusableInput for sweeps whose runs cannot go on: those of a
+  /// scenario without run.duration, and those that start from each other's ends.
   Prolongation(const io::Manifest& manifest, const std::filesystem::path& sweep,
                const std::vector<std::string>& names, std::vector<std::string> overrides);
 
-  /// As standing_of(); a point that is done, but not as far as it is to go, counts as interrupted,
-  /// or as failed if it cannot go on or has failed to.
+  /// As app::standing_of(), except for a point that is done, but not as long as it is to be: it
+  /// counts as interrupted, or as failed if it cannot go on or has failed in trying.
   RunStanding standing_of(const std::filesystem::path& point) const;
 
-  /// As refresh(), with those; points are expected to take as long as is left of them.
+  /// As refresh(), with these standings; reduces the expected time of each point to what is left.
   void look_ahead(io::Manifest& manifest, const std::filesystem::path& sweep) const;
 
-  /// What the run of a point is to be called with. None if it is planned to go further.
+  /// The overrides for the run of a point. None while it has not reached a plan that is longer.
   std::vector<std::string> overrides_for(const std::filesystem::path& point) const;
 
-  /// What is left to be done of a point that is done, or all of another, as a part of what was
-  /// planned.
+  /// The simulated time that is left, relative to the planned one; of a point without a result, all
+  /// of it.
   double part_left(const std::filesystem::path& point) const;
 
 private:

@@ -40,7 +40,7 @@ void require_finished_run(const fs::path& directory) {
                                  : "go on with it by '" + call_of("resume", directory) + "'";
   const std::string no_end = directory.string() + ": its run has not come to its end; ";
   if (!fs::exists(directory / post_mortem_name)) throw UnusableInput(no_end + way_on);
-  // It may have been resumed since, and stopped before its next end.
+  // The failure may be an old one: the run may have been resumed since, and stopped again.
   throw UnusableInput(no_end + "it failed, and the state of then is in "
                       + (directory / post_mortem_name).string()
                       + ", from which another run can start (start: {kind: continued, from: ...}); "
@@ -117,7 +117,7 @@ Report report_of_sweep(const fs::path& directory) {
   return make_report(record);
 }
 
-/// Those of an earlier report that this one does not have.
+/// Removes the figures of an earlier report that this one does not have.
 void remove_other_figures(const Report& report, const fs::path& figures) {
   for (const auto& entry : fs::directory_iterator(figures)) {
     const bool is_figure = entry.is_regular_file() && entry.path().extension() == ".svg";
@@ -128,7 +128,7 @@ void remove_other_figures(const Report& report, const fs::path& figures) {
   }
 }
 
-/// The page last: where it is, its figures are, too.
+/// Writes the page last, so that a page always has its figures.
 void write(const Report& report, const fs::path& directory) {
   const fs::path figures = directory / figures_name;
   std::error_code error;
@@ -151,7 +151,7 @@ void report_on_run(const fs::path& directory) {
 }  // namespace
 
 int report(const fs::path& directory) {
-  if (fs::exists(directory / io::manifest_name))  // while it goes on, too
+  if (fs::exists(directory / io::manifest_name))  // also while the sweep runs
     write(as_input([&] { return report_of_sweep(directory); }), directory);
   else
     report_on_run(directory);

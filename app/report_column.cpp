@@ -19,7 +19,7 @@ void tell_result(const io::ColumnSummary& s, io::HtmlPage& page) {
                  class_of(worst_of(s.column)));
 }
 
-/// Against the gap ratio, with the level of hard beads.
+/// A value against the gap ratio, with the level of hard beads.
 io::Svg draw(const io::ColumnSummary& s, double io::ColumnPoint::*value, double of_rigid,
              const std::string& label) {
   std::vector<double> x, y;

@@ -1,4 +1,4 @@
-// The report of a column of beads: what it keeps of its energy, and what hard beads would.
+// The report of a column of beads: the energy that it keeps, and that hard beads would keep.
 #pragma once
 
 #include "app/curve_record.hpp"

@@ -16,18 +16,18 @@ namespace {
 
 constexpr std::string_view pale_blue = "#a9c1dd";
 
-/// A value on the axis of a histogram that means something.
+/// A marked value on the axis of a histogram.
 struct HistogramMark {
-  double at = 0.0;  ///< in the unit of the axis; not a number: not known, and not drawn
+  double at = 0.0;  ///< in the unit of the axis; NaN: not known, and not drawn
   std::string label;
 };
 
-/// Where bin `i` ends: the bins of an octave are equally wide.
+/// Where bin `i` ends. The last bin is as wide as the one before, as bins of an octave are.
 double upper_edge(const std::vector<double>& edges, std::size_t i) {
   return i + 1 < edges.size() ? edges[i + 1] : 2.0 * edges[i] - edges[i - 1];
 }
 
-/// What is to be seen on the axis of the values: filled bins and marks.
+/// The axis of values, with room for the filled bins and the marks.
 io::Axis axis_of_values(const io::HistogramWithErrors& h, const std::string& label,
                         const std::vector<HistogramMark>& marks) {
   std::vector<double> shown;
@@ -40,7 +40,7 @@ io::Axis axis_of_values(const io::HistogramWithErrors& h, const std::string& lab
           .scale = io::Scale::logarithmic};
 }
 
-/// From below the smallest of the bars, with room for the labels of the marks.
+/// The axis of rates, from below the smallest bar, with room for the labels of the marks.
 io::Axis axis_of_rates(const io::HistogramWithErrors& h) {
   std::vector<double> filled;
   std::ranges::copy_if(h.rates, std::back_inserter(filled), [](double rate) { return rate > 0.0; });
@@ -53,13 +53,14 @@ io::Axis axis_of_rates(const io::HistogramWithErrors& h) {
   return io::with_room_above(axis, 0.3);
 }
 
-/// By name, of a verdict that may be that of another version.
+/// A threshold of a finding; NaN if the verdict, perhaps by another version, does not have it.
 double threshold(const io::FlowSummary& summary, std::string_view finding, double Finding::*which) {
   const Finding* found = summary.validity.verdict.find(finding);
   return found == nullptr ? unknown : found->*which;
 }
 
-/// Thresholds are given for the radius of the smaller body, overlaps over the sum of the radii.
+/// Converts thresholds, which refer to the radius of the smaller body, to those of the axis, which
+/// refers to the sum of the radii.
 std::vector<HistogramMark> marks_of_overlaps(const io::FlowSummary& summary,
                                              const io::FinalState& state, bool of_walls) {
   double smallest = std::ranges::min(state.grains, {}, &Grain::radius).radius;
@@ -84,7 +85,7 @@ std::vector<HistogramMark> marks_of_durations(const io::FlowSummary& summary, bo
   return marks;
 }
 
-/// What brakes: a wall or all of them, and the series of the impulse that it has given.
+/// A wall, or both, and the series of the impulse that it has given to the grains.
 struct Brake {
   std::string name, impulse;
 };
@@ -97,12 +98,12 @@ std::vector<Brake> brakes_of(const io::FlowSummary::BrakingForce& force) {
   return brakes;
 }
 
-/// Not where gravity does not pull along the walls.
+/// Whether gravity pulls along the walls.
 bool has_weight(const io::FlowSummary::BrakingForce& force) {
   return std::isfinite(force.weight) && force.weight != 0.0;
 }
 
-/// s and N: the mean force of a wall over each of at most `parts` parts of the rows.
+/// Times (s) and mean forces (N) of a wall, for each of at most `parts` parts of the rows.
 std::array<std::vector<double>, 2> force_of(const io::Series& time, const io::Series& impulse,
                                             std::size_t parts) {
   std::array<std::vector<double>, 2> force;
@@ -146,8 +147,8 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
   return plot.svg();
 }
 
-/// Mean forces (N, positive where they brake) over parts of the time, and the weight: that of all
-/// grains, as the part of it that a wall carries depends on what presses the grains to it.
+/// Mean forces (N, positive where they brake) over parts of the time, and the weight of all grains:
+/// how much of it each wall carries depends on what presses the grains against it.
 io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary) {
   constexpr std::size_t parts = 50;
   const io::Series& time = run.series_of("time");

@@ -50,8 +50,8 @@ void draw_point(const FlowPoint& point, const io::Look& look, const std::string&
   plot.svg().end_link();
 }
 
-/// The means and the ends of their error bars: of lower ends below zero, which no logarithmic axis
-/// has, only where that is asked for.
+/// The means and the ends of their error bars. Lower ends below zero, which a logarithmic axis
+/// cannot show, are included only if `with_ends_below_zero`.
 std::vector<double> extent_of(std::span<const FlowCurve> curves, bool with_ends_below_zero) {
   std::vector<double> values;
   for (const FlowCurve& curve : curves)
@@ -66,7 +66,7 @@ std::vector<double> extent_of(std::span<const FlowCurve> curves, bool with_ends_
   return values;
 }
 
-/// Logarithmic if the means are so far apart, whatever their error bars.
+/// Logarithmic if the means are far enough apart, even if error bars reach below zero.
 io::Axis axis_of_means(const std::string& label, std::span<const FlowCurve> curves) {
   io::Axis axis = io::axis_for(label, extent_of(curves, false));
   if (axis.scale == io::Scale::linear) axis = io::axis_for(label, extent_of(curves, true));
@@ -81,7 +81,7 @@ std::vector<double> settings_of(std::span<const FlowCurve> curves) {
   return values;
 }
 
-/// The values at those points of which `is_part` holds; elsewhere unknown: a gap.
+/// The values at those points for which `is_part` holds; elsewhere NaN, which leaves a gap.
 template <class IsPart>
 std::vector<double> pieces(const ImpactLine& line, double io::CurvePoint::*value, IsPart is_part) {
   std::vector<double> y;
@@ -90,7 +90,7 @@ std::vector<double> pieces(const ImpactLine& line, double io::CurvePoint::*value
   return y;
 }
 
-/// Full between points that are good; dashed where an end or both ends are unphysical.
+/// Full between points that are not unphysical; dashed where one end or both are.
 void draw_line(const ImpactLine& line, const ImpactQuantity& quantity, const io::Look& look,
                io::Plot& plot) {
   const auto& points = line.points;

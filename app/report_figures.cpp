@@ -22,7 +22,7 @@ void add(const io::Measured& m, std::vector<double>& extent) {
   if (std::isfinite(m.error)) extent.insert(extent.end(), {m.value - m.error, m.value + m.error});
 }
 
-/// With room for the mean and its error.
+/// The range of the values and of the mean with its error.
 io::Interval range_with(std::vector<double> values, const std::optional<io::Measured>& mean) {
   if (mean) add(*mean, values);
   return io::range_of(values);

@@ -126,7 +126,7 @@ private:
     return "x (the height above the bottom) to the right and y (down the slope) down";
   }
 
-  /// The mean velocity has an error; of the others only what summary.json knows is marked.
+  /// Marks means only in series of which summary.json has one.
   void show_series() {
     const auto& s = summary();
     const auto mean = [](const io::Measured& m) {

@@ -9,7 +9,7 @@
 
 namespace riesel::app {
 
-/// What a finished flow left.
+/// What a finished flow has left on disk.
 struct FlowRecord {
   io::FlowSummary summary;
   io::RunContents run;

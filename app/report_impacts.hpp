@@ -1,4 +1,4 @@
-// The report of an impact scenario: its curves, and where they are no property of hard grains.
+// The report of an impact scenario: its curves, and where they no longer describe hard grains.
 #pragma once
 
 #include "app/curve_record.hpp"
@@ -15,10 +15,10 @@ using ImpactRecord = CurveRecord<io::CurveSummary>;
 /// Equal records give equal reports, byte by byte.
 Report make_report(const ImpactRecord& record);
 
-/// A line for each v_x, without names.
+/// A line for each v_x, with an empty name.
 std::vector<ImpactLine> impact_lines(const io::CurveSummary& summary);
 
-/// What dashed lines of draw_impacts() mean, in words.
+/// A sentence that says what the dashed lines of draw_impacts() mean.
 std::string what_dashes_mean();
 
 }  // namespace riesel::app

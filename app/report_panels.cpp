@@ -7,7 +7,7 @@ namespace riesel::app {
 
 namespace {
 
-constexpr std::size_t most_curves = 8;  // as many colours as there are
+constexpr std::size_t most_curves = 8;  // the number of colours
 
 using Curves = std::vector<std::vector<Mark>>;
 using Indices = std::vector<std::size_t>;
@@ -35,7 +35,7 @@ Panel panel_of(const Curves& curves, const Indices& chosen) {
   return panel;
 }
 
-/// The chosen ones, parted by the marks from `first` on.
+/// Adds panels for the chosen curves, which are divided by the marks from `first` on.
 void part(const Curves& curves, const Indices& chosen, std::size_t first,
           std::vector<Panel>& panels) {
   if (chosen.size() <= most_curves || first == curves[chosen.front()].size()) {

@@ -1,9 +1,9 @@
 // Which of many curves share a figure.
 //
-// A curve is told from the others by its marks: a stiffness, a branch, a width. As many curves as
-// can be told apart share a figure; more of them are parted by their first marks, those that were
-// first in the sweep file. Marks that all curves of a figure share stand in its title, the others
-// in its legend.
+// A curve is distinguished from the others by its marks: a stiffness, a branch, a width. A figure
+// has no more curves than a reader can tell apart; more are divided among figures by their first
+// marks, in the order of the sweep file. Marks that all curves of a figure share are in its title,
+// the others in its legend.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,12 @@ struct Mark {
 };
 
 struct Panel {
-  std::string title;                ///< empty if there is nothing to tell
-  std::vector<std::size_t> curves;  ///< indices into what was given
-  std::vector<std::string> names;   ///< of each of these curves; empty if it is alone
+  std::string title;                ///< empty if its curves share no mark
+  std::vector<std::size_t> curves;  ///< indices into `marks_of_curves`
+  std::vector<std::string> names;   ///< of each of these curves; "" if it is alone
 };
 
-/// Every curve has the same marks in the same order; no two curves have equal values for all.
+/// All curves have marks of the same names in the same order; no two have the same values for all.
 std::vector<Panel> panels_of(const std::vector<std::vector<Mark>>& marks_of_curves);
 
 }  // namespace riesel::app

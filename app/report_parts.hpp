@@ -1,5 +1,5 @@
 // What the reports of runs and of sweeps are made of: a page that collects its figures, and numbers
-// in words.
+// as text.
 #pragma once
 
 #include "engine/validity.hpp"
@@ -15,7 +15,7 @@
 
 namespace riesel::app {
 
-/// The page, in the directory of what it is about.
+/// The page, in the directory of its run or sweep.
 inline constexpr auto report_name = "report.html";
 
 // How figures look.
@@ -25,16 +25,16 @@ inline constexpr std::string_view blue = "#26548c", grey = "#777777", red = "#c6
 }
 
 struct ReportFigure {
-  std::string name;  ///< of a file, without its ending
-  io::Svg svg;       ///< as it stands in figures/: its links go up first
+  std::string name;  ///< of its file in figures/, without extension
+  io::Svg svg;       ///< its links are relative to figures/
 };
 
 struct Report {
-  std::string page;  ///< HTML that stands alone
+  std::string page;  ///< HTML that needs no other file
   std::vector<ReportFigure> figures;
 };
 
-/// A report that is being made.
+/// A report being written.
 class ReportDraft {
 public:
   explicit ReportDraft(std::string_view title) : page_(title) {}
@@ -43,11 +43,11 @@ public:
 
   /// A figure without links.
   void add_figure(const std::string& name, const io::Svg& svg, std::string_view caption);
-  /// A figure with links: once as it stands in the page, once as a file in figures/.
+  /// A figure with links: for the page, and for its file in figures/, from where they lead up.
   void add_figure(const std::string& name, const io::Svg& in_page, const io::Svg& as_file,
                   std::string_view caption);
 
-  /// Settings, program, machine and command of a run.
+  /// Adds the settings, program, machine and command of a run.
   void add_origin(const io::RunSummary& run, const io::RunHistory& history,
                   const std::string& effective_settings);
 
@@ -58,19 +58,19 @@ private:
   std::vector<ReportFigure> figures_;
 };
 
-/// "not known" for what is not a number. `form` is a format of one double.
+/// The value as text; "not known" for NaN. `form` is a format string for one double.
 std::string number(double value, const char* form = "{:.4g}");
 
 /// "spacing (m)"; without a unit if that is empty or "1".
 std::string with_unit(const std::string& name, const std::string& unit);
 
-/// The worst verdict on points, of which there is one at least.
+/// The worst verdict on any of `points`, which must not be empty.
 template <class Point>
 Validity worst_of(const std::vector<Point>& points) {
   return std::ranges::max(points, {}, &Point::verdict).verdict;
 }
 
-/// The class of a paragraph, see io::HtmlPage.
+/// The class of a paragraph about this verdict, see io::HtmlPage.
 std::string class_of(Validity validity);
 
 }  // namespace riesel::app

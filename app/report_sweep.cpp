@@ -17,7 +17,7 @@ namespace riesel::app {
 
 namespace {
 
-/// Below the head: no branches, no legs.
+/// Removes columns that are empty below the head, such as those of branches and legs.
 io::HtmlRows without_empty_columns(const io::HtmlRows& rows) {
   io::HtmlRows kept(rows.size());
   for (std::size_t column = 0; column < rows.front().size(); ++column) {
@@ -101,12 +101,13 @@ private:
                        "doubtful");
   }
 
-  /// The name of the file of one of several figures.
+  /// The file name of one of several figures.
   static std::string numbered(const std::string& name, std::size_t i, std::size_t of) {
     return of == 1 ? name : fmt::format("{}_{}", name, i + 1);
   }
 
-  /// Flows that gravity drives along the walls are told by their velocity, also beside others.
+  /// Whether all flows are judged by their temperature. If gravity drives any of them along the
+  /// walls, it is judged by its velocity, and all are shown by their velocities.
   bool all_by_temperature() const {
     bool any = false;
     for (std::size_t i = 0; i < record_->results.size(); ++i) {
@@ -136,7 +137,7 @@ private:
                         quantity_->heading + " against " + setting.key + ".");
   }
 
-  /// Of draw_flows().
+  /// Explains the symbols of draw_flows().
   std::string what_symbols_mean() const {
     const bool has_legs = std::ranges::any_of(
         manifest().points, [](const io::ManifestPoint& point) { return !point.leg.empty(); });
@@ -186,7 +187,7 @@ private:
     page().table(without_empty_columns(rows));
   }
 
-  /// With as many cells as the head.
+  /// The row of a point; has as many cells as the head.
   std::vector<io::HtmlCell> row_of(std::size_t i, std::size_t cells) const {
     const io::ManifestPoint& point = manifest().points[i];
     const SweepResult& result = record_->results[i];
@@ -211,7 +212,7 @@ private:
     row.emplace_back(s.state);
     row.emplace_back(std::string(name(s.validity.verdict.verdict)));
     row.emplace_back(number(s.validity.verdict.value_of("brake_failure_fraction"), "{:.2g}"));
-    // Where gravity does not pull along the walls there is nothing to compare with.
+    // If gravity does not pull along the walls, there is nothing to compare with.
     const double g = s.balance.gravity;
     row.emplace_back(
         g == 0.0 ? "" : with_error({.value = carried.value / g, .error = carried.error / g}, ""));

@@ -1,5 +1,5 @@
-// The report of a sweep: its figures, and the table of its points with their verdicts, each with
-// the way to its run.
+// The report of a sweep: its figures, and a table of its points with their verdicts and links to
+// their runs.
 #pragma once
 
 #include "app/report_parts.hpp"
@@ -13,16 +13,16 @@
 namespace riesel::app {
 
 struct SweepResult {
-  std::optional<io::Summary> summary;  ///< none if the point is not done, or cannot be read
-  std::string flaw;                    ///< why it cannot be read; or empty
-  std::string directory;               ///< relative to that of the sweep
+  std::optional<io::Summary> summary;  ///< nothing if the point is not done, or it cannot be read
+  std::string flaw;                    ///< why it cannot be read, or ""
+  std::string directory;               ///< of the point, relative to that of the sweep
   bool has_report = false;
 };
 
 /// What a sweep has left so far.
 struct SweepRecord {
-  io::Manifest manifest;             ///< up to date
-  std::vector<SweepResult> results;  ///< of each point
+  io::Manifest manifest;             ///< up to date, see refresh()
+  std::vector<SweepResult> results;  ///< one for each point, in the order of the manifest
   std::string sweep_file;            ///< its text
 };
 

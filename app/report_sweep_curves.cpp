@@ -22,7 +22,7 @@ bool is_seed(const io::VariedSetting& setting) { return setting.key == "seed"; }
 
 bool is_number(const io::Cell& cell) { return std::holds_alternative<double>(cell); }
 
-/// Whether some setting is the axis of a figure: numbers, and not always the same.
+/// Whether a setting can be the axis of a figure: its values are numbers, and it is not the seed.
 bool can_be_axis(const io::Manifest& manifest, std::size_t setting) {
   return !is_seed(manifest.varied[setting])
          && std::ranges::all_of(manifest.points,
@@ -35,7 +35,7 @@ std::size_t number_of_values(const io::Manifest& manifest, std::size_t setting) 
   return values.size();
 }
 
-/// Where a point differs from the neighbour that it continues.
+/// The setting in which points differ from the neighbours that they continue.
 std::optional<std::size_t> continued_axis(const io::Manifest& manifest) {
   for (const io::ManifestPoint& point : manifest.points) {
     if (point.parent.empty()) continue;
@@ -47,7 +47,8 @@ std::optional<std::size_t> continued_axis(const io::Manifest& manifest) {
   return std::nullopt;
 }
 
-/// Whether each value on the axis comes with one value of the other setting: the two are zipped.
+/// Whether each value on the axis comes with just one value of the other setting, as where an axis
+/// of the sweep file varies the two together.
 bool follows_from(const io::Manifest& manifest, std::size_t axis, std::size_t other) {
   std::map<io::Cell, io::Cell> other_of;
   return std::ranges::all_of(manifest.points, [&](const io::ManifestPoint& point) {
@@ -56,7 +57,7 @@ bool follows_from(const io::Manifest& manifest, std::size_t axis, std::size_t ot
   });
 }
 
-/// Whether each branch comes with one value of the setting: its name says it all.
+/// Whether each branch comes with just one value of the setting, so that its name says enough.
 bool follows_from_branch(const io::Manifest& manifest, std::size_t setting) {
   std::map<std::string, io::Cell> value_of;
   return std::ranges::all_of(manifest.points, [&](const io::ManifestPoint& point) {
@@ -66,8 +67,8 @@ bool follows_from_branch(const io::Manifest& manifest, std::size_t setting) {
   });
 }
 
-/// The settings that mark a curve: those that tell something beside the axis, if there is one, and
-/// the branch. Flows of several seeds belong to one curve.
+/// For each varied setting whether it marks a curve: it varies, and follows neither from the axis,
+/// if there is one, nor from the branch. Flows of several seeds belong to one curve.
 std::vector<bool> told_beside(const io::Manifest& manifest, std::optional<std::size_t> axis) {
   std::vector<bool> told;
   for (std::size_t i = 0; i < manifest.varied.size(); ++i)
@@ -78,7 +79,7 @@ std::vector<bool> told_beside(const io::Manifest& manifest, std::optional<std::s
   return told;
 }
 
-/// Names and values of the settings that are told, and the branch.
+/// Names and values of the `told` settings, and the branch.
 Marks marks_of(const io::Manifest& manifest, const io::ManifestPoint& point,
                const std::vector<bool>& told) {
   Marks marks;
@@ -106,7 +107,7 @@ FlowPoint flow_point(const SweepRecord& record, std::size_t index, std::size_t a
                           with_error(quantity.of(flow), quantity.unit), flow.state, name(verdict))};
 }
 
-/// What tells the lines of a curve apart.
+/// What distinguishes the lines of a curve: leg and seed.
 std::string line_of(const io::Manifest& manifest, const io::ManifestPoint& point) {
   std::string line = point.leg;
   for (std::size_t i = 0; i < manifest.varied.size(); ++i)

@@ -11,9 +11,9 @@
 
 namespace riesel::app {
 
-/// The varied setting that figures have as their axis: the one along which runs continue each
-/// other, or else the one with the most values that are numbers, the first of equals. The seed is
-/// none. Nothing if no such setting has two values.
+/// The index of the varied setting that figures have as their axis: the one along which runs
+/// continue each other, or else the one with the most numeric values, the first if several have as
+/// many. Never the seed. Nothing if no setting has two values.
 std::optional<std::size_t> axis_of(const io::Manifest& manifest);
 
 struct FlowPanel {
@@ -22,7 +22,8 @@ struct FlowPanel {
 };
 
 /// The flows of a sweep: a curve for each combination of all settings but the axis and the seed,
-/// with a line for each seed and leg. Settings that follow from the axis tell nothing apart.
+/// with a line for each seed and leg (forward or backward along a continuation). Settings that
+/// follow from the axis do not separate curves.
 std::vector<FlowPanel> flow_panels(const SweepRecord& record, std::size_t axis,
                                    const FlowQuantity& quantity);
 
@@ -34,7 +35,7 @@ struct ImpactPanel {
 /// The impacts of a sweep: a line for each point and v_x.
 std::vector<ImpactPanel> impact_panels(const SweepRecord& record);
 
-/// What tells a point from the others, in one line.
+/// What distinguishes a point from the others, in one line.
 std::string description_of(const io::Manifest& manifest, const io::ManifestPoint& point);
 
 }  // namespace riesel::app

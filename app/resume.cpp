@@ -61,7 +61,7 @@ std::filesystem::path home_of(const std::filesystem::path& checkpoint) {
 int resume(const ResumeOptions& options, const Arguments& arguments) {
   reject_overrides_of_the_physics(options.overrides);
   reject_what_is_no_run(options.checkpoint);
-  // From here on nobody else writes what is read.
+  // From here on the directory is locked, so that no other process changes what is read.
   RunDirectory directory = RunDirectory::reopen(home_of(options.checkpoint));
   io::FoundCheckpoint found = as_input([&] { return io::find_checkpoint(options.checkpoint); });
   if (!found.note.empty()) tell("riesel: {}; going on from {}\n", found.note, found.path.string());

@@ -12,7 +12,7 @@ namespace riesel::app {
 
 namespace {
 
-/// Keys and sections.
+/// Names of keys, and of sections of which all keys may change.
 bool may_change(const std::string& key) {
   static const std::set<std::string> names = {"run.duration", "run.until",
                                               "run.threads",  "run.stepping",
@@ -20,14 +20,14 @@ bool may_change(const std::string& key) {
   return names.contains(key) || names.contains(io::section_of(key));
 }
 
-/// To any scenario: what else it may be is told when the settings are read.
+/// Whether any scenario has it. If none has, the error comes when the settings are read.
 bool is_known(const std::string& key) {
   return std::ranges::any_of(scenarios::settings_tables(), [&](const auto& table) {
     return io::has_key(table.second, key) || io::has_section(table.second, key);
   });
 }
 
-/// "key=" for a key of the table that has no value.
+/// Whether the override is "key=" for a known key that has no value.
 bool takes_out_nothing(const std::string& override, const io::Settings& from) {
   const io::YamlEntry setting = io::parse_overrides({override}).front();
   return setting.value.shape == io::YamlNode::Shape::null

@@ -1,4 +1,4 @@
-// Which settings may change when a run goes on: those that do not make it another run.
+// Which settings may change when a run goes on: those that leave its physics as it is.
 #pragma once
 
 #include "io/settings.hpp"
@@ -8,12 +8,12 @@
 
 namespace riesel::app {
 
-/// `overrides`: "key=value". Throws SettingsError for one of what may not change.
+/// `overrides`: "key=value". Throws io::SettingsError for a setting that may not change.
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides);
 
-/// `checkpoint` is the text of the settings that a run has gone by, `source` its name in errors. An
-/// override without a value of what is not there changes nothing: the run has gone on like this
-/// before. Throws SettingsError.
+/// The settings in `checkpoint` (YAML), changed by `overrides`; `source` names them in errors. An
+/// override "key=" of a setting that has no value changes nothing, so that a command that removes a
+/// setting may be repeated. Throws io::SettingsError.
 io::Settings resumed_settings(const std::string& checkpoint, const std::string& source,
                               const std::vector<std::string>& overrides);
 

@@ -8,7 +8,7 @@ namespace riesel::app {
 
 namespace {
 
-/// What only flows obey.
+/// Rejects options that only flows obey.
 void reject_flow_options(const FlowOptions& options, const std::string& scenario) {
   if (options.max_walltime)
     throw UnusableInput("--max-walltime: has no effect on the scenario " + scenario

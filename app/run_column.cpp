@@ -12,7 +12,7 @@ std::vector<double> gaps_of(const scenarios::ColumnCurve& curve) {
   return gaps;
 }
 
-/// What a drop that was given up ended with is not known.
+/// Of a drop that was given up, restitution and rebound are not known.
 io::ColumnPoint point(const scenarios::ColumnCurve& curve, double gap_ratio,
                       const ColumnResult& r) {
   const double restitution = r.over ? r.restitution : unknown;

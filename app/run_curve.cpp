@@ -10,7 +10,7 @@ namespace riesel::app {
 
 namespace {
 
-/// Mean over the impacts that went away from the wall; the others are counted.
+/// Mean over the impacts in which the grain came away from the wall; the others are counted.
 io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::Point& point,
                        std::span<const ImpactResult> results) {
   io::CurvePoint mean{.v_x = point.v_x, .v_y = point.v_y};
@@ -34,8 +34,8 @@ io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::P
   }
   for (double* value : {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time,
                         &mean.max_overlap, &mean.cut_short})
-    *value /= away;                                           // not a number where no impact counts
-  mean.brake_failure_fraction = braking_cut_short / braking;  // nor where nothing brakes
+    *value /= away;                                           // NaN if no impact counts
+  mean.brake_failure_fraction = braking_cut_short / braking;  // NaN if nothing brakes
   const double smaller_radius = std::min(setup.grain_radius, setup.wall_grain_radius);
   const Finding worst =
       judge_impacts(largest_overlap / smaller_radius, mean.brake_failure_fraction, energy_error);

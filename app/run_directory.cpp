@@ -61,7 +61,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& sett
   reject_directory_in_use(path);
   io::make_directories(path);
   RunDirectory directory(path, io::Signature::now);
-  reject_directory_in_use(path);  // nobody can have begun a run since it is locked
+  reject_directory_in_use(path);  // again: before it was locked, another run may have begun in it
   directory.write_settings(settings);
   return directory;
 }
@@ -75,7 +75,7 @@ RunDirectory RunDirectory::reopen(const fs::path& path) {
 
 void RunDirectory::go_on(const io::Settings& settings) const {
   lock_->sign();
-  // First that of the shorter run: no result stands beside settings that are not its own.
+  // The result first, so that it never stands beside settings that are not its own.
   const fs::path summary = file(io::summary_name);
   std::error_code error;
   fs::rename(summary, io::previous_generation(summary), error);
@@ -85,14 +85,14 @@ void RunDirectory::go_on(const io::Settings& settings) const {
 }
 
 void RunDirectory::drop_report() const {
-  std::error_code ignored;  // what cannot be removed is no result
+  std::error_code ignored;  // an old report that stays does no harm to results
   fs::remove(file(report_name), ignored);
 }
 
 void RunDirectory::write_summary(const std::string& text) const {
   const fs::path summary = file(io::summary_name);
   io::write_durably(summary, text);
-  std::error_code ignored;  // what is left is no harm
+  std::error_code ignored;  // if it stays, it does no harm
   fs::remove(io::previous_generation(summary), ignored);
 }
 

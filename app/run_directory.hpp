@@ -1,4 +1,4 @@
-// The directory of a run: what is in it, and that no two processes write to it.
+// The directory of a run: what is in it, and a lock so that no two processes write to it.
 #pragma once
 
 #include "io/directory_lock.hpp"
@@ -17,10 +17,10 @@ using Arguments = std::vector<std::string>;
 /// The last state of a run that failed, as a checkpoint.
 inline constexpr auto post_mortem_name = "post_mortem.h5";
 
-/// Of either generation.
+/// Whether there is a checkpoint of either generation, the current or the previous one.
 bool has_checkpoint(const std::filesystem::path& directory);
 
-/// Whether it holds a run that has begun, but has nothing to go on from, and no result.
+/// Whether it holds a run that has begun, but has neither a checkpoint nor a result.
 bool stopped_before_checkpoint(const std::filesystem::path& directory);
 
 class RunDirectory {
@@ -28,20 +28,22 @@ public:
   /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run or a
   /// sweep in it already, io::FileError if it cannot be written.
   static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
-  /// The directory of a run that is to go on. Nothing in it is changed.
+  /// The directory of a run that is to go on. Changes nothing in it. Throws UnusableInput if run.h5
+  /// is missing.
   static RunDirectory reopen(const std::filesystem::path& path);
-  /// Nothing is in the way of the run: its settings may have changed, and it has no result now but
-  /// summary.json.previous.
+  /// Prepares the directory for a run that goes on: renames its result, summary.json, to
+  /// summary.json.previous, then writes effective.yaml anew, as settings may have changed. Throws
+  /// io::FileError.
   void go_on(const io::Settings& settings) const;
-  /// The report is that of the run before it went on.
+  /// Removes the report, which is out of date once the run has gone on.
   void drop_report() const;
-  /// The result. Throws io::FileError.
+  /// Writes summary.json and removes its previous version. Throws io::FileError.
   void write_summary(const std::string& text) const;
 
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
-  /// Throws io::FileError if the directory was moved away or removed meanwhile.
+  /// Throws io::FileError if the directory has been moved or removed since.
   void require_in_place() const { lock_->require_in_place(); }
 
 private:

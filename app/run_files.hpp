@@ -15,9 +15,9 @@ namespace riesel::app {
 
 class RunFiles {
 public:
-  /// New files; or those of a run that goes on from `state`, if it has `rows` rows behind it.
-  /// Frames come every `steps_per_frame` steps; 0: there is no trajectory. Throws UnusableInput if
-  /// a run cannot go on with what is there, io::FileError if new files cannot be written.
+  /// Creates the files if `rows` is 0; otherwise reopens those of a run that goes on from `state`
+  /// after `rows` rows. Frames are `steps_per_frame` steps apart; 0: no trajectory. Throws
+  /// UnusableInput if the files cannot be continued, io::FileError if they cannot be written.
   RunFiles(RunDirectory directory, const io::RunOrigin& origin, std::int64_t rows,
            const State& state, std::int64_t steps_per_frame);
 
@@ -27,11 +27,11 @@ public:
 
   std::int64_t rows() const { return record_.rows(); }
 
-  /// Nothing without a trajectory.
+  /// Does nothing if there is no trajectory.
   void add_frame(const State& state);
 
-  /// Puts all rows and frames on the disk, and `state` as the last one: before a checkpoint that
-  /// counts them.
+  /// Writes all rows and frames to disk, and `state` as the final state. To be called before each
+  /// checkpoint, which records how many rows there are.
   void flush(const State& state);
 
 private:

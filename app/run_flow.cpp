@@ -42,7 +42,7 @@ namespace riesel::app {
 
 namespace {
 
-/// One of those that the settings ask for.
+/// A limit that is set by the settings, with limits.action: stop.
 struct LimitExceeded : RunFailure {
   using RunFailure::RunFailure;
 };
@@ -55,12 +55,12 @@ std::uint64_t identity_of(const io::Settings& settings, const State& start) {
   return hash.value();
 }
 
-/// What a run that goes on has behind it.
+/// What a run that goes on brings from its checkpoint; of a new run, `rows` is 0.
 struct Past {
   std::string source;  // the user's settings file, verbatim
   std::uint64_t run = 0;
   std::vector<std::string> warnings = {};
-  bool had_other_settings = false;  // a shorter duration, for instance
+  bool had_other_settings = false;  // such as a shorter duration
   std::int64_t rows = 0;
   double wall_seconds = 0.0;
   TimeBlocks profiles = {}, histograms = {};
@@ -120,7 +120,7 @@ private:
 
   bool goes_on() const { return past_.rows > 0; }
 
-  /// Where this run has been before.
+  /// Prepares the directory of a run that goes on.
   void take_up_directory() {
     files_.directory().go_on(settings_);
     if (!is_over() || past_.had_other_settings) files_.directory().drop_report();
@@ -133,15 +133,15 @@ private:
     if (time_limit_.asks_to_save(files_.rows())) save();
   }
 
-  /// The first row, frame and checkpoint: from here on nothing is lost.
+  /// Writes the first row, frame and checkpoint; from here on the run can be resumed.
   void begin() {
     add_frame();
     add_row();
     save();
   }
 
-  /// In both generations of the checkpoint: whichever is taken after a kill, the run goes on to
-  /// what was asked for last.
+  /// Writes the changed settings into both generations of the checkpoint, so that after a kill the
+  /// run goes on with them whichever of the two is used.
   void keep_settings() {
     save();
     save();
@@ -151,7 +151,7 @@ private:
     return simulation_.state().step >= schedule_.last_step || is_precise_enough();
   }
 
-  /// Asked with each new row. A run that was resumed asks at once: it may have been at its end.
+  /// Judged with each new row. A run that is resumed is judged at once, as it may be at its end.
   bool is_precise_enough() const {
     const State& state = simulation_.state();
     const bool asked = schedule_.relative_error && schedule_.is_row(state.step);
@@ -161,7 +161,7 @@ private:
                       judged.free_fall_gain);
   }
 
-  /// For those who wait for it.
+  /// Notes the error bar so far, for the line of progress.
   void note_precision() {
     if (!schedule_.relative_error || !is_time_to_look(static_cast<std::size_t>(files_.rows())))
       return;
@@ -189,8 +189,8 @@ private:
     return is_precise_enough() ? "precision" : "at_most";
   }
 
-  /// To the next row or frame, or a part of the way there, so that signals and the clock are heeded
-  /// in time.
+  /// Steps to the next row, frame or look, or part of the way there, so that signals and the clock
+  /// are heeded in time.
   void advance() {
     const State& state = simulation_.state();
     const auto start = Clock::now();
@@ -229,7 +229,8 @@ private:
     heed_limits();
   }
 
-  /// As at that step before, if anything was due there; else only to have something to tell.
+  /// Repeats the look at the step where the run stopped, if one was due there; otherwise only
+  /// updates the observables, for progress and summary.
   void look_where_it_stopped() {
     if (schedule_.is_row(first_step_) || schedule_.is_look(first_step_))
       look();
@@ -265,7 +266,7 @@ private:
             .histograms = measurements_.histograms()};
   }
 
-  /// The series and the trajectory first: the checkpoint counts their rows and frames.
+  /// Series and trajectory first, as the checkpoint records how many rows and frames there are.
   void save() {
     const auto start = Clock::now();
     files_.flush(simulation_.state());
@@ -277,7 +278,7 @@ private:
               files_.rows(), seconds_since(start));
   }
 
-  /// For those who want to know more.
+  /// Prints if the run is verbose.
   template <class... Parts>
   void tell_more(fmt::format_string<Parts...> format, Parts&&... parts) {
     if (verbosity_ != Verbosity::verbose) return;
@@ -311,7 +312,7 @@ private:
 
   int tell_result() {
     files_.directory().require_in_place();
-    const io::RunSummary run = run_summary();  // of the time up to here
+    const io::RunSummary run = run_summary();  // first: its time is to exclude the assessment below
     const State& state = simulation_.state();
     const SteadyState steady = assess();
     io::FlowSummary s = summarise({files_.record(), steady, measurements_.strips(),
@@ -334,10 +335,10 @@ private:
     return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
   }
 
-  /// Keeps what there is: the state may tell why.
+  /// Keeps the series and the state, which may show why the run failed.
   int fail(const RunFailure& failure, const std::string& way_on) {
     progress_.finish();
-    tell("riesel: the run failed: {}\n", failure.what());  // whatever the disk does
+    tell("riesel: the run failed: {}\n", failure.what());  // first, as writing files may fail, too
     files_.flush(simulation_.state());
     const auto post_mortem = files_.directory().file(post_mortem_name);
     io::write_checkpoint(post_mortem, checkpoint());

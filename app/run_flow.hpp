@@ -1,4 +1,4 @@
-// Steps a flow and writes what comes of it.
+// Steps a flow and writes its results.
 #pragma once
 
 #include "app/flow_options.hpp"

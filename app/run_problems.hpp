@@ -1,4 +1,5 @@
-// What the runs of curves share: many short problems, computed at once and written as one table.
+// What the runs of curves (impacts, columns of beads) share: many short problems, computed together
+// and written as one table.
 #pragma once
 
 #include "app/clock.hpp"
@@ -16,7 +17,7 @@
 
 namespace riesel::app {
 
-/// A column of the curve in run.h5, and what a point has in it.
+/// A column of the curve in run.h5, and its value at a point.
 template <class Point>
 struct PointColumn {
   io::Column column;
@@ -37,11 +38,11 @@ void write_points(io::RunFile& file, const std::vector<PointColumn<Point>>& tabl
 }
 
 /// Computes the curve and writes its run directory; returns the exit status.
-///   follow(threads)             vector of results, each with the `steps` that it took and a
-///                               hash_of() all of them
+///   follow(threads)             a vector of results, each with its number of `steps`; hash_of()
+///                               takes the vector
 ///   summarise(results)          the summary, its `run` left empty
 ///   write_table(file, summary)  the curve in run.h5
-/// `grains`: how many move in each problem.
+/// `grains`: the number of moving grains in each problem.
 template <class Follow, class Summarise, class WriteTable>
 int run_problems(const io::Settings& settings, int grains, const RunDirectory& directory,
                  const Arguments& arguments, Verbosity verbosity, Follow follow,
@@ -67,7 +68,8 @@ int run_problems(const io::Settings& settings, int grains, const RunDirectory& d
                  .wall_seconds = seconds,
                  .particle_steps_per_second = grains * static_cast<double>(steps) / seconds,
                  .threads = threads};
-  // Not before: a curve cannot be resumed, and what is interrupted may be called again.
+  // Only now: a curve cannot be resumed, so an interrupted run must not leave a run.h5, which would
+  // keep it from being started again.
   auto file = io::RunFile::create(directory.file(io::run_file_name), provenance, {});
   write_table(file, summary);
   file.flush();

@@ -9,7 +9,7 @@
 
 namespace riesel::app {
 
-/// In steps; all of it fixed by the settings, so that a resumed run has the same rhythm.
+/// In steps. Fixed by the settings alone, so that a resumed run writes at the same steps.
 struct Schedule {
   /// `time_step` in s.
   Schedule(const io::Settings& settings, double time_step);
@@ -18,7 +18,8 @@ struct Schedule {
   bool is_frame(std::int64_t step) const {
     return steps_per_frame > 0 && step % steps_per_frame == 0;
   }
-  /// When, besides with each row, it is looked whether the run is still what it should be.
+  /// Whether the run is checked at this step (limits, walls, range). It is also checked with each
+  /// row.
   bool is_look(std::int64_t step) const {
     return step % scenarios::steps_per_look == 0 || step == last_step;
   }
@@ -26,10 +27,10 @@ struct Schedule {
   std::int64_t next(std::int64_t step) const;
 
   std::int64_t last_step;
-  std::optional<double> relative_error;  ///< of the mean velocity, to stop at before the last step
+  std::optional<double> relative_error;  ///< of the judged mean: stop early once it is reached
   std::int64_t steps_per_row;
   std::int64_t steps_per_frame = 0;    ///< of the trajectory; 0: there is none
-  double seconds_between_checkpoints;  ///< on the clock
+  double seconds_between_checkpoints;  ///< of real time
 };
 
 }  // namespace riesel::app

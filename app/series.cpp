@@ -11,7 +11,7 @@ struct Entry {
 
 double number(std::int64_t count) { return static_cast<double>(count); }
 
-/// From the sums over what has ended, all since the start.
+/// Sums over contacts with walls and visits to them that have ended, all since the start.
 const std::vector<Entry>& entries_of_walls() {
   static const std::vector<Entry> table = {
       {{"wall_contacts_ended", "1", "Contacts with walls ended so far."},

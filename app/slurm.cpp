@@ -35,7 +35,7 @@ std::string ranges_of(const std::vector<std::size_t>& numbers) {
   return fmt::format("{}", fmt::join(ranges, ","));
 }
 
-/// The parts in which a point is not done, and has not failed.
+/// The parts in which at least one point is neither done nor failed.
 std::vector<std::size_t> open_parts(const io::Manifest& manifest, std::size_t count) {
   std::set<std::string> over;
   for (const io::ManifestPoint& point : manifest.points)
@@ -98,8 +98,8 @@ std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   const std::size_t tasks = std::min({most_parts(manifest), most, options.tasks.value_or(most)});
   const auto open = open_parts(manifest, tasks);
   if (open.empty()) return {};
-  // It comes up to two minutes before the end: of short tasks, which look after themselves, too
-  // soon.
+  // Slurm sends the signal up to two minutes before the end. That is too soon for short tasks,
+  // which stop in time by their --max-walltime.
   constexpr double time_worth_a_signal = 600.0;  // s
   std::string more, for_tasks;
   if (!time || *time >= time_worth_a_signal) more += "#SBATCH --signal=B:USR1@60\n";

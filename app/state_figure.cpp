@@ -23,7 +23,7 @@ constexpr double largest_grain = 40.0, smallest_grain = 5.0;           // px, di
 constexpr double most_grains = 20000.0;                                // a page of a few MB
 constexpr std::size_t most_columns = 24;
 
-/// m, by which bodies can stand out of the box.
+/// The distance (m) by which bodies can reach out of the box.
 double margin_of(const io::FinalState& state) {
   double margin = 0.0;
   for (const Grain& grain : state.grains) margin = std::max(margin, grain.radius);
@@ -31,7 +31,7 @@ double margin_of(const io::FinalState& state) {
   return margin;
 }
 
-/// Where what is drawn: the tube cut into columns of equal length.
+/// Where things are drawn: the tube is cut into columns of equal length.
 class Layout {
 public:
   explicit Layout(const io::FinalState& state)
@@ -55,7 +55,7 @@ public:
   }                                                                            ///< px
   double height() const { return (column_length_ + 2.0 * margin_) * scale_; }  ///< px
 
-  /// Of a body with this y (m, in the box); none if it is not shown.
+  /// The column of a body with this y (m, in the box); nothing if it is not shown.
   std::optional<std::size_t> column_of(double y) const {
     const auto column = static_cast<std::size_t>(std::max(y, 0.0) / column_length_);
     if (column < columns_) return column;
@@ -71,7 +71,7 @@ public:
 private:
   double number_of_columns() const { return static_cast<double>(columns_); }
 
-  /// As many columns as give the largest grains.
+  /// Chooses the number of columns for which grains are drawn largest.
   void show_all(double diameter) {
     for (std::size_t n = 1; n <= most_columns; ++n) {
       const auto columns = static_cast<double>(n);
@@ -85,7 +85,7 @@ private:
     }
   }
 
-  /// At a scale at which grains are seen, if the width of the tube allows it.
+  /// Shows part of the tube at a scale (px/m) at which grains can be seen, if its width allows it.
   void show_a_part(double wanted_scale) {
     scale_ = std::min(wanted_scale, most_width / outer_width_);
     const double fitting = (most_width + gap) / (outer_width_ * scale_ + gap);
@@ -101,7 +101,7 @@ private:
   double column_length_ = 0.0;  // m
 };
 
-/// Without the slowest and the fastest hundredth, which would take the colours from all others.
+/// Without the slowest and the fastest hundredth, which would leave few colours for all others.
 io::Interval velocity_range(const io::FinalState& state) {
   std::vector<double> velocities;
   for (const Grain& grain : state.grains) velocities.push_back(grain.vy);
@@ -208,7 +208,7 @@ private:
     constexpr int steps = 60;
     const double top = layout_.height() + 14.0;
     svg_.begin_group("colour_bar");
-    for (int i = 0; i < steps; ++i) {  // each goes on under the next, so that no seam is seen
+    for (int i = 0; i < steps; ++i) {  // each extends below the next, so that no seam is visible
       const double part = static_cast<double>(i) / steps;
       svg_.rectangle({left + part * width, top}, (1.0 - part) * width, height,
                      {.fill = io::colour((i + 0.5) / steps)});

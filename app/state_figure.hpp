@@ -10,14 +10,14 @@ namespace riesel::app {
 
 struct StateFigure {
   io::Svg svg;
-  std::size_t columns;       ///< the tube is cut into so many pieces, drawn side by side
+  std::size_t columns;       ///< pieces into which the tube is cut, drawn side by side
   double length_shown;       ///< m, from y = 0 on
   std::size_t grains_drawn;  ///< each once: those with y < length_shown
 };
 
-/// y, along the walls, points down. A long tube is cut into the columns that fill the figure best.
-/// Of a tube so large that its grains would not be seen only the part from y = 0 on is shown.
-/// Grains of the class "grains", wall grains of "walls", contacts of "contacts".
+/// y, along the walls, points down. A long tube is cut into the columns that fill the figure best;
+/// if its grains would still be too small to see, only the part next to y = 0 is shown. The SVG
+/// classes are "grains", "walls" (wall grains) and "contacts".
 StateFigure draw_state(const io::FinalState& state);
 
 }  // namespace riesel::app

@@ -10,11 +10,11 @@ namespace riesel::app {
 
 Stepping stepping_of(const io::Settings& settings);
 
-/// The number of threads, the user's or a useful one for so many grains; what OpenMP grants at most
-/// (OMP_THREAD_LIMIT).
+/// The number of threads that the user has set, or a useful one for so many grains; limited by
+/// OpenMP (OMP_THREAD_LIMIT).
 int threads_for(const io::Settings& settings, std::size_t grains);
 
-/// The same for impacts and drops, which share nothing: all are useful.
+/// The same for impacts and drops: as these are independent, every thread is useful.
 int threads_for_curve(const io::Settings& settings);
 
 }  // namespace riesel::app

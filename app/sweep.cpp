@@ -37,7 +37,7 @@ bool holds(const fs::path& file, const std::string& content) {
   return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == content;
 }
 
-/// The sweep file, the manifest, and for each point its directory with its settings.
+/// Writes the directory and the settings of each point, the sweep file and the manifest.
 void write_plan(const SweepPlan& plan, const fs::path& sweep) {
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const fs::path point = point_directory(sweep, plan.manifest.points[i].name);
@@ -49,19 +49,20 @@ void write_plan(const SweepPlan& plan, const fs::path& sweep) {
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
 }
 
-/// Of the sweep that was here before; none if its manifest cannot be read: it is made anew.
+/// The points of the sweep that was here before; none if its manifest cannot be read, as that is
+/// then written anew.
 std::vector<io::ManifestPoint> points_before(const fs::path& sweep) {
   try {
     io::Manifest earlier = io::read_manifest(sweep);
-    refresh(earlier, sweep);  // tasks do not write what they have done into it
+    refresh(earlier, sweep);  // tasks do not update the manifest
     return earlier.points;
   } catch (const io::FileError&) {
     return {};
   }
 }
 
-/// Points that were here, and are none of this sweep. Their runs stay, but no table lists them any
-/// more: not if they are all, and some are done.
+/// Tells of points that were here and are not in this sweep: their runs stay, but no table lists
+/// them any more. Throws UnusableInput if that holds for all points and some are done.
 void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
   const std::vector<io::ManifestPoint> earlier = points_before(sweep);
   const auto is_gone = [&](const io::ManifestPoint& point) {
@@ -80,7 +81,7 @@ void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
          sweep.string(), gone, earlier.size());
 }
 
-/// Not over a run, and not twice at a time.
+/// Locks the directory against a second sweep. Throws UnusableInput if it holds a run.
 io::DirectoryLock lock(const fs::path& sweep) {
   if (fs::exists(sweep / io::run_file_name))
     throw UnusableInput(sweep.string() + ": holds a run; choose another directory with --out");
@@ -88,11 +89,12 @@ io::DirectoryLock lock(const fs::path& sweep) {
   return io::DirectoryLock(sweep);
 }
 
-/// An array of Slurm's default size, where nobody can be asked.
+/// For --dry-run where scontrol cannot be asked: about Slurm's default MaxArraySize.
 constexpr std::size_t usual_most_tasks = 1000;
 
-/// As they stand in the directories. Slurm's tasks leave out what has failed, unless it is to be
-/// tried again: what failed when it ran, as nothing else can be forgotten.
+/// Brings the manifest up to date. Slurm's tasks leave out failed points. If these are to be tried
+/// again, points that failed in a run count as interrupted; other failures cannot be forgotten, see
+/// forget_failures().
 void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
                        const Prolongation& prolongation, bool retry_failed) {
   prolongation.look_ahead(manifest, sweep);
@@ -104,9 +106,9 @@ void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
   }
 }
 
-/// What failed counts as stopped from now on: tasks go on with that. If they were told to try again
-/// what has failed, they would do so each time they are queued. The records as they were, by
-/// directory.
+/// Removes the failures from the records of runs, so that tasks treat these as interrupted. (Tasks
+/// called with --retry-failed would try again each time they are queued.) Returns the earlier
+/// records by directory.
 std::map<fs::path, io::RunRecord> forget_failures(const io::Manifest& manifest,
                                                   const fs::path& sweep,
                                                   const Prolongation& prolongation) {
@@ -121,8 +123,8 @@ std::map<fs::path, io::RunRecord> forget_failures(const io::Manifest& manifest,
   return forgotten;
 }
 
-/// Tasks may begin at once, so failures are forgotten before; but not if there is no job. Returns
-/// its number.
+/// Submits the script and returns the number of the job. Failures are forgotten before that, as
+/// tasks may begin at once, and restored if there is no job.
 std::string submitted_job(const io::Manifest& manifest, const fs::path& sweep,
                           const Prolongation& prolongation, bool retry_failed) {
   std::map<fs::path, io::RunRecord> forgotten;
@@ -144,7 +146,7 @@ int show_slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   return exit_done;
 }
 
-/// What would be done; nothing is written.
+/// Prints what would be done; writes nothing.
 int show_plan(io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
               const SweepOptions& options, int jobs) {
   if (options.to_slurm) {
@@ -194,8 +196,8 @@ int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryL
   return status;
 }
 
-/// The plan of a sweep that was begun: nothing of it need be written. What lacks is for its sweep
-/// file to make.
+/// The plan of a sweep that was begun, with its manifest only, as all files of it must be there.
+/// Throws UnusableInput if one is missing.
 SweepPlan plan_in(const fs::path& sweep) {
   SweepPlan plan{.manifest = manifest_in(sweep), .settings = {}, .sweep_file = {}};
   std::vector<fs::path> files = {sweep / sweep_file_name};

@@ -1,4 +1,4 @@
-// riesel collect: the table of a sweep, from what its runs have come to so far.
+// riesel collect: the table of a sweep, from the results that there are so far.
 #include "app/sweep_collect.hpp"
 
 #include "app/commands.hpp"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of a text that is empty where there is no such thing: a column of those alone is left out.
+/// Whether any point has this text, which may be empty; otherwise its column is left out.
 template <class Text>
 bool any_has(const io::Manifest& manifest, Text text) {
   return std::any_of(manifest.points.begin(), manifest.points.end(),
@@ -42,7 +42,7 @@ void add_plan(const io::Manifest& manifest, std::size_t row, io::SweepTable& tab
   table.set(row, "reason", point.reason);
 }
 
-/// A result with the name of a column of the plan (the seed, say) does not hide it.
+/// A result with the same name as a column of the plan (such as seed) gets a prefix.
 void add_results(const fs::path& summary, std::size_t row, std::size_t columns_of_plan,
                  io::SweepTable& table) {
   for (auto& [name, value] : io::flat_summary(summary)) {
@@ -61,12 +61,12 @@ void write_table(const io::Manifest& manifest, const fs::path& sweep) {
   const std::size_t columns_of_plan = table.columns().size();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const io::ManifestPoint& point = manifest.points[row];
-    // Also what is done and could not be gone on with.
+    // Whatever the status: a point that has failed to go on keeps its earlier result.
     const fs::path summary = point_directory(sweep, point.name) / io::summary_name;
     if (!fs::exists(summary)) continue;
     try {
       add_results(summary, row, columns_of_plan, table);
-    } catch (const io::FileError& error) {  // the others have results
+    } catch (const io::FileError& error) {  // go on with the other points
       table.set(row, "reason", std::string(error.what()));
       tell("riesel: {}\n", error.what());
     }

@@ -1,4 +1,5 @@
-// The table of a sweep: what varies, how each point stands, and all numbers of its summary.
+// The table of a sweep: for each point its settings that vary, its status, and all numbers of its
+// summary.
 #pragma once
 
 #include "io/sweep_manifest.hpp"
@@ -7,8 +8,8 @@
 
 namespace riesel::app {
 
-/// Writes sweep.csv and sweep.h5 into the directory of the sweep, from a manifest that is up to
-/// date. Throws FileError.
+/// Writes sweep.csv and sweep.h5 into the directory of the sweep. The manifest must be up to date,
+/// see refresh(). Throws io::FileError.
 void write_table(const io::Manifest& manifest, const std::filesystem::path& sweep);
 
 }  // namespace riesel::app

@@ -20,8 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Why a run that nobody works on, and that has not come to its end, would not get there; "" if it
-/// would.
+/// Why a run that is neither running nor done counts as failed; "" if it does not.
 std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
   if (!record.failure.empty()) return record.failure;
   if (has_checkpoint(point) && !can_resume(point))
@@ -31,7 +30,8 @@ std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
   return "";
 }
 
-/// A run whose neighbour failed waits in vain.
+/// Why a run waits in vain, as its neighbour will not come to its end; "" if it does not. Parents
+/// must come before their children in `standings`.
 std::string reason_to_wait(const io::ManifestPoint& point,
                            const std::map<std::string, RunStanding>& standings) {
   const auto parent = standings.find(point.parent);

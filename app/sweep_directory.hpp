@@ -1,5 +1,5 @@
-// The directory of a sweep and what can be told from it without asking anyone: each point has a
-// directory of its own below points/, and that says how far the point has come.
+// The directory of a sweep, and the state of the sweep as its files alone show it: each point has a
+// directory of its own below points/, which says how far the point has come.
 #pragma once
 
 #include "io/sweep_manifest.hpp"
@@ -10,16 +10,16 @@
 namespace riesel::app {
 
 enum class RunStatus {
-  waiting,      ///< nothing was done yet
-  running,      ///< a process works on it
-  done,         ///< its summary is there
-  failed,       ///< for a reason that would come again
-  interrupted,  ///< stopped; goes on from its checkpoint, if there is one
+  waiting,      ///< not started yet
+  running,      ///< a process is working on it
+  done,         ///< it has a summary
+  failed,       ///< for a reason that would occur again
+  interrupted,  ///< stopped; goes on from its checkpoint, or from the start if there is none
 };
 
 std::string to_string(RunStatus status);
 
-/// By the snapshot in the manifest.
+/// According to the manifest, which is a snapshot, see refresh().
 bool has_status(const io::ManifestPoint& point, RunStatus status);
 
 struct RunStanding {
@@ -30,25 +30,27 @@ struct RunStanding {
 
 std::filesystem::path point_directory(const std::filesystem::path& sweep, const std::string& name);
 
-/// The sweep file as it was, in the directory of the sweep.
+/// The copy of the sweep file in the directory of the sweep.
 inline constexpr auto sweep_file_name = "sweep.yaml";
 
 /// The settings file of a point, within its directory.
 inline constexpr auto point_settings_name = "point.yaml";
 
-/// What was planned for the directory. Throws UnusableInput if there is no sweep in it.
+/// The manifest of the sweep in this directory. Throws UnusableInput if it cannot be read.
 io::Manifest manifest_in(const std::filesystem::path& sweep);
 
+/// How far the point in this directory has come.
 RunStanding standing_of(const std::filesystem::path& point);
 
-/// Brings the snapshot in the manifest up to date from the directories.
+/// Brings status, attempts and reason of each point of the manifest up to date from the
+/// directories.
 void refresh(io::Manifest& manifest, const std::filesystem::path& sweep);
 
 /// Whether a run of the point can go on from a checkpoint.
 bool can_resume(const std::filesystem::path& point);
 
-/// Removes what a run has left that can not go on, so that it can be started again; nothing if it
-/// is done. Throws io::FileError if a process works on it.
+/// Removes the files of a run that cannot go on, so that it can be started again; does nothing if
+/// the run is done. Throws io::FileError if a process is working on it.
 void clear(const std::filesystem::path& point);
 
 }  // namespace riesel::app

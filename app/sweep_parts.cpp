@@ -7,13 +7,14 @@ namespace riesel::app {
 
 namespace {
 
-/// The runs of a sweep by name, each with the number of its chain, counted as they begin.
+/// For each run of a sweep, by name, the number of its chain; chains are numbered in the order of
+/// their first runs.
 struct Chains {
   std::map<std::string, std::size_t> of;
   std::size_t count = 0;
 };
 
-/// A parent stands before its children.
+/// In a manifest a parent comes before its children.
 Chains chains_in(const io::Manifest& manifest) {
   Chains chains;
   for (const io::ManifestPoint& point : manifest.points) {

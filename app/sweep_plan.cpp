@@ -30,7 +30,8 @@ Problem problem_of(const io::Settings& settings) {
   return scenarios::named(settings.scenario()).prepare(settings);
 }
 
-/// What costs time, in a unit that fits the scenario: particle-steps, impacts, or beads that fall.
+/// The amount of work, in a unit that fits the kind of problem: particle-steps, impacts, or falling
+/// beads.
 double work_of(const io::Settings& settings, const Problem& problem) {
   if (const auto* flow = std::get_if<Flow>(&problem))
     return static_cast<double>(flow->state.grains.size()) * steps_of(settings, *flow);
@@ -39,7 +40,7 @@ double work_of(const io::Settings& settings, const Problem& problem) {
   return static_cast<double>(std::get<ImpactCurve>(problem).impacts.size());
 }
 
-/// s, on one thread.
+/// Measured time per unit of work_of(), in s on one thread.
 double seconds_per_work(const io::Settings& settings) {
   constexpr double seconds_to_measure = 0.05;
   constexpr std::size_t impacts_to_measure = 20, drops_to_measure = 2;
@@ -58,7 +59,7 @@ int most_threads_of(const io::Settings& settings, const Problem& problem) {
   return threads_for_curve(settings);
 }
 
-/// Whether random numbers are drawn: where grains are given, and in impacts, none are.
+/// Whether a run draws random numbers: not in impacts or drops, nor where grains are given.
 bool draws_numbers(const io::Settings& settings, const Problem& problem) {
   constexpr auto kind = "start.kind";
   if (!std::holds_alternative<Flow>(problem)) return false;
@@ -72,11 +73,11 @@ struct Cost {
   double work = 0.0;     // see work_of
   double seconds = 0.0;  // on one thread
   int most_threads = 1;
-  bool has_seed = false;  // that its result depends on
+  bool has_seed = false;  // whether its result depends on the seed
 };
 
-/// Measures a few runs from the cheapest to the dearest, and takes each other one to be as fast as
-/// the nearest of them. They are measured side by side, as they will be done.
+/// Sorts the runs by work and cuts them into a few groups. Measures one of each, and takes the
+/// others of the group to be as fast. The groups are measured side by side, as runs will be done.
 void estimate_seconds(std::vector<Cost*> costs) {
   constexpr std::size_t most_measured = 12;
   std::stable_sort(costs.begin(), costs.end(),
@@ -95,7 +96,7 @@ void estimate_seconds(std::vector<Cost*> costs) {
     for (Cost* const cost : parts[part]) cost->seconds = rates[part] * cost->work;
 }
 
-/// By the name of the run. Throws SettingsError for a run that cannot be.
+/// By the name of the run. Throws io::SettingsError for settings that cannot be run.
 std::map<std::string, Cost> costs_of(const std::vector<io::SweepPoint>& points) {
   std::map<std::string, Cost> costs;
   std::vector<Cost*> in_order;
@@ -141,7 +142,7 @@ void check_continuation(const io::SweepFile& sweep) {
   }
 }
 
-/// Whether results depend on one of the keys.
+/// Whether results depend on any key of the axis.
 bool matters(const io::SweepAxis& axis, const io::SettingsTable& table) {
   return std::ranges::any_of(table, [&](const io::Setting& row) {
     return row.matters && std::ranges::find(axis.keys, row.key) != axis.keys.end();
@@ -156,7 +157,7 @@ void reject_axes_in_vain(const io::SweepFile& sweep) {
                               "leave it out, or write one value below 'set:'");
 }
 
-/// The place of several seeds by themselves, if there are any.
+/// Where the sweep file asks for several seeds, if it varies the seed alone.
 std::optional<io::Place> place_of_seeds(const io::SweepFile& sweep) {
   if (sweep.seeds.size() > 1) return sweep.seeds.front().key_place;
   for (const io::SweepAxis& axis : sweep.axes)

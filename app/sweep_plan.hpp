@@ -1,4 +1,5 @@
-// From a sweep file to the plan: every point checked as its run would check it, and its cost.
+// From a sweep file to the plan of the sweep. Every point is checked as its run would check it, and
+// its cost is estimated.
 #pragma once
 
 #include "io/sweep_manifest.hpp"
@@ -11,11 +12,11 @@ namespace riesel::app {
 
 struct SweepPlan {
   io::Manifest manifest;
-  std::vector<std::string> settings;  ///< of each point of the manifest, a settings file
-  std::string sweep_file;             ///< verbatim
+  std::vector<std::string> settings;  ///< for each point of the manifest, its settings file
+  std::string sweep_file;             ///< its text, verbatim
 };
 
-/// Writes nothing. Throws SettingsError.
+/// Writes nothing to disk. Throws io::SettingsError.
 SweepPlan plan_sweep(const std::filesystem::path& file);
 
 }  // namespace riesel::app

@@ -38,16 +38,16 @@ using namespace std::chrono_literals;
 
 constexpr auto between_looks = 10ms;
 constexpr auto between_manifests = 2s;
-constexpr int most_starts = 3;  // of one run in one sweep, if others keep stopping it
+constexpr int most_starts = 3;  // of one run in one sweep, if signals keep stopping it
 constexpr auto log_name = "log.txt";
 
-/// What becomes of one directory; equal points share it.
+/// The run of one directory; equal points share it.
 struct Job {
   std::string name;
   fs::path directory;
   Job* parent = nullptr;
   double seconds = 0.0;  // expected, on one thread
-  double urgency = 0.0;  // seconds, with the longest chain that waits for it
+  double urgency = 0.0;  // s, together with the longest chain of runs that waits for it
   int most_threads = 1;
   RunStatus status = RunStatus::waiting;
   std::string reason;  // why it failed
@@ -57,7 +57,7 @@ struct Job {
   std::uintmax_t log_begin = 0;  // bytes of the log before this start
 };
 
-/// The last complaint in the log of a run.
+/// The last error message in the log of a run after byte `begin`; "" if there is none.
 std::string complaint_in(const fs::path& log, std::uintmax_t begin) {
   constexpr std::string_view speaker = "riesel: ";
   std::ifstream stream(log);
@@ -128,7 +128,7 @@ private:
     job.reason = standing.reason;
   }
 
-  /// Not beside a result that it cannot go on from.
+  /// A point that has a result, but no checkpoint to go on from, must not be started again.
   static bool can_begin(const Job& job) {
     return can_resume(job.directory) || !fs::exists(job.directory / io::summary_name);
   }
@@ -155,11 +155,12 @@ private:
     return open && may_start && job.starts < most_starts && !job.process;
   }
 
-  /// Whether there is anything left to wait for, besides what runs here.
+  /// Starts what is ready while there is room. Returns whether there is anything left to wait for,
+  /// besides the processes started here.
   bool start_what_can() {
     bool more = false;
     for (Job* job : by_urgency_) {
-      // Another process has the directory; when it lets go, the point may be done or not.
+      // Another process works on it; when that ends, the point may be done or not.
       if (job->status == RunStatus::running && !job->process) look_at(*job);
       const bool here = is_ready(*job);
       more = more || here || job->status == RunStatus::running;
@@ -168,7 +169,7 @@ private:
     return more;
   }
 
-  /// An equal share of the cores for all that can run now.
+  /// An equal share of the cores for each run that is running or ready.
   int threads_for(const Job& job) const {
     const auto ready = static_cast<int>(
         std::count_if(jobs_.begin(), jobs_.end(), [](auto& other) { return is_ready(*other); }));
@@ -204,7 +205,7 @@ private:
     job.status = RunStatus::running;
   }
 
-  /// Whether what an earlier run has left is gone; not if another process has begun one meanwhile.
+  /// Removes what an earlier run has left. Returns false if another process has taken the point.
   bool cleared(Job& job) const {
     try {
       clear(job.directory);
@@ -256,7 +257,8 @@ private:
     tell("riesel: {}\n", fmt::format(format, job.name, parts...));
   }
 
-  /// What the runs are to be stopped by, or 0. They need some time to write their checkpoints.
+  /// The signal by which the runs are to be stopped, or 0. Comes before the time is over, as the
+  /// runs need some time to write their checkpoints.
   int ending_signal() const {
     constexpr double most_reserve = 60.0;  // s
     if (interrupting_signal() != 0 || !options_.max_walltime) return interrupting_signal();
@@ -273,7 +275,7 @@ private:
       if (job->process) job->process->send(signal);
   }
 
-  /// A run that takes longer than expected is almost done, as far as we know.
+  /// A run that takes longer than expected counts as almost done.
   double fraction_done() const {
     constexpr double almost = 0.95;
     double done = 0.0, all = 0.0;
@@ -298,7 +300,7 @@ private:
     for (io::ManifestPoint& point : manifest_.points) {
       const auto job = by_name_.find(point.name);
       if (job == by_name_.end() || job->second->status != RunStatus::failed) continue;
-      point.status = to_string(RunStatus::failed);  // also if it was done, and cannot go on
+      point.status = to_string(RunStatus::failed);  // refresh() may say done: it failed to go on
       point.reason = job->second->reason;
     }
     options_.on_change(manifest_);

@@ -27,7 +27,7 @@ void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path
                                   point.name, point.parent));
 }
 
-/// Which points a task is for.
+/// The names of the points that a task has to run.
 std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Manifest& manifest) {
   const std::size_t count = options.parts.value_or(manifest.points.size());
   if (options.index >= count)
@@ -45,7 +45,7 @@ std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Ma
 int sweep_task(const SweepTaskOptions& options) {
   io::Manifest manifest = manifest_in(options.directory);
   const std::vector<std::string> names = names_for(options, manifest);
-  if (names.empty()) return exit_done;  // more parts than there are points
+  if (names.empty()) return exit_done;  // there are more parts than chains of points
   const Prolongation prolongation(manifest, options.directory, names, options.overrides);
   const int status = run_points(manifest, options.directory, names,
                                 {.jobs = 1,

@@ -31,7 +31,7 @@ void occupy_closed_streams() noexcept {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) >= 0) continue;
     const int useless = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
-    static_cast<void>(open("/dev/null", useless));  // gets the lowest number that is free: this one
+    static_cast<void>(open("/dev/null", useless));  // gets the lowest free descriptor: this one
   }
 }
 

@@ -1,5 +1,4 @@
-// When a run has to stop, so that it has saved before the time on the clock that it may take is
-// over.
+// When a run has to stop so that its state is saved before its allowed real time is over.
 #pragma once
 
 #include "app/walltime.hpp"
@@ -12,17 +11,19 @@ namespace riesel::app {
 
 class TimeLimit {
 public:
-  /// `seconds` from the start of the program. Without them there is no limit.
+  /// `seconds` since the start of the program; nothing: there is no limit.
   explicit TimeLimit(std::optional<double> seconds) : seconds_(seconds) {}
 
-  /// A piece of the way took so long (s), and a save with so many rows of the series.
+  /// Notes how long (s) stepping took between two looks at the clock (a piece), or writing a
+  /// checkpoint and `rows` rows of the series (a save).
   void note_piece(double seconds) { longest_piece_ = std::max(longest_piece_, seconds); }
   void note_save(double seconds, std::int64_t rows) {
     longest_save_ = std::max(longest_save_, seconds);
     rows_saved_ = rows;
   }
 
-  /// With a reserve for what comes before the end: a piece of the way, and what it takes to save.
+  /// Whether to stop now: another piece and a save, each taken twice as long as the longest so far,
+  /// would not fit.
   bool is_reached() const {
     constexpr double reserve = 2.0;
     return seconds_
@@ -30,8 +31,8 @@ public:
                   > *seconds_;
   }
 
-  /// To know how long it takes, and again when there are twice as many rows, which may take twice
-  /// as long: that is the reserve.
+  /// Whether to save now, only to learn how long it takes: at first, and whenever the rows have
+  /// doubled. With twice the rows a save may take twice as long, which the reserve above covers.
   bool asks_to_save(std::int64_t rows) const {
     constexpr std::int64_t few = 1000;
     return seconds_ && (longest_save_ == 0.0 || rows > 2 * std::max(few, rows_saved_));

@@ -1,12 +1,12 @@
-// How much a run tells of itself. Errors are told in any case.
+// How much a run prints. Errors are printed in any case.
 #pragma once
 
 namespace riesel::app {
 
 enum class Verbosity {
-  quiet,   ///< nothing: the files tell
+  quiet,   ///< nothing: results are in the files
   normal,  ///< how far it is, and its result
-  verbose  ///< what it begins with, and each checkpoint, too
+  verbose  ///< also what it begins with, and each checkpoint
 };
 
 }  // namespace riesel::app

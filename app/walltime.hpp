@@ -1,15 +1,15 @@
-// The time on the clock that a run may take: batch systems kill what takes longer.
+// The real time that a run may take: batch systems kill jobs that take longer.
 #pragma once
 
 #include <string>
 
 namespace riesel::app {
 
-/// s, since this program was started.
+/// s of real time since this program started.
 double seconds_since_start_of_program();
 
-/// The time that a text such as "23.5 h" or "600" (seconds) means: s. Throws UnusableInput if it
-/// means none.
+/// The time, in s, that a text such as "23.5 h" or "600" (seconds) means. Throws UnusableInput if
+/// it is no time above 0.
 double read_walltime(const std::string& text);
 
 }  // namespace riesel::app

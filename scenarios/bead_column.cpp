@@ -1,8 +1,8 @@
 // A column of beads is dropped on a plate: Luding, Clement, Blumen, Rajchenbach and Duran, Phys.
 // Rev. E 50, 4113 (1994).
 //
-// A test of whether t_col is short enough. Hard beads collide one after the other. Soft ones that
-// stand close to each other at the start touch several others at once, and lose less energy.
+// A test of whether t_col is short enough. Hard beads collide one pair after the other. Soft ones
+// that are close together at the start touch several others at once, and lose less energy.
 #include "engine/closed_forms.hpp"
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/scenario.hpp"
@@ -43,7 +43,7 @@ io::SettingsTable own_settings() {
   };
 }
 
-/// The limit of hard beads needs restitutions that do not depend on the speed.
+/// The limit of hard beads needs restitutions that do not depend on the speed: rejects other laws.
 void require_closed_form(const io::Settings& settings) {
   if (settings.text("contact.law") != "linear")
     settings.reject("contact.law", "its restitution depends on the speed",

@@ -17,8 +17,8 @@ Attraction attraction(const io::Settings& settings) {
   return settings.text("contact.attraction") == "clip" ? Attraction::clip : Attraction::keep;
 }
 
-/// The restitution of a system is that of a grain of `grains.mass` with the wall, as in the paper,
-/// unless `restitution_of` says that two such grains are meant.
+/// contact.restitution is that of a grain of `grains.mass` with the wall, as in the paper, unless
+/// `restitution_of` says that it is that of two such grains.
 double linear_damping(const io::Settings& settings) {
   settings.require_exactly_one({"contact.damping", "contact.restitution"});
   if (settings.has("contact.damping")) return settings.number("contact.damping");
@@ -82,7 +82,7 @@ ContactModel contact_model(const io::Settings& settings) {
 
 void reject_heavy_bodies(const io::Settings& settings, const std::string& mass_key, double mass,
                          const std::string& speed_key, double speed) {
-  constexpr double contacts = 1000.0;  // that are summed up, generously
+  constexpr double contacts = 1000.0;  // more than are summed up
   constexpr double most = ExactSum::largest_sum / contacts;
   if (std::max(mass, 1.0) * std::max(speed * speed, 1.0) < most) return;
   settings.reject(

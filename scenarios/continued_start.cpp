@@ -30,7 +30,8 @@ io::FoundCheckpoint find(const io::Settings& settings) {
   }
 }
 
-/// That of the generation before would make another run of the same settings.
+/// Rejects a run whose newest checkpoint cannot be read: starting from the previous one would give
+/// another result with the same settings.
 io::Checkpoint checkpoint_of(const io::Settings& settings) {
   io::FoundCheckpoint found = find(settings);
   if (!found.note.empty())
@@ -39,12 +40,13 @@ io::Checkpoint checkpoint_of(const io::Settings& settings) {
   return std::move(found.checkpoint);
 }
 
-/// What the earlier run gives cannot be set anew.
+/// Rejects settings that differ from those of the earlier run, but would have no effect as the
+/// earlier run gives what they set.
 void reject_other_grains_or_tube(const io::Settings& settings, const io::Settings& earlier) {
   for (const auto& row : settings_tables().at(settings.scenario())) {
     const std::string section = io::section_of(row.key);
     const bool carried_over = std::ranges::count(carried_sections, section) > 0;
-    if (!carried_over || can_continue_along(row.key) || !earlier.has(row.key)  // of a file
+    if (!carried_over || can_continue_along(row.key) || !earlier.has(row.key)  // it used a file
         || settings.written(row.key) == earlier.written(row.key))
       continue;
     settings.reject(row.key,
@@ -54,7 +56,8 @@ void reject_other_grains_or_tube(const io::Settings& settings, const io::Setting
   }
 }
 
-/// As the new run sees it: its clock starts now, and what the contact did belongs to the old one.
+/// The contact as the new run sees it: the clock starts at `now` (s), and what the contact has done
+/// so far belongs to the earlier run.
 Contact carried_over(const Contact& contact, double now, const ContactModel& model) {
   const auto stored = [&](const auto& normal) { return normal.stored_energy(contact.overlap); };
   const auto* spring = std::get_if<SpringSlip>(&model.slip);
@@ -75,7 +78,7 @@ Contact carried_over(const Contact& contact, double now, const ContactModel& mod
           .rolling_torque = contact.rolling_torque};
 }
 
-/// The wall is where it was, and at the same phase of its oscillation.
+/// Sets `motion` so that the wall is where it was, at the same phase of its oscillation.
 void go_on_from(const WallMotion& before, const State& earlier, WallMotion& motion) {
   motion.phase = std::fmod(before.phase_at(earlier.time()), 2.0 * std::numbers::pi);
   const auto y_of = [&](const WallMotion& m, std::int64_t step) {
@@ -93,7 +96,8 @@ bool alike(const WallLattice& a, const WallLattice& b) {
   return alike(a.line, b.line) && alike(a.radius, b.radius) && a.count == b.count;
 }
 
-/// Also of scenarios from outside, whose settings nobody here knows: places are parts of the box.
+/// Places are in quanta of the box, so it must be the same. Compares the boxes themselves, as for
+/// scenarios from outside the settings that define them are not known here.
 void reject_other_box(const io::Settings& settings, const State& earlier, const State& empty) {
   if (alike(earlier.box.width, empty.box.width) && alike(earlier.box.length, empty.box.length)
       && std::ranges::equal(earlier.walls, empty.walls,

@@ -15,7 +15,8 @@ namespace riesel::scenarios {
 
 namespace {
 
-/// What falls freely from one look to the next must not get so fast that it seems slow again.
+/// A grain that falls freely from one look to the next must not get so fast that its velocity wraps
+/// around and seems slow again.
 void reject_strong_gravity(const io::Settings& settings, std::size_t grains, const State& state) {
   const double largest = largest_speed(state.box, state.time_step, grains)
                          / (static_cast<double>(steps_per_look) * state.time_step);
@@ -28,8 +29,8 @@ void reject_strong_gravity(const io::Settings& settings, std::size_t grains, con
                   largest));
 }
 
-/// Velocities change by whole quanta in a step: where it is very short, or gravity very small, by a
-/// gravity of other size than is set.
+/// Velocities change by whole quanta in a step. If the step is very short, or gravity very weak,
+/// rounding makes gravity differ from what is set.
 void reject_rounded_gravity(const io::Settings& settings, const State& state) {
   constexpr double tolerated = 1e-3;  // of gravity
   const Box& box = state.box;
@@ -66,7 +67,7 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
   settings.reject(by_chance ? "start.random_velocity" : "start.axial_velocity", problem, remedy);
 }
 
-/// An eighth of a turn in a step; a few times more, and it would seem slow again.
+/// At most an eighth of a turn in a step: a few times more would wrap around and seem slow again.
 void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
                        const State& state) {
   const double largest = 0.25 * std::numbers::pi / state.time_step;

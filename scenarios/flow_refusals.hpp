@@ -1,5 +1,6 @@
-// Flows that a state cannot hold, or its steps not follow: refused before they begin, with the
-// setting that is to blame and what to choose instead. All throw SettingsError.
+// Refuses, before they begin, flows whose numbers would leave the range of the fixed-point state or
+// of sums. The errors name the setting to blame and what to choose instead. All throw
+// io::SettingsError.
 #pragma once
 
 #include "engine/state.hpp"
@@ -10,16 +11,17 @@
 
 namespace riesel::scenarios {
 
-/// Gravity under which grains get too fast from one look to the next, or which the velocities,
-/// whole quanta per step, round off. The time step of `state` is set; it will have so many grains.
+/// Rejects gravity so strong that grains may get too fast between two looks at the run, or so weak
+/// that its rounding to whole quanta per step shows. The time step of `state` must be set; `grains`
+/// is the number that it will have.
 void reject_unfit_gravity(const io::Settings& settings, std::size_t grains, const State& state);
 
-/// Too fast or turning too fast for the box and the time step of `state`: grains that are not in it
-/// yet, as it may not hold them.
+/// Rejects grains that move or turn too fast for the box and the time step of `state`. They are not
+/// in it yet, as it might not be able to hold them.
 void reject_fast_motion(const io::Settings& settings, const std::vector<Grain>& grains,
                         const State& state);
 
-/// Grains of `state` that together have more mass or energy than sums hold.
+/// Rejects grains of `state` whose total mass or energy would overflow the sums.
 void reject_heavy_grains(const io::Settings& settings, const State& state);
 
 }  // namespace riesel::scenarios

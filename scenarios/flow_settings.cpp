@@ -1,5 +1,5 @@
-// What all flows have in common: how long they are followed, when they are to be stopped, and what
-// they write.
+// The settings that all flows have in common: how long they are followed, when they are stopped,
+// and what they write.
 #include "scenarios/run_length.hpp"
 #include "scenarios/run_limits.hpp"
 #include "scenarios/scenario.hpp"

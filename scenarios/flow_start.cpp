@@ -25,7 +25,7 @@ using std::numbers::pi;
 
 constexpr auto fraction_key = "grains.area_fraction";
 
-/// Ids have 31 bits; pairs of neighbours, a few per grain, are counted by 32.
+/// Ids have 31 bits; pairs of neighbours, a few per grain, are counted with 32 bits.
 constexpr double most_grains = 1e9;
 
 /// `start.kind` and `start.from`.
@@ -56,7 +56,7 @@ io::SettingsTable start_settings() {
   };
 }
 
-/// m/s, of walls that shear what is between them, at x (m).
+/// The velocity along y (m/s) at x (m), interpolated between those of the walls.
 double velocity_between(const std::vector<WallLattice>& walls, double x) {
   const WallLattice &first = walls.front(), &last = walls.back();
   if (first.motion.velocity == last.motion.velocity) return first.motion.velocity;
@@ -64,8 +64,8 @@ double velocity_between(const std::vector<WallLattice>& walls, double x) {
   return first.motion.velocity + part * (last.motion.velocity - first.motion.velocity);
 }
 
-/// Velocities as set, exactly: that of the centre of mass, and the mean square of the random part;
-/// and besides those of the walls.
+/// Draws velocities and scales them, so that the velocity of the centre of mass and the mean square
+/// of the random part are exactly as set. Adds the velocity between the walls.
 void set_velocities(const io::Settings& settings, const State& empty, std::vector<Grain>& grains) {
   const RandomStream stream(static_cast<std::uint64_t>(settings.integer("seed")), Use::velocity);
   double mass = 0.0, px = 0.0, py = 0.0;
@@ -84,7 +84,7 @@ void set_velocities(const io::Settings& settings, const State& empty, std::vecto
     squares += grain.vx * grain.vx + grain.vy * grain.vy;
   }
   const double rms = std::sqrt(squares / (2.0 * static_cast<double>(grains.size())));
-  // A single grain is the centre of mass: what is left of its velocity is rounding.
+  // A single grain is the centre of mass, so that only rounding is left of its random velocity.
   const double scale =
       grains.size() > 1 && rms > 0.0 ? settings.number("start.random_velocity") / rms : 0.0;
   for (Grain& grain : grains) {
@@ -94,9 +94,9 @@ void set_velocities(const io::Settings& settings, const State& empty, std::vecto
   }
 }
 
-/// From the lightest pair. Damping counts most for the heaviest grain at the wall: rejects it if it
-/// does not rebound, before any other is asked. Rejects walls and gravity that steps as long do not
-/// follow.
+/// The time step follows from the lightest pair. Damping matters most for the heaviest grain at the
+/// wall, so that this contact is checked first, and rejected if it does not rebound. Also rejects
+/// walls, output and gravity that do not suit this time step. `masses`: kg.
 void set_time_step(const io::Settings& settings, const ContactModel& model,
                    std::span<const double> masses, State& state) {
   const auto [lightest, heaviest] = std::minmax_element(masses.begin(), masses.end());
@@ -109,8 +109,9 @@ void set_time_step(const io::Settings& settings, const ContactModel& model,
   reject_unfit_gravity(settings, masses.size(), state);
 }
 
-/// The one way to a flow. `masses`: kg, of its grains; once the time step is known, `motion(state)`
-/// tells with which velocities they set out, and `fill(state)` puts them into the state.
+/// Every flow is made here. `masses`: kg, of its grains. Once the time step is known,
+/// `motion(state)` returns the grains with their initial velocities, which are checked before
+/// `fill(state)` puts them into the state.
 template <class Motion, class Fill>
 Flow set_out(const io::Settings& settings, const ContactModel& model,
              std::span<const double> masses, State state, Motion motion, Fill fill) {
@@ -150,7 +151,7 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   return set_out(settings, model, earlier.grains.mass, std::move(room.empty), motion, fill);
 }
 
-/// Before anything is made for each of them. `area`: m^2, of all grains.
+/// To be called before memory is taken for each grain. `area`: m^2, of all grains.
 void reject_too_many(const io::Settings& settings, const SizeDistribution& sizes, double area) {
   const double expected = area / (0.25 * pi * sizes.mean_square());
   if (expected > most_grains)

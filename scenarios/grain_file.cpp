@@ -15,7 +15,7 @@ namespace {
 
 constexpr auto from_key = "start.from";
 
-/// So deep grains may overlap, over the sum of their radii: numbers in a file are rounded.
+/// Tolerated overlap over the sum of the radii, as numbers in a file are rounded.
 constexpr double rounding = 1e-9;
 
 io::CsvTable read_table(const io::Settings& settings) {
@@ -36,7 +36,8 @@ double positive(const io::CsvTable& table, std::size_t row, const std::string& c
   return value;
 }
 
-/// m; grains much smaller than the tube would be lost among its positions.
+/// m. Rejects grains far smaller than the tube is long: positions are resolved to a certain part of
+/// its length.
 double diameter_of(const io::CsvTable& table, std::size_t row, double tube_length) {
   const double least = 1e-6 * tube_length;
   const double value = positive(table, row, "diameter");
@@ -46,13 +47,13 @@ double diameter_of(const io::CsvTable& table, std::size_t row, double tube_lengt
   return value;
 }
 
-/// Where no mass is given, it goes as the area.
+/// kg; in proportion to the area if the file has no masses.
 double mass_of(const io::Settings& settings, const io::CsvTable& table, std::size_t row) {
   if (table.has("mass")) return positive(table, row, "mass");
   return mass_of_diameter(settings, table.value(row, "diameter"));
 }
 
-/// rad/s; of grains that do not rotate none is taken.
+/// rad/s; rejects a column of spins if grains do not rotate.
 double spin_of(const io::CsvTable& table, std::size_t row, bool rotate) {
   if (!table.has("spin")) return 0.0;
   if (!rotate)
@@ -69,7 +70,8 @@ void require_within(const io::CsvTable& table, std::size_t row, const std::strin
                  fmt::format("choose it from 0 to {:.6g} m", end));
 }
 
-/// m, of two bodies, by the nearest image along y; negative if they are apart.
+/// Overlap (m) of two bodies, with the nearest image along y; negative if they are apart. `reach`
+/// (m) is the sum of their radii.
 double overlap(const Box& box, double dx, double dy, double reach) {
   return reach - std::hypot(dx, std::remainder(dy, box.length));
 }
@@ -91,7 +93,8 @@ void reject_in_a_wall(const io::CsvTable& table, const State& empty,
   }
 }
 
-/// Along y from each grain as far as the largest one reaches, round the seam.
+/// Searches from each grain along +y, across the seam of the period, as far as the largest grain
+/// reaches.
 void reject_in_each_other(const io::CsvTable& table, const Box& box,
                           const std::vector<Grain>& grains) {
   std::vector<std::size_t> order(grains.size());

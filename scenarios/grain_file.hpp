@@ -8,9 +8,9 @@
 
 namespace riesel::scenarios {
 
-/// The grains of the file at `start.from`. `empty` has the box and the walls, but no grains.
-/// Rejects with file, line and column what stands outside of the tube, in a wall or in another
-/// grain.
+/// The grains of the file at `start.from`. `empty` has the box and the walls, but no grains. Throws
+/// io::SettingsError, with file, line and column, for a grain outside the tube, in a wall grain or
+/// in another grain.
 std::vector<Grain> grains_of_file(const io::Settings& settings, const State& empty);
 
 }  // namespace riesel::scenarios

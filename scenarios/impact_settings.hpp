@@ -5,15 +5,15 @@
 
 namespace riesel::scenarios {
 
-/// Rows for the grain and the wall grains.
+/// The settings of the grain, the wall grains and the axial velocities.
 io::SettingsTable impact_settings();
 
-/// Setup without impacts; `wall_spacing` as in ImpactSetup.
+/// A curve with its setup, but without points. `wall_spacing` (m) as in ImpactSetup.
 ImpactCurve empty_curve(const io::Settings& settings, double wall_spacing);
 
-/// Adds the point (v_x, v_y) with one impact from each of the starting places y (m) at height x
-/// (m). The time step resolves the collision time, and the passage of a wall grain where that is
-/// shorter: `chord` (m) is the typical way in the overlap.
+/// Adds the point (v_x, v_y), in m/s, with one impact from each of the starting places y (m) at
+/// height x (m). The time step resolves the collision time or, if shorter, the time in which the
+/// grain passes a wall grain: `chord` (m) is the typical path on which they overlap.
 void add_point(const io::Settings& settings, ImpactCurve& curve, double v_x, double v_y, double x,
                const std::vector<double>& starts, double chord);
 

@@ -1,9 +1,9 @@
 // Grains flow down a chute with a rough bottom and a free surface, periodic along the flow:
 // Silbert, Ertas, Grest, Halsey, Levine and Plimpton, Phys. Rev. E 64, 051302 (2001).
 //
-// x is the height above the bottom, y points down the slope. Between the angle at which the layer
-// comes to rest and one at which nothing holds it any more, the flow is steady: friction in the
-// whole layer balances gravity, and the velocity follows Bagnold's profile.
+// x is the height above the bottom, y points down the slope. There is a range of inclinations with
+// a steady flow: below it the layer comes to rest, above it it accelerates. In a steady flow
+// friction in the whole layer balances gravity, and the velocity follows Bagnold's profile.
 #include "scenarios/flow_start.hpp"
 #include "scenarios/walls.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Area fraction of the grains at the start, from where they fall to the bottom.
+/// Area fraction of the grains where they start, above the bottom, to which they then fall.
 constexpr double loose = 0.5;
 
 io::SettingsTable chute_settings() {
@@ -75,7 +75,7 @@ void reject_small_chute(const io::Settings& settings, double largest, const Stat
   reject_low_chute(settings, largest + empty.walls.front().radius, empty);
 }
 
-/// Under a lid, that is taken away then.
+/// Packs the grains between the bottom and a lid, which is not part of the flow.
 std::vector<Grain> place_grains(const io::Settings& settings, const SizeDistribution& sizes,
                                 const State& empty) {
   const double layer = 0.25 * pi * settings.number("grains.diameter") * empty.box.length;
@@ -108,7 +108,7 @@ Scenario inclined_chute() {
                      "velocity and area fraction (Silbert et al. 2001).",
           .own_settings =
               flow_table({size_settings(), wall_settings(), chute_settings(),
-                          // Faster ones would fly out of the chute before they meet others.
+                          // Faster grains would fly out of the chute before they meet others.
                           start_velocity_settings("0", "0.1 m/s")}),
           .prepare = prepare};
 }

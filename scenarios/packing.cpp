@@ -13,7 +13,7 @@ namespace riesel::scenarios {
 
 namespace {
 
-/// Columns along y, every second one shifted by half a spacing.
+/// Columns of sites along y, every second column shifted by half a spacing.
 struct Lattice {
   std::size_t columns, rows;
   double x_first, x_spacing, y_spacing;  // m
@@ -52,12 +52,12 @@ Lattice widest_lattice(const State& empty, std::size_t n, double radius) {
                               columns == 1 ? 0.0 : width / static_cast<double>(columns - 1),
                           .y_spacing = empty.box.length / static_cast<double>(rows)};
     if (best.columns == 0 || lattice.closest() > best.closest()) best = lattice;
-    if (columns > 1 && 2.0 * lattice.x_spacing < best.closest()) break;  // only narrower from here
+    if (columns > 1 && 2.0 * lattice.x_spacing < best.closest()) break;  // more are ever narrower
   }
   return best;
 }
 
-/// n of the lattice's sites at random, in the order of the sites.
+/// n sites of the lattice, chosen at random, in the order of the sites.
 std::vector<Place> occupied_sites(const Lattice& lattice, std::size_t n, std::uint64_t seed) {
   const RandomStream stream(seed, Use::vacancy);
   std::vector<std::pair<double, std::size_t>> lots(lattice.sites());
@@ -74,19 +74,19 @@ std::vector<Place> occupied_sites(const Lattice& lattice, std::size_t n, std::ui
   return places;
 }
 
-/// Lets soft grains push each other apart. Their radii are a little too large, so that what
-/// overlaps a little in the end does not overlap in truth. Stepped in one way on all machines, by
-/// one thread: when a grain is found lost that is pressed far out of the tube depends on that.
+/// Lets soft grains push each other apart. Their radii are slightly inflated, so that a slight
+/// overlap that remains is none of the true radii. Stepped plainly and by one thread on all
+/// machines, as the step in which a grain pressed far out of the tube is noticed depends on that.
 class Relaxation {
 public:
   Relaxation(const State& empty, const std::vector<Place>& places, const std::vector<double>& radii)
       : radii_(radii),
-        // Slices that go askew end where a grain is thrown far.
+        // Slices that go askew (docs/architecture-parallel.md) fail if a grain is thrown far.
         simulation_(start(empty, places, radii), model(), 1, Stepping::plain, Askew::never()) {}
 
   void push_for_a_while() { simulation_.advance(steps_per_round); }
 
-  /// False if overlaps remain, or are gone as grains were pressed out of the tube.
+  /// False if overlaps remain, or if grains were pressed out of the tube.
   bool succeeds() {
     for (int attempt = 0; attempt < max_rounds; ++attempt) {
       push_for_a_while();
@@ -108,11 +108,11 @@ public:
 
 private:
   static constexpr double inflation = 2e-3;
-  static constexpr double restitution = 0.1;  // if contacts could pull: 0.25 as they cannot
+  static constexpr double restitution = 0.1;  // with pull; without, as here, it is 0.25
   static constexpr double steps_per_collision = 30.0;
   static constexpr std::int64_t steps_per_round = 500;
   static constexpr int max_rounds = 200;
-  // Any stiffness and mass do: together they only set the unit of time.
+  // The values do not matter: together they only set the unit of time.
   static constexpr double stiffness = 1.0, mass = 1.0;
 
   static ContactModel model() {
@@ -127,7 +127,7 @@ private:
                      const std::vector<double>& radii) {
     State state = empty;
     state.gravity = {};
-    for (WallLattice& wall : state.walls) wall.motion = {};  // its time is not that of the run
+    for (WallLattice& wall : state.walls) wall.motion = {};  // time here is not that of the run
     state.time_step = collision_time(model().normal, 0.5 * mass, 0.0) / steps_per_collision;
     for (std::size_t i = 0; i < places.size(); ++i)
       add_grain(state, {.x = places[i].x,
@@ -146,7 +146,7 @@ private:
     return largest;
   }
 
-  /// Less than what inflation adds to the smallest pair: m.
+  /// m: half of what inflation adds to the sum of the radii of the smallest pair.
   double tolerated_overlap() const {
     return inflation * *std::min_element(radii_.begin(), radii_.end());
   }
@@ -155,6 +155,7 @@ private:
   Simulation simulation_;
 };
 
+/// The places after relaxation; nothing if it does not succeed.
 std::optional<std::vector<Place>> pushed_apart(const State& empty, const std::vector<Place>& places,
                                                const std::vector<double>& radii) {
   try {
@@ -172,8 +173,8 @@ std::vector<double> scaled(const std::vector<double>& radii, double scale) {
   return all;
 }
 
-/// The room between planes at the tips of the walls: grains that are small for a while would slip
-/// through between wall grains.
+/// The same room with planes at the tips of the wall grains in place of these: grains that are
+/// still small would slip through between wall grains.
 State between_planes(const State& empty) {
   State room = empty;
   for (WallLattice& wall : room.walls) {

@@ -3,7 +3,7 @@
 //
 // Started slowly, the grains reach a steady state in which collisions with the walls balance
 // gravity. Started fast, they may reach another one, which the paper shows to be an artefact of
-// soft grains. A tube that leans is a pipe at an angle, up to one that lies.
+// soft grains. The tube may be tilted, up to horizontal.
 #include "scenarios/flow_start.hpp"
 #include "scenarios/walls.hpp"
 

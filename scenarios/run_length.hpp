@@ -1,4 +1,4 @@
-// How long a flow is followed: for a given time, or until its mean velocity is known well enough.
+// How long a flow is followed: for a given time, or until its mean is known precisely enough.
 #pragma once
 
 #include "io/settings.hpp"
@@ -9,27 +9,28 @@
 
 namespace riesel::scenarios {
 
-inline constexpr double most_steps = 1e15;  ///< of any run: far below what a counter holds
+inline constexpr double most_steps = 1e15;  ///< of any run; far from overflow of a counter
 
-/// Steps after which it is looked at the latest whether a run is still what it should be.
+/// A run is checked at least once in so many steps: for limits, walls and the range of its numbers.
 inline constexpr std::int64_t steps_per_look = 10'000;
 
 struct RunLength {
   double at_most;                        ///< s, simulated
-  std::optional<double> relative_error;  ///< of the mean that is judged, to stop at; or none
+  std::optional<double> relative_error;  ///< of the judged mean: the run ends once it is reached
   std::string key;                       ///< the setting that `at_most` comes from
 };
 
-/// The rows of the table: `run.duration` and `run.until`.
+/// The settings `run.duration` and `run.until`.
 io::SettingsTable run_length_settings();
 
-/// Throws SettingsError unless there is a duration, or else both a precision and a limit.
+/// Throws io::SettingsError unless there is either a duration, or both a precision and a limit.
 RunLength run_length(const io::Settings& settings);
 
-/// Throws SettingsError if steps of `time_step` (s) would be more than can be counted.
+/// Throws io::SettingsError if the run would take more than `most_steps` steps of `time_step` (s).
 void reject_too_many_steps(const io::Settings& settings, const RunLength& length, double time_step);
 
-/// Steps between two rows or frames that are `seconds` apart: at least one.
+/// The number of steps of `time_step` (s) closest to `seconds`, but at least one: between two rows
+/// or frames.
 std::int64_t steps_between(double seconds, double time_step);
 
 }  // namespace riesel::scenarios

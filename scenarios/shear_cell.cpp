@@ -1,8 +1,9 @@
 // Grains between two walls that move past each other, without gravity: a periodic shear cell, to be
 // compared with the kinetic theory of Jenkins and Richman, Phys. Fluids 28, 3485 (1985).
 //
-// The walls put energy in, collisions take it out. Where restitution is close to 1 and the walls
-// are far, the middle is sheared evenly and is as hot as both balance there.
+// The walls put energy in, collisions take it out. If the restitution is close to 1 and the walls
+// are far apart, the shear rate in the middle is uniform, and the temperature there is the one at
+// which both balance.
 #include "scenarios/flow_start.hpp"
 #include "scenarios/walls.hpp"
 

@@ -1,9 +1,9 @@
 // One grain grazes one wall grain: Figs. 2 and 3 of Schaefer and Wolf, Phys. Rev. E 51, 6154
 // (1995).
 //
-// The free grain comes along y at a fixed height above the wall line and loses axial velocity to
-// friction. Above v_crit = chord / t_col it passes before the contact can push it away, and the
-// loss falls again.
+// The free grain comes along y at a given height above the wall line, and friction takes some of
+// its axial velocity. Above v_crit = chord / t_col it passes before the contact can push it away,
+// and the loss falls again. The chord is its path on which the two overlap.
 #include "engine/closed_forms.hpp"
 #include "scenarios/impact_settings.hpp"
 

@@ -11,7 +11,7 @@ namespace riesel::scenarios {
 namespace {
 
 constexpr double cut_off = 3.0;  // standard deviations of the truncated normal distribution
-constexpr double variance_within_cut_off = 0.97334;  // of a deviation of 1
+constexpr double variance_within_cut_off = 0.97334;  // of a standard normal distribution
 constexpr auto diameter_key = "grains.diameter", grain_mass_key = "grains.mass",
                file_key = "grains.sizes_from";
 

@@ -12,21 +12,22 @@ namespace riesel::scenarios {
 /// Rows of the section `grains` that say how large they are; they depend on `start.kind`.
 io::SettingsTable size_settings();
 
-/// kg, of a grain of this diameter (m): in proportion to its area, from `grains.mass`.
+/// The mass (kg) of a grain of this diameter (m): `grains.mass` in proportion to its area.
 double mass_of_diameter(const io::Settings& settings, double diameter);
 
 class SizeDistribution {
 public:
-  /// Reads the file of sizes, if there is one, and rejects one that cannot be used.
+  /// Reads the file of sizes, if the settings name one. Throws io::SettingsError if it cannot be
+  /// used.
   explicit SizeDistribution(const io::Settings& settings);
 
-  /// m, of grain 0, 1, ...: depends on nothing but the settings and the seed.
+  /// The diameter (m) of grain 0, 1, ...: depends on nothing but the settings and the seed.
   double diameter(std::uint64_t grain) const;
-  /// m, no grain is larger.
+  /// An upper bound on all diameters, in m.
   double largest() const;
-  /// m^2, of the diameters: what is expected of many grains.
+  /// The expectation of the squared diameter, in m^2.
   double mean_square() const;
-  /// The setting that says how large they are.
+  /// The key of the setting to blame for sizes that do not fit.
   const char* key() const;
 
 private:

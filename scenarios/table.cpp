@@ -23,7 +23,7 @@ struct Registry {
       periodic_tube(),     inclined_chute(), shear_cell(),
   };
   std::vector<Law> laws;
-  bool in_use = false;  // the tables of settings have been made of it
+  bool in_use = false;  // the tables of settings have been made from it
 };
 
 Registry& registry() {
@@ -51,8 +51,8 @@ bool is_built_in_law(const std::string& name) {
   return std::ranges::find(row->choices, name) != row->choices.end();
 }
 
-/// The law becomes one more choice, with its rows behind those of the other laws. It has no
-/// collision time in closed form, which takes the speed of an impact.
+/// Makes the law one more choice, with its rows behind those of the other laws. Its collision time
+/// has no closed form and is taken at contact.impact_speed, which therefore applies to it, too.
 void add_rows(const Law& law, io::SettingsTable& table) {
   auto place = table.begin();
   for (auto row = table.begin(); row != table.end(); ++row) {

@@ -1,9 +1,9 @@
 // One grain hits an endless row of wall grains: Figs. 4 and 5 of Schaefer and Wolf, Phys. Rev. E
 // 51, 6154 (1995).
 //
-// Means over starting places spread over one wavelength of the wall. At high axial velocity a grain
-// touches two and more wall grains before it leaves, and the loss of axial velocity rises again:
-// the paper's emergency brake.
+// Results are means over starting places spread over one wavelength of the wall. At high axial
+// velocity a grain touches two or more wall grains before it leaves, and the loss of axial velocity
+// rises again: the paper calls this the emergency brake.
 #include "engine/closed_forms.hpp"
 #include "scenarios/contact_settings.hpp"
 #include "scenarios/impact_settings.hpp"
@@ -62,7 +62,7 @@ double start_height(const io::Settings& settings, const ImpactSetup& setup) {
   return height;
 }
 
-/// Points are as many as a summary can have that is to be read again; an impact takes 50 bytes.
+/// A summary with more points could not be read back; an impact takes 50 bytes of memory.
 void reject_too_many(const io::Settings& settings) {
   constexpr std::size_t most_points = 50'000, most_impacts = 10'000'000;
   constexpr auto normal = "impact.normal_velocity", axial = "impact.axial_velocity";

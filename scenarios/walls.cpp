@@ -19,14 +19,15 @@ using std::numbers::pi;
 constexpr auto amplitude_key = "wall.shake_amplitude", frequency_key = "wall.shake_frequency",
                angle_key = "wall.shake_angle";
 
-/// Half of it is likely to be forgotten, unless it is nothing.
+/// If only one of amplitude and frequency is given, the other has probably been forgotten; unless
+/// the one is 0.
 void reject_half_given(const io::Settings& settings, const char* given, const char* missing) {
   if (settings.given(given) && settings.number(given) != 0.0 && !settings.given(missing))
     settings.reject(given, std::string("moves nothing without ") + missing,
                     std::string("give ") + missing + ", too, or remove both");
 }
 
-/// `part` is what the walls swing in this direction, `room` how long the box is there: m.
+/// `part` (m) is the amplitude in one direction, `room` (m) the size of the box in it.
 void reject_large_swing(const io::Settings& settings, double part, double room, const char* name) {
   if (std::abs(part) <= 0.25 * room) return;
   settings.reject(
@@ -49,8 +50,8 @@ WallMotion shaking(const io::Settings& settings, const Box& box) {
   return motion;
 }
 
-/// The walls and the grains do not fit: the key that was given of the two. If both were, that of
-/// the walls, but if a single grain is as large as the room (m), that of the grains.
+/// The key to blame if walls and grains do not fit: the one that was given. If both were, that of
+/// the walls, unless a single grain is as large as the `room` (m).
 std::string to_blame(const io::Settings& settings, const std::string& key_of_walls, double largest,
                      double room) {
   constexpr auto diameter = "grains.diameter";
@@ -58,7 +59,7 @@ std::string to_blame(const io::Settings& settings, const std::string& key_of_wal
   return settings.given(diameter) && by_grains ? diameter : key_of_walls;
 }
 
-/// Where a single grain is as large as the room (m).
+/// Text for the remedy if a single grain is as large as the `room` (m), or "".
 const char* hint(double largest, double room) {
   return largest >= room ? "; is a unit forgotten, as in '1 mm'?" : "";
 }
@@ -166,7 +167,7 @@ void reject_crowded_wall(const io::Settings& settings, double reach, double spac
 }
 
 void reject_fast_walls(const io::Settings& settings, const State& state) {
-  constexpr double fewest_steps = 20.0;  // of a period: with fewer a wall shakes otherwise than set
+  constexpr double fewest_steps = 20.0;  // per period: with fewer, walls do not shake as set
   const double largest = largest_speed(state.box, state.time_step, 1);
   for (const WallLattice& wall : state.walls) {
     const double shaken = wall.motion.fastest_oscillation(),
@@ -175,7 +176,7 @@ void reject_fast_walls(const io::Settings& settings, const State& state) {
       settings.reject(shaken > steady ? frequency_key : "cell.velocity",
                       "moves a wall too fast for this time step",
                       fmt::format("choose a velocity of the wall below {:.3g} m/s", largest));
-    const double periods = wall.motion.frequency * state.time_step;  // in a step
+    const double periods = wall.motion.frequency * state.time_step;  // per step
     if (shaken > 0.0 && periods * fewest_steps > 1.0)
       settings.reject(frequency_key,
                       fmt::format("has {:.3g} time steps in a period, which takes at least {:g}",
@@ -187,14 +188,14 @@ void reject_fast_walls(const io::Settings& settings, const State& state) {
 
 namespace {
 
-/// In how many phases of an oscillation rows see it that are so many periods apart, if these are
-/// few and do not wander on in the whole run. Measured in a shaken bed: by one phase the
-/// temperature is off by a half, by two a seventh, by four a hundredth, by more nothing that could
-/// be told.
+/// The number of phases of an oscillation that rows see if they are this many periods apart.
+/// Nothing if the phases are more than a few, or drift enough during the run to cover others. As
+/// measured in a shaken bed, the mean temperature is off by a half with one phase, by a seventh
+/// with two, by a hundredth with four, and not measurably with more.
 std::optional<int> phases_seen(double periods_per_row, double rows) {
   constexpr int most = 4;
   constexpr double too_few_rows = 20.0;  // for a mean, whatever they see
-  constexpr double wandering = 2.0;      // ways from phase to phase, in all rows
+  constexpr double wandering = 2.0;      // drift in the whole run, in distances between phases
   if (rows < too_few_rows) return {};
   for (int phases = 1; phases <= most; ++phases) {
     const double periods = phases * periods_per_row, whole = std::nearbyint(periods);
@@ -217,7 +218,7 @@ void reject_rows_in_step(const io::Settings& settings, const State& state) {
   };
   const auto seen = phases(asked);
   if (!seen) return;
-  std::string other;  // as it is told
+  std::string other;  // as it is printed: the rounded value must be good, too
   for (double interval = 0.93 * asked; other.empty() || phases(std::stod(other)); interval *= 0.93)
     other = fmt::format("{:.3g}", interval);
   settings.reject(key,
