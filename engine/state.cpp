@@ -109,17 +109,17 @@ void add_grain(State& state, const Grain& grain) {
   // Beyond this integers wrap, and a grain would be elsewhere, or fly another way.
   const double dt = state.time_step;
   require(std::abs(grain.x) < 4.0 * state.box.width
-              && std::abs(grain.vx) * dt < 2.0 * state.box.width
-              && std::abs(grain.vy) * dt < 0.25 * state.box.length && std::isfinite(grain.y),
-          "a grain outside of the box, or one that crosses much of it in a step");
+              && std::abs(grain.vx) * dt < 4.0 * state.box.width
+              && std::abs(grain.vy) * dt < 0.5 * state.box.length && std::isfinite(grain.y),
+          "a grain beyond the space of the box, or one that crosses half of it in a step");
   Grains& g = state.grains;
   const std::size_t i = g.size();
   g.resize(i + 1);
   g.position[i].x = state.box.fixed_x(grain.x);
   g.position[i].y = state.box.fixed_y(grain.y);
   const FixedVector fall = fall_per_step(state);
-  g.u[i].x = nearest_fixed(grain.vx * state.time_step / state.box.quantum_x()) - fall.x / 2;
-  g.u[i].y = nearest_fixed(grain.vy * state.time_step / state.box.quantum_y()) - fall.y / 2;
+  g.u[i].x = wrapped_difference(nearest_fixed(grain.vx * dt / state.box.quantum_x()), fall.x / 2);
+  g.u[i].y = wrapped_difference(nearest_fixed(grain.vy * dt / state.box.quantum_y()), fall.y / 2);
   g.radius[i] = grain.radius;
   g.mass[i] = grain.mass;
   g.id[i] = static_cast<std::int32_t>(i);

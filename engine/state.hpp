@@ -120,8 +120,8 @@ struct Grain {
 
 /// Adds a grain without contacts or kick; its id is the number of grains before it. At step 0 only.
 /// The box, the gravity, the time step and the inertia of the state must have been set. Throws
-/// std::invalid_argument for a grain more than 4 widths from x = 0, or one that would cross 2
-/// widths or a quarter of the length in a step.
+/// std::invalid_argument for a grain 4 widths from x = 0 or farther, or one that would move by 4
+/// widths or half of the length in a step.
 void add_grain(State& state, const Grain& grain);
 
 /// The grains of a state in SI units; cheaper than grain_at() for many grains. Keeps a reference to

@@ -36,6 +36,23 @@ TEST_CASE("a valid state is accepted") {
   CHECK_NOTHROW(Simulation(two_grains(), paper_model(), 1));
 }
 
+TEST_CASE("a grain whose place or motion integers cannot hold is refused, not wrapped") {
+  State state = two_grains();
+  const double width = state.box.width, length = state.box.length, dt = state.time_step;
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const Grain& bad :
+       {grain(4.0 * width, 0.0, 0.0, 0.0), grain(-8.5 * width, 0.0, 0.0, 0.0),
+        grain(3e-3, infinite, 0.0, 0.0), grain(3e-3, 0.0, 4.0 * width / dt, 0.0),
+        grain(3e-3, 0.0, 0.0, -0.5 * length / dt), grain(3e-3, 0.0, 0.0, std::nan(""))})
+    CHECK_THROWS_AS(add_grain(state, bad), std::invalid_argument);
+  CHECK(state.grains.size() == 2);
+  add_grain(state, grain(3.9 * width, 17.0 * length, 3.9 * width / dt, 0.49 * length / dt));
+  const Grain kept = grain_at(state, 2);
+  CHECK(kept.x == Approx(3.9 * width));
+  CHECK(kept.vx == Approx(3.9 * width / dt));
+  CHECK(kept.vy == Approx(0.49 * length / dt));
+}
+
 TEST_CASE("a state whose invariants do not hold is refused") {
   State state = two_grains();
   SECTION("without grains") { state.grains.resize(0); }

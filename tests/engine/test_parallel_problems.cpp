@@ -27,3 +27,8 @@ TEST_CASE("of several failures that of the first problem is told, whichever come
   for (const int threads : {1, 2, 4})
     CHECK_THROWS_WITH(riesel::solve_all(problems, threads, solve), "1");
 }
+
+TEST_CASE("problems without a thread are refused") {
+  CHECK_THROWS_AS(riesel::solve_all(std::vector<int>{1}, 0, [](int problem) { return problem; }),
+                  std::invalid_argument);
+}

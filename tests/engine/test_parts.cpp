@@ -261,3 +261,7 @@ TEST_CASE("a run by parts that was refused threads goes on when it has them agai
   simulation.advance(100);
   CHECK(same(simulation.state(), advanced(start, paper_model(), 200)));
 }
+
+TEST_CASE("one thread has no parts") {
+  CHECK_THROWS_AS(in_stretches(long_tube(), paper_model(), 1, 1, false, {}), std::invalid_argument);
+}
