@@ -130,11 +130,21 @@ void take_error_bars_off(io::FlowSummary& s) {
   if (s.judged_by == "granular_temperature") s.fluctuations.granular_temperature.error = unknown;
 }
 
+/// m/s, with which grains meet walls. A single grain has no fluctuations: that is its own velocity.
+double speed_across(const io::RunFile& file, const io::FlowSummary::Fluctuations& fluctuations,
+                    std::size_t grains, std::size_t first) {
+  if (grains > 1) return fluctuations.sigma_vx.value;
+  const std::vector<double> mean_vx = file.series("mean_vx");
+  double squares = 0.0;
+  for (const double v : std::span(mean_vx).subspan(first)) squares += v * v;
+  return std::sqrt(squares / static_cast<double>(mean_vx.size() - first));
+}
+
 constexpr double enough_contacts = 20.0;  // fewer say nothing about a flow
 
 /// Contacts with walls are judged after the transient, all else since the start.
 Evidence evidence(const CumulativeSeries& series, const State& state, const Energies& energies,
-                  double v_crit, std::size_t warnings) {
+                  const TypicalContacts& typical, double grain_contact_rate, std::size_t warnings) {
   const bool enough = series.total("wall_contacts_ended") >= enough_contacts;
   // Then no braking failed, even if there is none, as at smooth walls without friction.
   const bool none_failed = enough && series.total("wall_contacts_cut_short") == 0.0;
@@ -146,18 +156,21 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
       .brake_failure_fraction =
           none_failed ? 0.0 : of_walls("wall_braking_cut_short", "wall_braking"),
       .passages_per_visit = of_walls("wall_contacts_cut_short", "wall_visits"),
-      .wall_speed_ratio = of_walls("wall_entry_slip", "wall_contacts_ended") / v_crit,
+      .wall_speed_ratio = of_walls("wall_entry_slip", "wall_contacts_ended") / typical.v_crit,
       .pulling_fraction = of_walls("wall_pulling_time", "wall_contact_time"),
       .steps_per_contact = steps_per_contact(state),
       .energy_error_ratio = energy_error_ratio(state, energies),
       .limits_exceeded = static_cast<double>(warnings),
+      .contact_rate_times_t_col = grain_contact_rate * typical.t_col_grains,
   };
 }
 
 io::FlowSummary::Validity validity_of(const CumulativeSeries& series, const State& state,
                                       const Energies& energies, const TypicalContacts& typical,
+                                      double grain_contact_rate,
                                       const std::vector<std::string>& warnings) {
-  return {.verdict = judge(evidence(series, state, energies, typical.v_crit, warnings.size())),
+  return {.verdict = judge(
+              evidence(series, state, energies, typical, grain_contact_rate, warnings.size())),
           .v_crit = typical.v_crit,
           .t_col_grains = typical.t_col_grains,
           .t_col_walls = typical.t_col_walls,
@@ -208,9 +221,10 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.braking_force = braking_force(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.energy = energy_of(state, last.energies);
+  const double across = speed_across(file, s.fluctuations, state.grains.size(), first);
   s.validity =
-      validity_of(series, state, last.energies,
-                  typical_contacts(state, model.normal, s.fluctuations.sigma_vx.value), warnings);
+      validity_of(series, state, last.energies, typical_contacts(state, model.normal, across),
+                  s.grain_contact_rate.value, warnings);
   if (steady.verdict == SteadyVerdict::accelerating) take_error_bars_off(s);
   return s;
 }

@@ -13,6 +13,7 @@
 #include "io/trajectory_file.hpp"
 #include "scenarios/run_length.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/walls.hpp"
 
 #include <fmt/core.h>
 
@@ -74,6 +75,7 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
     settings.reject(length.key, fmt::format("the run has come to {:.6g} s already", state.time()),
                     "choose a longer time");
   scenarios::reject_too_many_steps(settings, length, state.time_step);
+  scenarios::reject_rows_in_step(settings, state);
   const auto damaged = [&](const std::string& flaw) {
     return UnusableInput(found.path.string() + ": is damaged (" + flaw + "); start the run again");
   };

@@ -51,7 +51,9 @@ SteadyState assess_steady_state(std::span<const double> velocities,
   const std::size_t transient_end = has_arrived ? 2 * cut : cut;
   const std::size_t trend_start = std::min(transient_end, velocities.size() / 2);
 
-  const MeanEstimate mean = estimate_mean(velocities.subspan(transient_end));
+  MeanEstimate mean = estimate_mean(velocities.subspan(transient_end));
+  // Zero throughout is no measurement: whatever moves, this series does not show it.
+  if (mean.mean == 0.0 && mean.error == 0.0) mean.independent_samples = 0.0;
   const TrendEstimate trend = estimate_trend(velocities.subspan(trend_start));
   const auto trend_duration = static_cast<double>(velocities.size() - trend_start);
   return {.verdict = breaks_away(velocities, free_fall_gain)

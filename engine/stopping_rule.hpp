@@ -13,6 +13,10 @@
 
 namespace riesel {
 
+/// The least number of samples with which a run that asks for precision can end: those of the
+/// second check.
+inline constexpr std::size_t fewest_samples_to_stop = 125;
+
 /// Whether a series with this number of samples is checked: first when there are 100.
 bool is_time_to_look(std::size_t samples);
 

@@ -55,7 +55,7 @@ constexpr Criterion energy_criterion = {
     "energy comes or goes by errors of the time step, which is too long for the forces",
     finer};
 
-constexpr std::array<Criterion, 8> criteria = {{
+constexpr std::array<Criterion, 9> criteria = {{
     overlap_criterion,
     brake_criterion,
     {"passages_per_wall_visit", &Evidence::passages_per_visit, 0.5, 2.0, false,
@@ -70,6 +70,8 @@ constexpr std::array<Criterion, 8> criteria = {{
     energy_criterion,
     {"limits_exceeded", &Evidence::limits_exceeded, 0.0, none, false,
      "limits of the settings were exceeded", "see validity.warnings in summary.json"},
+    {"grain_contact_rate_times_t_col", &Evidence::contact_rate_times_t_col, 0.5, none, false,
+     "grains meet others again before they have separated, and lose less than hard ones", stiffer},
 }};
 
 /// Whether the criterion counts. In dense flows grains jostle at a wall without end, and contacts

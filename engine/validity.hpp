@@ -29,6 +29,7 @@ struct Evidence {
   double steps_per_contact;       ///< upper bound for the shortest twentieth of contacts
   double energy_error_ratio;      ///< see energy_error_ratio()
   double limits_exceeded;         ///< number of exceeded user limits of the kind that only warns
+  double contact_rate_times_t_col;  ///< contacts with other grains that begin per grain and t_col
 };
 
 // Thresholds that are also shown elsewhere.

@@ -87,6 +87,27 @@ void go_on_from(const WallMotion& before, const State& earlier, WallMotion& moti
   motion.start = wrapped_difference(y_of(before, earlier.step), y_of(motion, 0));
 }
 
+/// J, of the motion relative to the mean velocity.
+double energy_of_fluctuations(const State& state) {
+  const GrainView grains(state);
+  double mass = 0.0, px = 0.0, py = 0.0, twice_energy = 0.0;
+  for (std::size_t i = 0; i < state.grains.size(); ++i) {
+    const Grain g = grains[i];
+    mass += g.mass;
+    px += g.mass * g.vx;
+    py += g.mass * g.vy;
+    twice_energy += g.mass * (g.vx * g.vx + g.vy * g.vy);
+  }
+  return 0.5 * (twice_energy - (px * px + py * py) / mass);
+}
+
+/// J
+double energy_of_contacts(const State& state) {
+  double energy = 0.0;
+  for (const Contact& contact : state.contacts) energy += contact.elastic_energy;
+  return energy;
+}
+
 bool alike(double a, double b) {
   constexpr double rounding = 1e-12;  // of settings that were converted, and of sines of angles
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
@@ -137,6 +158,20 @@ void reject_other_swing_across(const io::Settings& settings, const State& earlie
                                   "continued by {:.6g} m",
                                   now, before),
                       "shake them as far across, by amplitude and angle, or start afresh");
+}
+
+void reject_released_energy(const io::Settings& settings, const State& earlier,
+                            const State& state) {
+  const double before = energy_of_contacts(earlier), now = energy_of_contacts(state);
+  const double had = before + energy_of_fluctuations(earlier);
+  if (now - before <= had) return;
+  settings.reject("contact.stiffness",
+                  fmt::format("the overlaps of the run to be continued hold {:.3g} J with this "
+                              "contact law, and held {:.3g} J: they would release more energy than "
+                              "there was in overlaps and random motion, {:.3g} J",
+                              now, before, had),
+                  "go there in several runs, each stiffer by a factor of a few "
+                  "(continue_along: contact.stiffness), or start afresh");
 }
 
 std::vector<Grain> half_a_step_before(const State& earlier, double time_step) {

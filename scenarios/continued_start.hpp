@@ -28,6 +28,11 @@ State earlier_state(const io::Settings& settings, const State& empty);
 void reject_other_swing_across(const io::Settings& settings, const State& earlier,
                                const State& state);
 
+/// Rejects a contact law so much stiffer than that of `earlier` that the overlaps which `state` has
+/// taken over hold more additional energy than there was in overlaps and random motion: the flow
+/// would be thrown apart, and heated by what no balance shows.
+void reject_released_energy(const io::Settings& settings, const State& earlier, const State& state);
+
 /// The grains of `earlier`, with the velocities and spins that a state with this time step (s)
 /// holds for them: those of half a step earlier, as the last kicks are not yet in them.
 std::vector<Grain> half_a_step_before(const State& earlier, double time_step);

@@ -147,7 +147,10 @@ Flow continue_run(const io::Settings& settings, const ContactModel& model, Room 
   const auto motion = [&](const State& state) {
     return half_a_step_before(earlier, state.time_step);
   };
-  const auto fill = [&](State& state) { take_over(earlier, model, state); };
+  const auto fill = [&](State& state) {
+    take_over(earlier, model, state);
+    reject_released_energy(settings, earlier, state);
+  };
   return set_out(settings, model, earlier.grains.mass, std::move(room.empty), motion, fill);
 }
 

@@ -1,10 +1,12 @@
 #include "scenarios/walls.hpp"
 
 #include "engine/observables.hpp"
+#include "engine/stopping_rule.hpp"
 #include "scenarios/run_length.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -210,22 +212,29 @@ void reject_rows_in_step(const io::Settings& settings, const State& state) {
   const WallMotion& motion = state.walls.front().motion;
   if (!motion.oscillates()) return;
   constexpr auto key = "output.interval";
-  const double duration = run_length(settings).at_most, asked = settings.number(key);
+  const RunLength length = run_length(settings);
+  const double asked = settings.number(key);
   const auto phases = [&](double interval) {
     const double row =
         static_cast<double>(steps_between(interval, state.time_step)) * state.time_step;
-    return phases_seen(motion.frequency * row, duration / row);
+    double rows = length.at_most / row;
+    if (length.relative_error) rows = std::min(rows, double{fewest_samples_to_stop});
+    return phases_seen(motion.frequency * row, rows);
   };
   const auto seen = phases(asked);
   if (!seen) return;
   std::string other;  // as it is printed: the rounded value must be good, too
   for (double interval = 0.93 * asked; other.empty() || phases(std::stod(other)); interval *= 0.93)
     other = fmt::format("{:.3g}", interval);
-  settings.reject(key,
-                  fmt::format("in step with the walls: rows {:.4g} s apart see {} of the phases of "
-                              "a shaking of {:.4g} 1/s, and means over rows would be those of {}",
-                              asked, *seen, motion.frequency, *seen == 1 ? "that one" : "these"),
-                  fmt::format("choose {} s, for one", other));
+  settings.reject(
+      key,
+      fmt::format("in step with the walls: rows {:.4g} s apart sample only {} phase{} of "
+                  "an oscillation at {:.4g} 1/s, so that means over rows would describe "
+                  "only {}",
+                  asked, *seen, *seen == 1 ? "" : "s", motion.frequency,
+                  *seen == 1 ? "that one" : "these"),
+      fmt::format("choose {} s, for example{}", other,
+                  state.step > 0 ? ", in a new run: this one has its rows" : ""));
 }
 
 }  // namespace riesel::scenarios

@@ -20,7 +20,7 @@ run: {duration: 0.15 s}
 
 FINDINGS = ["max_overlap_ratio", "brake_failure_fraction", "passages_per_wall_visit",
             "wall_speed_over_v_crit", "pulling_fraction", "steps_per_contact",
-            "energy_error_ratio", "limits_exceeded"]
+            "energy_error_ratio", "limits_exceeded", "grain_contact_rate_times_t_col"]
 
 
 class Validity(CommandTest):

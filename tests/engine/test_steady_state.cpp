@@ -71,7 +71,15 @@ TEST_CASE("a constant velocity is steady without error", "[steady_state]") {
   CHECK(state.error == 0.0);
   CHECK(state.trend == 0.0);
   CHECK(state.independent_samples == 100.0);
-  CHECK(riesel::assess_steady_state(Series(100, 0.0)).verdict == SteadyVerdict::steady);
+}
+
+TEST_CASE("a series that stays at zero shows nothing, and is not steady", "[steady_state]") {
+  const SteadyState state = riesel::assess_steady_state(Series(1000, 0.0));
+  CHECK(state.verdict == SteadyVerdict::too_short);
+  CHECK(state.independent_samples == 0.0);
+  Series moves(1000, 0.0);
+  moves[900] = 1e-9;
+  CHECK(riesel::assess_steady_state(moves).independent_samples > 0.0);
 }
 
 TEST_CASE("an approach without noise that has arrived is steady", "[steady_state]") {

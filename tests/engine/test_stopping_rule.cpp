@@ -46,6 +46,7 @@ TEST_CASE("a run is looked at each time it is a quarter longer", "[stopping_rule
 }
 
 TEST_CASE("a run is precise at looks only, and at no first one", "[stopping_rule]") {
+  CHECK_FALSE(is_precise(Series(125, 0.0), 0.01));  // nothing has been measured
   const Series constant(600, 2.0);
   std::vector<std::size_t> precise;
   for (std::size_t n = 0; n <= constant.size(); ++n)

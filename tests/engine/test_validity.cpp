@@ -18,7 +18,8 @@ constexpr Evidence hard = {.max_overlap_ratio = 0.01,
                            .pulling_fraction = 0.05,
                            .steps_per_contact = 50.0,
                            .energy_error_ratio = 1e-4,
-                           .limits_exceeded = 0.0};
+                           .limits_exceeded = 0.0,
+                           .contact_rate_times_t_col = 0.01};
 
 Validity verdict_with(double Evidence::*member, double value) {
   Evidence evidence = hard;
@@ -31,7 +32,7 @@ Validity verdict_with(double Evidence::*member, double value) {
 TEST_CASE("hard grains are valid, with all findings told") {
   const ValidityVerdict v = judge(hard);
   CHECK(v.verdict == Validity::valid);
-  REQUIRE(v.findings.size() == 8);
+  REQUIRE(v.findings.size() == 9);
   for (const Finding& finding : v.findings) CHECK(finding.verdict == Validity::valid);
   CHECK(v.findings[1].name == "brake_failure_fraction");
   CHECK(v.findings[1].value == hard.brake_failure_fraction);
@@ -105,6 +106,12 @@ TEST_CASE("contacts that pull are never more than suspect") {
   CHECK(verdict_with(&Evidence::pulling_fraction, 0.19) == Validity::valid);
   CHECK(verdict_with(&Evidence::pulling_fraction, 0.21) == Validity::suspect);
   CHECK(verdict_with(&Evidence::pulling_fraction, 1.0) == Validity::suspect);
+}
+
+TEST_CASE("grains that meet others before they have separated are suspect, however soft") {
+  CHECK(verdict_with(&Evidence::contact_rate_times_t_col, 0.49) == Validity::valid);
+  CHECK(verdict_with(&Evidence::contact_rate_times_t_col, 0.51) == Validity::suspect);
+  CHECK(verdict_with(&Evidence::contact_rate_times_t_col, 5.0) == Validity::suspect);
 }
 
 TEST_CASE("limits that were exceeded are suspect, however many") {

@@ -259,7 +259,8 @@ TEST_CASE("A run file holds the last verdict of validity") {
                     .pulling_fraction = 0.05,
                     .steps_per_contact = 50.0,
                     .energy_error_ratio = 1e-4,
-                    .limits_exceeded = 0.0};
+                    .limits_exceeded = 0.0,
+                    .contact_rate_times_t_col = 0.01};
   file.write_validity(judge(evidence));
   evidence.max_overlap_ratio = 0.7;
   file.write_validity(judge(evidence));

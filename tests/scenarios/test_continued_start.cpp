@@ -117,7 +117,7 @@ TEST_CASE("A continued start has the places and velocities of the earlier end, w
   }
   for (const Overrides& overrides : std::vector<Overrides>{{},
                                                            {"run.steps_per_collision=77"},
-                                                           {"contact.stiffness=200 kN/m"},
+                                                           {"contact.stiffness=40 kN/m"},
                                                            {"contact.damping=100", "gravity=3"}}) {
     const State state = earlier.continued(overrides);
     check_nothing_moved(earlier.state(), state);
@@ -194,6 +194,29 @@ TEST_CASE("A continued start is refused where the earlier run does not fit") {
   check_mentions(complaint(yaml, {"start.from=/nowhere"}), {"start.from", "has no effect"});
   check_mentions(complaint(continued, {"start.axial_velocity=1"}), {"has no effect"});
   check_mentions(complaint(yaml, {"start.kind=continued"}), {"start.from", "is missing"});
+}
+
+TEST_CASE("A continued start is refused if its overlaps would release more than there was") {
+  const EarlierRun earlier;
+  const std::string continued = continued_yaml(earlier.directory());
+  State state = earlier.state();
+  double px = 0.0, py = 0.0, mass = 0.0, kinetic = 0.0;
+  for (std::size_t i = 0; i < state.grains.size(); ++i) {
+    const Grain g = grain_at(state, i);
+    mass += g.mass;
+    px += g.mass * g.vx;
+    py += g.mass * g.vy;
+    kinetic += 0.5 * g.mass * (g.vx * g.vx + g.vy * g.vy);
+  }
+  const double random = kinetic - 0.5 * (px * px + py * py) / mass;
+  // With f times the stiffness overlaps hold f times the energy: f - 1 times more.
+  const double most = 2.0 + random / stored_energy(state);
+  const auto stiffer = [&](double factor) {
+    return complaint(continued, {"contact.stiffness=" + std::to_string(2000.0 * factor)});
+  };
+  CHECK(stiffer(0.999 * most) == "accepted");
+  check_mentions(stiffer(1.001 * most), {"contact.stiffness: ", "overlaps", "release more energy",
+                                         "continue_along: contact.stiffness"});
 }
 
 TEST_CASE("A continued start is refused by its state where no setting tells the difference") {
