@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from report_files import SVG
-from riesel_command import CommandTest, with_error
+from riesel_command import BAD_INPUT, CommandTest, with_error
 
 CONTACT = "contact: {stiffness: 500 N/m, restitution: 0.8, friction: 0.5}\n"
 CHUTE = f"""
@@ -181,3 +181,28 @@ class Flows(CommandTest):
         checked = self.riesel("check", "bed.yaml", "--set", "wall.shake_amplitude=0.2 mm", "--set",
                               "wall.shake_frequency=50").stdout
         self.assertRegex(checked, r"walls shake +up to 0.0628 m/s and 19.7 m/s\^2 \(1.97 g\), \d+ steps per period")
+
+    def test_a_resume_to_a_length_at_which_rows_are_in_step_is_refused(self):
+        out = self.run_of("short", SMOOTH, "--set", "wall.shake_amplitude=0.2 mm", "--set", "wall.shake_frequency=50",
+                          "--set", "output.interval=20 ms")
+        before = self.summary(out)
+        refused = self.riesel("resume", out, "--set", "run.duration=6 s")
+        self.assertEqual(refused.returncode, BAD_INPUT, refused)
+        self.assertIn("output.interval: in step with the walls", refused.stderr)
+        self.assertIn("in a new run: this one has its rows", refused.stderr)
+        self.assertEqual(self.summary(out), before)
+
+    def test_a_single_grain_has_no_temperature_that_could_be_steady(self):
+        (self.home / "one.csv").write_text("x (mm),y (mm),vx (m/s),vy (m/s),diameter (mm)\n5,5,0.3,0,1\n")
+        out = self.run_of("ball", SMOOTH.replace("tilt: 30 degrees", "tilt: 90 degrees").replace("friction: 0.5",
+                          "friction: 0"), "--set", "start.kind=file", "--set", "start.from=one.csv")
+        summary = self.summary(out)
+        self.assertEqual((summary["granular_temperature"], summary["state"]), (0.0, "too_short"))
+        self.assertEqual(summary["independent_samples"], 0.0)
+
+    def test_v_crit_of_a_single_grain_is_that_of_its_own_velocity(self):
+        text = SMOOTH.replace("surface: smooth", "spacing: 1.2 mm").replace("tilt: 30 degrees", "tilt: 90 degrees")
+        (self.home / "one.csv").write_text("x (mm),y (mm),vx (m/s),vy (m/s),diameter (mm)\n5,5,0.3,0,1\n")
+        out = self.run_of("one", text, "--set", "start.kind=file", "--set", "start.from=one.csv")
+        # In a head-on contact at 0.1 m/s and more the chord is a tenth of the grain or more.
+        self.assertGreater(self.summary(out)["validity"]["v_crit"], 0.5)
