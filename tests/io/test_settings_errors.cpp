@@ -2,6 +2,8 @@
 // do about it.
 #include "tests/io/settings_fixture.hpp"
 
+#include <algorithm>
+
 using namespace settings_fixture;
 
 namespace {
@@ -230,6 +232,23 @@ TEST_CASE("settings that another one requires") {
   CHECK(error("scenario: wall\ncontact: {law: power, stiffness: 1}\n")
             .find("f.yaml:2:1: contact.damping: is missing, as contact.law is power or hertz; ")
         == 0);
+}
+
+TEST_CASE("mistakes beyond those that are told are mentioned") {
+  std::string file = tube;
+  const auto with_one_more = [&](int number) {
+    file += "k" + std::to_string(number) + ": 1\n";
+    return error(file);
+  };
+  std::string told;
+  for (int i = 1; i <= 19; ++i) told = with_one_more(i);
+  CHECK(std::count(told.begin(), told.end(), '\n') == 18);
+  CHECK(told.find("more") == std::string::npos);
+  for (int i = 20; i <= 21; ++i) {
+    told = with_one_more(i);
+    CHECK(std::count(told.begin(), told.end(), '\n') == 20);
+    CHECK(told.ends_with("\n... and perhaps more: these are the first 20"));
+  }
 }
 
 TEST_CASE("lists and ranges") {
