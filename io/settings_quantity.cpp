@@ -10,13 +10,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace riesel::io {
 namespace {
-
-/// Per list. Few enough that effective.yaml, which writes out each one, is short enough for this
-/// program to read.
-constexpr std::size_t most_values = 10'000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -116,11 +113,11 @@ std::vector<double> read_list(const Setting& row, const YamlNode& list) {
   if (list.items.empty()) {
     throw SettingsError(list.place, row.key, "the list is empty", "give at least one value");
   }
-  if (list.items.size() > most_values) {
-    throw SettingsError(
-        list.place, row.key,
-        fmt::format("the list has {} values, {} are allowed", list.items.size(), most_values),
-        "split the run");
+  if (std::cmp_greater(list.items.size(), most_values)) {
+    throw SettingsError(list.place, row.key,
+                        fmt::format("the list has {} values, at most {} are allowed",
+                                    list.items.size(), most_values),
+                        "split it over several runs");
   }
   auto item_row = row;
   item_row.kind = Kind::number;

@@ -257,9 +257,9 @@ TEST_CASE("lists and ranges") {
         == "f.yaml:3:17: impact.speed: the list is empty; give at least one value");
   std::string many = "[1";
   for (int i = 0; i < 10'000; ++i) many += ", 1";
-  CHECK(
-      speed_error(many + "]")
-      == "f.yaml:3:17: impact.speed: the list has 10001 values, 10000 are allowed; split the run");
+  CHECK(speed_error(many + "]")
+        == "f.yaml:3:17: impact.speed: the list has 10001 values, at most 10000 are allowed; split "
+           "it over several runs");
   CHECK(speed_error("[1, 2 kg]")
         == "f.yaml:3:21: impact.speed: " + expected
                + "got '2 kg'; replace 'kg' by a unit that converts to m/s");
