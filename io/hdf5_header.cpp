@@ -67,16 +67,14 @@ void require_fletcher32(const Bytes& body) {
           "it has a filter that is never written");
 }
 
-/// HDF5 pads each part of an attribute to a multiple of 8 bytes.
-std::uint64_t padded(std::uint64_t size) { return (size + 7) / 8 * 8; }
-
 std::pair<std::string, Hdf5Attribute> read_attribute(const Bytes& body) {
   require(body.number(0, 1) == 1, "an attribute is of another version");
   const auto name_size = body.number(2, 2), type_size = body.number(4, 2),
              extent_size = body.number(6, 2);
-  const std::uint64_t name_at = 8, type_at = name_at + padded(name_size),
-                      extent_at = type_at + padded(type_size),
-                      value_at = extent_at + padded(extent_size);
+  // HDF5 pads each part of an attribute.
+  const std::uint64_t name_at = 8, type_at = name_at + padded_to_8(name_size),
+                      extent_at = type_at + padded_to_8(type_size),
+                      value_at = extent_at + padded_to_8(extent_size);
   const auto name = body.part(name_at, name_size).text();
   return {std::string(name.substr(0, name.find('\0'))),
           {.type = read_type(body.part(type_at, type_size)),
