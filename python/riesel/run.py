@@ -86,7 +86,7 @@ class Run:
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = pathlib.Path(directory)
         if not self.directory.is_dir():
-            raise NotThere(f"{self.directory}: is no directory; give that of a run")
+            raise NotThere(f"{self.directory}: is not a directory; give that of a run")
 
     def __repr__(self) -> str:
         return f"Run({str(self.directory)!r})"
