@@ -38,9 +38,9 @@ Hdf5Type read_type(const Bytes& body) {
 }
 
 std::vector<std::uint64_t> read_extent(const Bytes& body) {
-  require(body.number(0, 1) == 1, "its extent is of another version");
+  require(body.number(0, 1) == 1, "its extent has another version");
   const auto dimensions = body.number(1, 1);
-  require(dimensions <= 2, "it is no table");
+  require(dimensions <= 2, "it is not a table");
   std::vector<std::uint64_t> extent;
   for (std::uint64_t i = 0; i < dimensions; ++i) extent.push_back(body.number(8 + 8 * i, 8));
   return extent;
@@ -48,7 +48,7 @@ std::vector<std::uint64_t> read_extent(const Bytes& body) {
 
 Hdf5Layout read_layout(const Bytes& body) {
   constexpr std::uint64_t in_one_piece = 1, in_chunks = 2;
-  require(body.number(0, 1) == 3, "its layout is of another version");
+  require(body.number(0, 1) == 3, "its layout has another version");
   const auto layout_class = body.number(1, 1);
   if (layout_class == in_one_piece)
     return {
@@ -68,7 +68,7 @@ void require_fletcher32(const Bytes& body) {
 }
 
 std::pair<std::string, Hdf5Attribute> read_attribute(const Bytes& body) {
-  require(body.number(0, 1) == 1, "an attribute is of another version");
+  require(body.number(0, 1) == 1, "an attribute has another version");
   const auto name_size = body.number(2, 2), type_size = body.number(4, 2),
              extent_size = body.number(6, 2);
   // HDF5 pads each part of an attribute.
@@ -120,7 +120,7 @@ bool is_of_use(std::uint64_t message) {
 
 Hdf5Header read_hdf5_header(const Bytes& file, std::uint64_t address) {
   const Bytes prefix = file.part(address, prefix_size);
-  require(prefix.number(0, 1) == 1, "the header of an object is of another version");
+  require(prefix.number(0, 1) == 1, "the header of an object has another version");
   Hdf5Header header;
   std::vector<Bytes> blocks = {
       file.part(address, prefix_size + prefix.number(8, 4)).from(prefix_size)};

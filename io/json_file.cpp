@@ -44,7 +44,7 @@ std::string flaw_of(const std::exception& error) {
   if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
     return text.substr(text.find("] ") + 2);  // after the library's name and number of the error
   if (dynamic_cast<const Json::exception*>(&error) != nullptr)
-    return "a value in it is of another type";
+    return "a value in it has the wrong type";
   return text;
 }
 

@@ -35,7 +35,8 @@ bool has_leading_zero(std::string_view numeral) {
 /// The remedy for numbers written as in other countries or in programs; empty if the number is not
 /// one of these.
 std::string odd_numeral_remedy(const QuantityText& quantity) {
-  if (has_leading_zero(quantity.numeral)) return "remove the leading zero, it looks octal";
+  if (has_leading_zero(quantity.numeral))
+    return "remove the leading zero: some programs read it as octal";
   if (quantity.unit.empty() || quantity.unit.starts_with("1/")) return "";
   const char next = quantity.unit.front();
   if (next == ',') return "write a decimal point, and no separators of thousands";

@@ -213,7 +213,7 @@ void require_this_format(const std::filesystem::path& path, const Json& json) {
   const Json format = json.value("format", Json(1));
   if (format == summary_format) return;
   throw of_another_version(path,
-                           fmt::format("has format {}, and this version of riesel reads {}",
+                           fmt::format("has format {}, but this version of riesel reads {}",
                                        format.dump(), summary_format),
                            version);
 }

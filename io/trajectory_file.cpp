@@ -346,12 +346,12 @@ TrajectoryFile TrajectoryFile::reopen(const fs::path& path, std::uint64_t run, c
   const auto wanted = static_cast<std::uint64_t>(state.step / steps_per_frame + 1);
   try {
     auto contents = std::make_unique<Contents>(path, state, settings);
-    require(contents->run() == run, "it is of another run");
+    require(contents->run() == run, "it belongs to another run");
     require(contents->steps_per_frame() == static_cast<std::uint64_t>(steps_per_frame),
-            "its frames are of other steps");
+            "its frames are at another interval");
     require(
         contents->frames() >= wanted,
-        fmt::format("it has {} frames and the checkpoint counts {}", contents->frames(), wanted));
+        fmt::format("it has {} frames, but the checkpoint expects {}", contents->frames(), wanted));
     contents->cut(wanted);
     return TrajectoryFile(std::move(contents));
   } catch (const FileError&) {
