@@ -139,7 +139,7 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
   for (const HistogramMark& mark : marks) {
     --row;
     if (std::isfinite(mark.at))
-      plot.moment(mark.at, mark.label,
+      plot.marker(mark.at, mark.label,
                   {.stroke = mark.label == "unphysical" ? ink::red : ink::grey, .dashes = "4 3"},
                   row);
   }

@@ -33,7 +33,7 @@ io::Interval range_with(std::vector<double> values, const std::optional<io::Meas
 void mark_transient(double end, io::Plot& plot) {
   if (end <= 0.0) return;
   plot.area({plot.x().range.low, end}, plot.y().range, {.fill = pale_grey});
-  plot.moment(end, "end of the transient", {.stroke = ink::grey, .dashes = "4 3"});
+  plot.marker(end, "end of the transient", {.stroke = ink::grey, .dashes = "4 3"});
 }
 
 io::Svg draw_series(const io::Series& time, const io::Series& series, const SeriesMarks& marks) {

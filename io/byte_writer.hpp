@@ -1,6 +1,8 @@
 // Builds a string of bytes as file formats want them: numbers little-endian.
 #pragma once
 
+#include "io/bytes.hpp"
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +28,7 @@ public:
     return *this;
   }
   /// Appends zeros up to a multiple of 8 bytes.
-  ByteWriter& align() { return zeros((8 - bytes_.size() % 8) % 8); }
+  ByteWriter& align() { return zeros(padded_to_8(bytes_.size()) - bytes_.size()); }
 
   const std::string& bytes() const { return bytes_; }
 

@@ -17,6 +17,9 @@ inline constexpr bool checksums_are_forged = true;
 inline constexpr bool checksums_are_forged = false;
 #endif
 
+/// The least multiple of 8 that is at least `size`: where the next part of a file begins.
+constexpr std::uint64_t padded_to_8(std::uint64_t size) { return (size + 7) / 8 * 8; }
+
 /// Something beyond the end was asked for.
 class OutOfBytes : public std::runtime_error {
 public:

@@ -159,7 +159,7 @@ TimeBlocks read_blocks(const StoredGroup& group) {
             group.attribute<std::int64_t>("samples"),
             group.attribute<std::int64_t>("samples_per_block"), std::move(sums)};
   } catch (const std::invalid_argument& flaw) {
-    throw Hdf5Error(std::string("of the blocks of time, ") + flaw.what());
+    throw Hdf5Error(std::string("invalid time blocks: ") + flaw.what());
   }
 }
 
@@ -203,14 +203,14 @@ Checkpoint read_contents(const StoredGroup& root) {
 std::string flaw_of(const Checkpoint& checkpoint) {
   if (checkpoint.rows < 0) return "the number of rows is negative";
   if (!(std::isfinite(checkpoint.wall_seconds) && checkpoint.wall_seconds >= 0.0)) {
-    return "the time taken is negative";
+    return "the wall-clock time is negative or not finite";
   }
   for (const auto& [name, blocks] : {std::pair{"profiles", &checkpoint.profiles},
                                      std::pair{"histograms", &checkpoint.histograms}}) {
     if (!std::ranges::all_of(blocks->sums(), [](double sum) { return std::isfinite(sum); }))
       return "a sum over a block of time is not finite";
     if (blocks->columns() > 0 && blocks->samples() != checkpoint.rows)
-      return fmt::format("the {} have {} samples, and there are {} rows", name, blocks->samples(),
+      return fmt::format("the {} have {} samples, but there are {} rows", name, blocks->samples(),
                          checkpoint.rows);
   }
   if (checkpoint.state.walls.empty()) return "there are no walls";
@@ -232,8 +232,7 @@ void check_version(const StoredGroup& root, const fs::path& path) {
   const auto version = root.attribute<std::int64_t>("format_version");
   if (version == format_version) return;
   throw FileError(path,
-                  fmt::format("has version {} of the format, and this is riesel {}, which knows "
-                              "version {}",
+                  fmt::format("has format version {}, but this riesel ({}) reads version {}",
                               version, build_info().version, format_version),
                   "use riesel " + root.text_attribute("riesel_version"));
 }
@@ -248,8 +247,9 @@ Checkpoint read_sealed(const fs::path& path) {
 
 void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
   if (const auto flaw = flaw_of(checkpoint); !flaw.empty()) {
-    throw FileError(path, "is not replaced by a state that no run can go on from (" + flaw + ")",
-                    "look into the run: it has diverged");
+    throw FileError(
+        path, "has not been replaced, because the new state could not be continued (" + flaw + ")",
+        "check the run: it has diverged");
   }
   auto file = Hdf5File::create(seal_size);
   write(file.root(), checkpoint);

@@ -59,7 +59,7 @@ Heading heading_of(const Text& cell, const Place& place) {
   name = name.substr(0, name.find_last_not_of(' ') + 1);
   if (open == std::string_view::npos) return {.name = std::string(name), .unit = ""};
   if (cell.text.back() != ')')
-    throw SettingsError(place, std::string(name), "has a unit without an end",
+    throw SettingsError(place, std::string(name), "has a unit without a closing parenthesis",
                         "write it as in 'x (mm)'");
   return {.name = std::string(name),
           .unit = std::string(cell.text.substr(open + 1, cell.text.size() - open - 2))};
@@ -112,7 +112,7 @@ private:
         throw SettingsError(at(cell), heading.name, "unknown column",
                             "the columns are " + names_of(*columns_));
       if (!index_.emplace(heading.name, headings_.size()).second)
-        throw SettingsError(at(cell), heading.name, "stands there twice", "remove one");
+        throw SettingsError(at(cell), heading.name, "appears twice", "remove one of the two");
       const bool also = !known->also.empty() && heading.unit == known->also;
       headings_.push_back({heading.name, also ? "" : heading.unit, known->unit});
       convert({.numeral = "1", .unit = headings_.back().unit}, headings_.back(), cell);
@@ -126,10 +126,10 @@ private:
 
   void read_row(const std::vector<Text>& cells) {
     if (cells.size() != headings_.size())
-      throw SettingsError(
-          at(cells.back()), "",
-          fmt::format("has {} cells, and the first line {}", cells.size(), headings_.size()),
-          "give each row a cell for each column");
+      throw SettingsError(at(cells.back()), "",
+                          fmt::format("has {} {}, but the first line has {}", cells.size(),
+                                      cells.size() == 1 ? "cell" : "cells", headings_.size()),
+                          "give each row a cell for each column");
     for (std::size_t i = 0; i < cells.size(); ++i) {
       cells_.values.push_back(value_of(cells[i], headings_[i]));
       cells_.places.push_back(cells[i].place);
@@ -140,13 +140,14 @@ private:
   double value_of(const Text& cell, const Column& column) const {
     const auto numeral = split_quantity(cell.text);
     if (!numeral || !numeral->unit.empty())
-      throw SettingsError(at(cell), column.name, quoted(std::string(cell.text)) + " is no number",
-                          "write a decimal number; the unit stands in the first line");
+      throw SettingsError(at(cell), column.name,
+                          quoted(std::string(cell.text)) + " is not a number",
+                          "write a decimal number; the unit belongs in the first line");
     const auto value = convert({.numeral = numeral->numeral, .unit = column.unit}, column, cell);
     if (!value)
       throw SettingsError(at(cell), column.name,
-                          quoted(std::string(cell.text)) + " is beyond what a number can be",
-                          "write one of ordinary size");
+                          quoted(std::string(cell.text)) + " is outside the range of a double",
+                          "write a number within it");
     return *value;
   }
 
@@ -155,8 +156,8 @@ private:
     try {
       return value_in_si(quantity, column.si_unit);
     } catch (const UnitError& error) {
-      throw SettingsError(at(cell), column.name, quoted(column.unit) + " is no unit for it",
-                          error.what());
+      throw SettingsError(at(cell), column.name,
+                          quoted(column.unit) + " is not a unit for this column", error.what());
     }
   }
 

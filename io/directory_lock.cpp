@@ -88,12 +88,12 @@ void DirectoryLock::require_in_place() const {
   const auto found = identity_by(stat, directory_.c_str());
   if (!found) throw system_failure(directory_, "cannot be written any more", errno);
   if (found != directory_identity_)
-    throw FileError(directory_, "is another directory than that in which this began",
-                    "go on where that is now");
+    throw FileError(directory_, "is no longer the directory in which this started",
+                    "continue in the original one, wherever it is now");
   const auto lock = directory_ / lock_name;
   if (identity_by(stat, lock.c_str()) != lock_identity_)
-    throw FileError(lock, "has been removed or replaced, so that another process may work here",
-                    "go on when none does");
+    throw FileError(lock, "has been removed or replaced, so another process may be working here",
+                    "continue when none is");
 }
 
 bool DirectoryLock::is_held(const std::filesystem::path& directory) {

@@ -63,7 +63,7 @@ bool link_present(const fs::path& path, const fs::path& second) {
     if (rename(path.c_str(), previous_generation(path).c_str()) == 0) return false;
     if (errno == ENOENT) return false;
   }
-  throw system_failure(path, "the generation before cannot be kept", errno);
+  throw system_failure(path, "the previous generation cannot be kept", errno);
 }
 
 void rename_to(const fs::path& from, const fs::path& to, const fs::path& path) {

@@ -38,9 +38,9 @@ Hdf5Type read_type(const Bytes& body) {
 }
 
 std::vector<std::uint64_t> read_extent(const Bytes& body) {
-  require(body.number(0, 1) == 1, "its extent is of another version");
+  require(body.number(0, 1) == 1, "its extent has another version");
   const auto dimensions = body.number(1, 1);
-  require(dimensions <= 2, "it is no table");
+  require(dimensions <= 2, "it is not a table");
   std::vector<std::uint64_t> extent;
   for (std::uint64_t i = 0; i < dimensions; ++i) extent.push_back(body.number(8 + 8 * i, 8));
   return extent;
@@ -48,7 +48,7 @@ std::vector<std::uint64_t> read_extent(const Bytes& body) {
 
 Hdf5Layout read_layout(const Bytes& body) {
   constexpr std::uint64_t in_one_piece = 1, in_chunks = 2;
-  require(body.number(0, 1) == 3, "its layout is of another version");
+  require(body.number(0, 1) == 3, "its layout has another version");
   const auto layout_class = body.number(1, 1);
   if (layout_class == in_one_piece)
     return {
@@ -67,16 +67,14 @@ void require_fletcher32(const Bytes& body) {
           "it has a filter that is never written");
 }
 
-/// HDF5 pads each part of an attribute to a multiple of 8 bytes.
-std::uint64_t padded(std::uint64_t size) { return (size + 7) / 8 * 8; }
-
 std::pair<std::string, Hdf5Attribute> read_attribute(const Bytes& body) {
-  require(body.number(0, 1) == 1, "an attribute is of another version");
+  require(body.number(0, 1) == 1, "an attribute has another version");
   const auto name_size = body.number(2, 2), type_size = body.number(4, 2),
              extent_size = body.number(6, 2);
-  const std::uint64_t name_at = 8, type_at = name_at + padded(name_size),
-                      extent_at = type_at + padded(type_size),
-                      value_at = extent_at + padded(extent_size);
+  // HDF5 pads each part of an attribute.
+  const std::uint64_t name_at = 8, type_at = name_at + padded_to_8(name_size),
+                      extent_at = type_at + padded_to_8(type_size),
+                      value_at = extent_at + padded_to_8(extent_size);
   const auto name = body.part(name_at, name_size).text();
   return {std::string(name.substr(0, name.find('\0'))),
           {.type = read_type(body.part(type_at, type_size)),
@@ -122,7 +120,7 @@ bool is_of_use(std::uint64_t message) {
 
 Hdf5Header read_hdf5_header(const Bytes& file, std::uint64_t address) {
   const Bytes prefix = file.part(address, prefix_size);
-  require(prefix.number(0, 1) == 1, "the header of an object is of another version");
+  require(prefix.number(0, 1) == 1, "the header of an object has another version");
   Hdf5Header header;
   std::vector<Bytes> blocks = {
       file.part(address, prefix_size + prefix.number(8, 4)).from(prefix_size)};

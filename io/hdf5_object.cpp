@@ -60,7 +60,7 @@ void check_type(hid_t type, hid_t expected, const std::string& what) {
 /// The length of a text type. Throws Hdf5Error for anything but text of fixed length.
 std::size_t text_length(hid_t type, const std::string& what) {
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
-    throw Hdf5Error("cannot " + what + ": it is no text of fixed length");
+    throw Hdf5Error("cannot " + what + ": it is not a text of fixed length");
   }
   return H5Tget_size(type);
 }
@@ -184,7 +184,7 @@ Hdf5Shape Hdf5Data::shape() const {
   const Hdf5Handle space(H5Dget_space(id()), H5Sclose, what);
   const int dimensions = H5Sget_simple_extent_ndims(space.id());
   Extent now = {0, 1}, most = {0, 1};
-  if (dimensions != 1 && dimensions != 2) throw Hdf5Error("cannot " + what + ": it is no table");
+  if (dimensions != 1 && dimensions != 2) throw Hdf5Error("cannot " + what + ": it is not a table");
   check_hdf5(H5Sget_simple_extent_dims(space.id(), now.data(), most.data()), what);
   return {.rows = now[0], .columns = now[1], .growing = most[0] == H5S_UNLIMITED};
 }

@@ -223,7 +223,7 @@ Hdf5Attributes& Hdf5Attributes::add_scale(const std::string& name, bool has_valu
 std::uint64_t Hdf5Outline::add(std::string_view bytes) {
   const auto place = address_ + bytes_.size();
   bytes_ += bytes;
-  bytes_.append((8 - bytes_.size() % 8) % 8, '\0');
+  bytes_.resize(padded_to_8(bytes_.size()), '\0');
   return place;
 }
 

@@ -44,14 +44,15 @@ std::string flaw_of(const std::exception& error) {
   if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
     return text.substr(text.find("] ") + 2);  // after the library's name and number of the error
   if (dynamic_cast<const Json::exception*>(&error) != nullptr)
-    return "a value in it is of another type";
+    return "a value in it has the wrong type";
   return text;
 }
 
-Json read_json(const std::filesystem::path& path, const std::string& remedy) {
-  const auto bytes = read_bytes(path, remedy);
-  Json json(Json::value_t::discarded);
-  if (!is_too_deep(bytes)) json = Json::parse(bytes, nullptr, false);
+Json read_json(const std::filesystem::path& path, const JsonRemedies& remedies) {
+  const auto bytes = read_bytes(path, remedies.unreadable);
+  if (is_too_deep(bytes)) throw FileError(path, "is nested too deeply", remedies.damaged);
+  Json json = Json::parse(bytes, nullptr, false);
+  if (json.is_discarded()) throw FileError(path, "is not complete JSON", remedies.damaged);
   return json;
 }
 

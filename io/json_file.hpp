@@ -15,10 +15,16 @@ namespace riesel::io {
 
 using Json = nlohmann::ordered_json;
 
-/// The content of the file; a discarded value if it is not JSON, or is nested deeper than anything
-/// that this program writes (code that walks through it could exhaust the stack). Throws FileError,
-/// with this remedy, if the file cannot be read or is larger than any that this program writes.
-Json read_json(const std::filesystem::path& path, const std::string& remedy);
+/// What to do about a file that is none of this program's.
+struct JsonRemedies {
+  std::string unreadable;  ///< it cannot be read, or is larger than any that this program writes
+  std::string damaged;     ///< it is not complete JSON
+};
+
+/// The content of the file. Throws FileError if it cannot be read or is not JSON; that includes
+/// what is nested deeper than anything that this program writes (code that walks through it could
+/// exhaust the stack).
+Json read_json(const std::filesystem::path& path, const JsonRemedies& remedies);
 
 /// A number that is written as an integer and fits into T. Throws std::exception for anything else.
 template <std::signed_integral T>
@@ -26,7 +32,7 @@ T integer_of(const Json& json) {
   const bool fits = json.is_number_unsigned()
                         ? std::in_range<T>(json.get<std::uint64_t>())
                         : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
-  if (!fits) throw std::runtime_error(json.dump() + " is no integer of this size");
+  if (!fits) throw std::runtime_error(json.dump() + " is not an integer that fits here");
   return json.get<T>();
 }
 

@@ -125,12 +125,15 @@ void Plot::level(Interval x, double y, const Style& style) {
   svg_.line(at(across.low, y), at(across.high, y), style);
 }
 
-void Plot::moment(double x, std::string_view label, const Style& style, int row) {
+void Plot::marker(double x, std::string_view label, const Style& style, int row) {
+  constexpr double width_of_letter = 6.5;
   if (!contains(x_.range, x)) return;
   const Point top_end = at(x, y_.range.high);
   const double begin = top_end.y + 14.0 * row;
   svg_.line(at(x, y_.range.low), {top_end.x, begin}, style);
-  const bool to_the_left = part_of(x_, x) > 0.5;
+  // On the right of a lower row are the lines of larger x.
+  const bool fits = top_end.x - left > 5.0 + width_of_letter * static_cast<double>(label.size());
+  const bool to_the_left = part_of(x_, x) > 0.5 || (row > 0 && fits);
   svg_.text({top_end.x + (to_the_left ? -5.0 : 5.0), begin + 14.0}, label,
             {.fill = style.stroke, .anchor = to_the_left ? "end" : "start"});
 }

@@ -47,8 +47,10 @@ public:
   void area(Interval x, Interval y, const Style& style);
   void level(Interval x, double y, const Style& style);
   /// A vertical line at x, from its label down to the axis. Neighbouring labels need different
-  /// rows, counted from the top, that of the larger x above: a label is written towards the middle.
-  void moment(double x, std::string_view label, const Style& style, int row = 0);
+  /// rows, counted from the top, that of the larger x above: then no label crosses a line where
+  /// there is room for those of lower rows on the left. One in the top row is written towards the
+  /// middle.
+  void marker(double x, std::string_view label, const Style& style, int row = 0);
 
   /// Draws nothing if one of the numbers is unknown.
   void error_bar(double x, double y, double error, std::string_view colour);

@@ -142,7 +142,7 @@ std::string run_of(const Provenance& provenance) {
 }
 
 void require_same_run(const StoredGroup& old, const Provenance& provenance) {
-  if (old.text(run_key) != run_of(provenance)) throw Hdf5Error("it is of another run");
+  if (old.text(run_key) != run_of(provenance)) throw Hdf5Error("it belongs to another run");
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ public:
       read_column(from, columns_[i].name, values);
       const auto wanted = static_cast<std::size_t>(rows);
       if (values.size() < wanted) {
-        throw Hdf5Error(fmt::format("it has {} rows of {} and the checkpoint counts {}",
+        throw Hdf5Error(fmt::format("it has {} rows of {}, but the checkpoint expects {}",
                                     values.size(), columns_[i].name, rows));
       }
       series_[i].append(std::span<const double>(values).first(wanted));

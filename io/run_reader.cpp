@@ -166,7 +166,7 @@ Provenance read_provenance(const StoredGroup& group) {
 }
 
 RunHistory read_history(const StoredGroup& root) {
-  require(root.text_attribute("format") == "riesel run", "it is no run of riesel");
+  require(root.text_attribute("format") == "riesel run", "it is not a run of riesel");
   const auto provenance = root.group("provenance");
   RunHistory history{.start = read_provenance(provenance), .resumes = {}};
   for (int i = 1; provenance.has(fmt::format("resume_{}", i)); ++i)
@@ -200,7 +200,8 @@ auto read_file(const std::filesystem::path& path, Read read) {
   try {
     return read(open_sealed_hdf5(path, run_file_kind));
   } catch (const Hdf5Error& error) {
-    throw FileError(path, fmt::format("is damaged, or of another kind of run ({})", error.what()),
+    throw FileError(path,
+                    fmt::format("is damaged, or belongs to another kind of run ({})", error.what()),
                     "restore the file, or make the run again");
   }
 }

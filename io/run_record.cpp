@@ -16,7 +16,7 @@ constexpr auto record_name = "attempts.json";
 
 RunRecord read_run_record(const std::filesystem::path& directory) {
   try {
-    const auto json = read_json(directory / record_name, "");
+    const auto json = read_json(directory / record_name, {});
     return {.attempts = integer_of<int>(json.at("attempts")), .failure = json.at("failure")};
   } catch (const std::exception&) {
     return {};

@@ -106,7 +106,7 @@ void Settings::require_exactly_one(const std::vector<std::string>& keys) const {
   }
   if (present.empty()) reject(keys.front(), "is missing", "give either " + enumerate(keys));
   if (present.size() > 1) {
-    reject(present[1], fmt::format("excludes {}, and both are given", present[0]),
+    reject(present[1], fmt::format("cannot be given together with {}", present[0]),
            "remove one of the two");
   }
 }

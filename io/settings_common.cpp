@@ -58,9 +58,8 @@ SettingsTable normal_force_settings() {
        .kind = Kind::choice,
        .fallback = "wall",
        .choices = {"wall", "grains"},
-       .doc =
-           "The pair that `contact.restitution` is meant for: a grain and the `wall`, or two free "
-           "`grains`.",
+       .doc = "The pair to which `contact.restitution` refers: a grain and the `wall`, or two free "
+              "`grains`.",
        .only_when = linear_law},
       {.key = "contact.exponent_elastic",
        .unit = "1",
@@ -84,16 +83,17 @@ SettingsTable normal_force_settings() {
        .unit = "m/s",
        .fallback = "1 m/s",
        .range = positive(),
-       .doc = "Typical impact speed, for which the duration of a contact is worked out: under a "
-              "nonlinear law it depends on the speed.",
+       .doc = "Typical impact speed, used to calculate the duration of a contact, which depends on "
+              "the speed under a nonlinear law.",
        .only_when = nonlinear_law},
       {.key = "contact.attraction",
        .kind = Kind::choice,
        .fallback = "keep",
        .choices = {"keep", "clip"},
        .doc =
-           "The dashpot pulls near the end of a contact: `keep` that force, or `clip` the normal "
-           "force at zero. `restitution` is what comes out either way."},
+           "Near the end of a contact the dashpot would pull the bodies together: `keep` that "
+           "attraction, or `clip` the normal force at zero. Either way the coefficient reached is "
+           "`contact.restitution`, if that is given."},
   };
 }
 
@@ -108,9 +108,10 @@ SettingsTable friction_settings() {
        .kind = Kind::choice,
        .fallback = "cap",
        .choices = {"cap", "literal", "viscous", "spring"},
-       .doc = "Friction near zero slip: `cap` it at the force that stops the slip within one step, "
-              "take the sign of the slip `literal`ly, limit it by a `viscous` force, or by a "
-              "tangential `spring` that remembers the way slipped."},
+       .doc = "How friction behaves near zero slip: `cap` limits it to the force that stops the "
+              "slip within one step, `literal` applies the full force with the sign of the slip, "
+              "`viscous` limits it by a viscous force, `spring` by a tangential spring that "
+              "remembers the distance slipped."},
       {.key = "contact.slip_damping",
        .unit = "1/s",
        .required = true,
@@ -138,14 +139,13 @@ SettingsTable run_settings() {
        .unit = "1",
        .fallback = "50",
        .range = at_least(5.0),
-       .doc =
-           "Time steps per contact, counted in the shortest contact of all pairs that can meet."},
+       .doc = "Time steps per contact, for the shortest contact among all pairs that can meet."},
       {.key = "run.threads",
        .kind = Kind::integer_or_auto,
        .fallback = "auto",
        .range = between(1, 1024),
-       .doc = "Threads to use; `auto` takes as many as pay for the number of grains. The "
-              "results do not depend on it.",
+       .doc = "Threads to use; `auto` uses as many as are worthwhile for the number of "
+              "grains. The results do not depend on it.",
        .matters = false},
       {.key = "run.stepping",
        .kind = Kind::choice,
@@ -164,9 +164,8 @@ SettingsTable rotation_settings() {
        .fallback = "none",
        .choices = {"none", "disc", "sphere"},
        .doc =
-           "Whether the free grains rotate (`none`: they do not, as in the paper), and with what "
-           "moment of inertia: m r^2/2 of a `disc` or 2/5 m r^2 of a `sphere`. Wall grains do "
-           "not rotate."},
+           "Whether free grains rotate: `none` (as in the paper), or with the moment of inertia of "
+           "a `disc` (m r^2/2) or a `sphere` (2/5 m r^2). Wall grains do not rotate."},
       {.key = "contact.rolling_friction",
        .unit = "1",
        .fallback = "0",

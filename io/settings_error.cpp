@@ -66,6 +66,8 @@ void Mistakes::throw_if_any() {
   std::ranges::stable_sort(all_, {}, order);
   std::string lines = all_.front().what();
   for (std::size_t i = 1; i < all_.size(); ++i) lines += std::string("\n") + all_[i].what();
+  if (all_.size() == most_reported)
+    lines += fmt::format("\n... and perhaps more: these are the first {}", most_reported);
   throw SettingsError(all_.front(), lines);
 }
 

@@ -42,8 +42,8 @@ private:
 /// The mistakes in one file or command line, which are reported together.
 class Mistakes {
 public:
-  /// Calls read() and keeps a SettingsError that it throws; true if it throws none. The twentieth
-  /// mistake is thrown at once, as by throw_if_any().
+  /// Calls read() and keeps a SettingsError that it throws; true if it throws none. When there are
+  /// `most_reported`, they are thrown at once, as by throw_if_any().
   template <class Read>
   bool note(Read read) {
     try {
@@ -51,17 +51,18 @@ public:
       return true;
     } catch (const SettingsError& error) {
       all_.push_back(error);
-      if (all_.size() == most) throw_if_any();
+      if (all_.size() == most_reported) throw_if_any();
       return false;
     }
   }
 
   bool any() const { return !all_.empty(); }
-  /// Throws a SettingsError for the first in the file, whose what() has one line for each.
+  /// Throws a SettingsError for the first in the file, whose what() has one line for each, and a
+  /// last one if there may be more.
   void throw_if_any();
 
 private:
-  static constexpr std::size_t most = 20;
+  static constexpr std::size_t most_reported = 20;
   std::vector<SettingsError> all_;
 };
 

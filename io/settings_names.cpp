@@ -51,7 +51,7 @@ std::optional<std::string> misplaced_remedy(const std::string& key, const Settin
     return fmt::format("'{}' belongs at the top level, outside of any section", name);
   }
   if (const auto sections = sections_with(name, table); !sections.empty()) {
-    return fmt::format("'{}' belongs into the section {}", name, enumerate(sections));
+    return fmt::format("'{}' belongs in the section {}", name, enumerate(sections));
   }
   return {};
 }
@@ -65,7 +65,7 @@ std::optional<std::string> other_scenario_remedy(const std::string& key,
     if (has_key(table, key) || has_section(table, key)) others.push_back(name);
   }
   if (others.empty()) return {};
-  return fmt::format("the scenario {} does not have it, only {}: remove it", scenario,
+  return fmt::format("remove it: the scenario {} does not have it (only {} does)", scenario,
                      enumerate(others));
 }
 
@@ -86,11 +86,11 @@ std::optional<std::string> mistyped_remedy(const std::string& key, const Setting
   return {};
 }
 
-/// For text that is no key: YAML has split something else.
+/// For text that is not a key: YAML has split something else.
 std::optional<std::string> yaml_remedy(const std::string& key) {
   const auto name = name_in_section(key);
   if (const auto colon = name.find(':'); colon != std::string::npos && colon + 1 < name.size()) {
-    return fmt::format("put a blank behind the colon: '{}: {}'", name.substr(0, colon),
+    return fmt::format("put a space after the colon: '{}: {}'", name.substr(0, colon),
                        name.substr(colon + 1));
   }
   if (!name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) != 0) {

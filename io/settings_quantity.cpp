@@ -10,13 +10,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace riesel::io {
 namespace {
-
-/// Per list. Few enough that effective.yaml, which writes out each one, is short enough for this
-/// program to read.
-constexpr std::size_t most_values = 10'000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -38,7 +35,8 @@ bool has_leading_zero(std::string_view numeral) {
 /// The remedy for numbers written as in other countries or in programs; empty if the number is not
 /// one of these.
 std::string odd_numeral_remedy(const QuantityText& quantity) {
-  if (has_leading_zero(quantity.numeral)) return "remove the leading zero, it looks octal";
+  if (has_leading_zero(quantity.numeral))
+    return "remove the leading zero: some programs read it as octal";
   if (quantity.unit.empty() || quantity.unit.starts_with("1/")) return "";
   const char next = quantity.unit.front();
   if (next == ',') return "write a decimal point, and no separators of thousands";
@@ -116,11 +114,11 @@ std::vector<double> read_list(const Setting& row, const YamlNode& list) {
   if (list.items.empty()) {
     throw SettingsError(list.place, row.key, "the list is empty", "give at least one value");
   }
-  if (list.items.size() > most_values) {
-    throw SettingsError(
-        list.place, row.key,
-        fmt::format("the list has {} values, {} are allowed", list.items.size(), most_values),
-        "split the run");
+  if (std::cmp_greater(list.items.size(), most_values)) {
+    throw SettingsError(list.place, row.key,
+                        fmt::format("the list has {} values, at most {} are allowed",
+                                    list.items.size(), most_values),
+                        "split it over several runs");
   }
   auto item_row = row;
   item_row.kind = Kind::number;

@@ -3,12 +3,17 @@
 
 #include "io/settings_table.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace riesel::io {
 
 struct YamlNode;
+
+/// Of one setting. Few enough that effective.yaml, which writes out each one, is short enough for
+/// this program to read.
+inline constexpr std::int64_t most_values = 10'000;
 
 /// The value in the row's unit, finite and in its range. Throws SettingsError at the node's place.
 double read_quantity(const Setting& row, const YamlNode& node);

@@ -14,10 +14,10 @@ constexpr auto introduction = R"(# Settings
 
 A settings file is YAML: sections with keys, as below. A key with a default may be left out; unknown keys are errors.
 
-Where a quantity is expected, a number counts in the SI unit of the table, and a text such as `0.66 mm`, `2 kN/m`
-or `5 %` is converted to it; a unit of another dimension is an error. Where a list of quantities is expected, all of
-these are fine: `[0.1 m/s, 0.3 m/s]`, a single quantity, and `{from: 0.1 m/s, to: 40 m/s, points: 60, spacing: log}`
-(or `spacing: linear`), which includes both ends.
+Where a quantity is expected, a number without a unit is in the SI unit given in the table, and a text such as
+`0.66 mm`, `2 kN/m` or `5 %` is converted to it; a unit of another dimension is an error. Where a list of quantities is
+expected, all of these are fine: `[0.1 m/s, 0.3 m/s]`, a single quantity, and
+`{from: 0.1 m/s, to: 40 m/s, points: 60, spacing: log}` (or `spacing: linear`), which includes both ends.
 
 On the command line, `--set contact.friction=0.3` replaces or adds a value, and `--set run.duration=` takes out one that
 the file gives. A key with two dots is in a section of a section: `run: {until: {relative_error: 1 %, at_most: 20 s}}`.

@@ -1,5 +1,8 @@
 #include "io/settings_schema.hpp"
 
+#include "io/settings_quantity.hpp"
+#include "io/sweep_file.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -35,7 +38,7 @@ Json span_of(const Setting& row) {
           {"properties",
            {{"from", quantity(row)},
             {"to", quantity(row)},
-            {"points", in_range("integer", at_least(2))},
+            {"points", in_range("integer", between(2, most_values))},
             {"spacing", {{"enum", {"log", "linear"}}}}}},
           {"required", {"from", "to", "points", "spacing"}},
           {"additionalProperties", false}};
@@ -43,12 +46,19 @@ Json span_of(const Setting& row) {
 
 Json list_of(const Json& items) { return {{"type", "array"}, {"items", items}, {"minItems", 1}}; }
 
+/// Of the values of one setting.
+Json short_list_of(const Json& items) {
+  Json list = list_of(items);
+  list["maxItems"] = most_values;
+  return list;
+}
+
 Json value_of(const Setting& row) {
   switch (row.kind) {
   case Kind::number:
     return quantity(row);
   case Kind::numbers:
-    return {{"anyOf", {quantity(row), list_of(quantity(row)), span_of(row)}}};
+    return {{"anyOf", {quantity(row), short_list_of(quantity(row)), span_of(row)}}};
   case Kind::integer:
     return in_range("integer", row.range);
   case Kind::integer_or_auto:
@@ -222,13 +232,13 @@ std::string sweep_schema(const SettingsTables& tables) {
        {{"base",
          {{"anyOf", {{{"type", "string"}, {"minLength", 1}}, {{"$ref", "#/definitions/settings"}}}},
           {"description", "A settings file, relative to this one, or settings."}}},
-        {"set", {{"allOf", {set}}, {"description", "What is other than in the base."}}},
+        {"set", {{"allOf", {set}}, {"description", "Settings that differ from the base."}}},
         {"axes",
          {{"anyOf", {axis, list_of(axis)}},
           {"description",
-           "Settings that vary, each with its values; those in one item together."}}},
+           "Settings that vary, each with its values; those in one list item vary together."}}},
         {"seeds",
-         {{"anyOf", {in_range("integer", at_least(1)), list_of({{"type", "integer"}})}},
+         {{"anyOf", {in_range("integer", between(1, most_seeds)), list_of({{"type", "integer"}})}},
           {"description", "A list of seeds, or how many: 3 stands for 1, 2 and 3."}}},
         {"branches",
          {{"type", "object"},

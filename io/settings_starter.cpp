@@ -110,8 +110,8 @@ private:
 std::string starter_file(const SettingsTable& table, const std::string& scenario,
                          const std::string& summary) {
   return comment(summary, "")
-         + comment("Settings behind a # in the first column are as they are by default, or "
-                   "examples: remove the #, and that of their section, to change them.",
+         + comment("Lines with a # in the first column show defaults or examples. To change one, "
+                   "remove its #, and that of its section.",
                    "")
          + "scenario: " + scenario + "\n" + Starter(table).section("");
 }

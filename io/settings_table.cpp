@@ -45,7 +45,7 @@ void verify_condition(const Setting& row, const SettingsTable& earlier_rows) {
   if (condition_row == earlier_rows.end() || condition_row->kind != Kind::choice
       || condition_row->fallback.empty()) {
     contradiction(row, "depends on " + row.only_when->key
-                           + ", which is no earlier choice with a default");
+                           + ", which is not an earlier choice with a default");
   }
   for (const auto& value : row.only_when->values) {
     if (std::ranges::find(condition_row->choices, value) == condition_row->choices.end()) {
@@ -62,11 +62,11 @@ void verify_row(const Setting& row, const SettingsTable& earlier_rows) {
     contradiction(row, "choices belong to the kind choice, and only to it");
   }
   if (has_section(earlier_rows, row.key) || has_key(earlier_rows, section_of(row.key)))
-    contradiction(row, "a section is no key");
+    contradiction(row, "a section is not a key");
   if (row.only_when) verify_condition(row, earlier_rows);
   for (const auto& earlier : earlier_rows) {
     if (earlier.key == row.key && !exclude_each_other(earlier, row))
-      contradiction(row, "stands twice");
+      contradiction(row, "appears twice");
   }
 }
 

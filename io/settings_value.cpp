@@ -85,7 +85,7 @@ std::string expectation(const Setting& row) {
   case Kind::boolean:
     return "true or false";
   case Kind::numbers:
-    return expected_quantity(row) + ", or a list of such";
+    return expected_quantity(row) + ", or a list of these";
   case Kind::integer_or_auto:
     return "an integer or auto";
   }
@@ -130,8 +130,9 @@ void check_range(const Setting& row, const YamlNode& node, double value) {
   throw SettingsError(
       node.place, row.key,
       fmt::format("must be {}, got {}", to_string(row.range, row.unit), describe(node)),
-      bare_angle ? "a bare number counts in rad: write '" + node.scalar + " degrees'?"
-                 : "give a value in this range");
+      bare_angle
+          ? "a number without a unit is in radians; did you mean '" + node.scalar + " degrees'?"
+          : "give a value in this range");
 }
 
 }  // namespace riesel::io

@@ -118,7 +118,7 @@ private:
     refuse_tag(mark, tag);
     if (open_.size() >= deepest_nesting) {
       refuse(mark, fmt::format("nested more than {} levels deep", deepest_nesting),
-             "settings have a section and a key: write it flatter");
+             "reduce the nesting: above a key there are at most two levels of sections");
     }
     open_.push_back({make_node(shape, place_of(mark)), mark, {}, {}});
   }

@@ -92,7 +92,7 @@ T StoredObject::attribute(const std::string& name) const {
 std::string StoredObject::text_attribute(const std::string& name) const {
   return attempt(reading(name), [&] {
     const auto& stored = single_value(name);
-    require(stored.type.kind == Hdf5Type::Kind::text, "it is no text of fixed length");
+    require(stored.type.kind == Hdf5Type::Kind::text, "it is not a text of fixed length");
     bytes_->give(stored.type.size);
     return without_padding(stored.value.part(0, stored.type.size).text());
   });
@@ -100,9 +100,9 @@ std::string StoredObject::text_attribute(const std::string& name) const {
 
 Hdf5Shape StoredData::shape() const {
   return attempt("read the shape of " + path(), [&] {
-    require(header().type && header().layout && header().extent, "it is no data set");
+    require(header().type && header().layout && header().extent, "it is not a data set");
     const auto& extent = *header().extent;
-    require(!extent.empty(), "it is no table");
+    require(!extent.empty(), "it is not a table");
     const Hdf5Shape shape{.rows = extent[0], .columns = extent.size() == 2 ? extent[1] : 1};
     // The file has room for at most this many elements, so the sizes below cannot overflow.
     const auto most = bytes()->all.size() / header().type->size;
@@ -129,10 +129,10 @@ void StoredData::read_bytes(std::span<char> memory) const {
   const auto& extent = *header().extent;
   require(layout.chunked && header().has_checksums, "it has no checksums");
   require(layout.chunk.size() == extent.size() + 1 && layout.chunk.back() == header().type->size,
-          "its chunks are of another shape");
+          "its chunks have another shape");
   require(layout.chunk.front() > 0
               && std::equal(extent.begin() + 1, extent.end(), layout.chunk.begin() + 1),
-          "its chunks are of another shape");
+          "its chunks have another shape");
   const auto row_size = memory.size() / extent.front();
   require(layout.chunk.front() <= file().size() / row_size, "its chunks are too large");
   const auto chunk_size = layout.chunk.front() * row_size;
@@ -149,7 +149,7 @@ StoredGroup::StoredGroup(std::shared_ptr<StoredBytes> bytes, std::uint64_t addre
                          std::string path)
     : StoredObject(std::move(bytes), address, std::move(path)) {
   members_ = attempt("open the group " + this->path(), [&] {
-    require(header().members.has_value(), "it is no group");
+    require(header().members.has_value(), "it is not a group");
     auto members = read_hdf5_members(file(), *header().members);
     for (const auto& member : members) this->bytes()->give(member.first.size());
     return members;
@@ -190,8 +190,8 @@ std::string StoredGroup::text(const std::string& name) const {
   const StoredData data = this->data(name);
   return attempt("read the text " + path_of(name), [&] {
     const Hdf5Header& header = data.header();
-    require(header.type && header.layout && header.extent, "it is no data set");
-    require(header.type->kind == Hdf5Type::Kind::text, "it is no text of fixed length");
+    require(header.type && header.layout && header.extent, "it is not a data set");
+    require(header.type->kind == Hdf5Type::Kind::text, "it is not a text of fixed length");
     require(header.extent->empty(), "it is not a single value");
     require(!header.layout->chunked && header.layout->size == header.type->size,
             "it has a layout that is never written");

@@ -213,7 +213,7 @@ void require_this_format(const std::filesystem::path& path, const Json& json) {
   const Json format = json.value("format", Json(1));
   if (format == summary_format) return;
   throw of_another_version(path,
-                           fmt::format("has format {}, and this version of riesel reads {}",
+                           fmt::format("has format {}, but this version of riesel reads {}",
                                        format.dump(), summary_format),
                            version);
 }
@@ -221,10 +221,10 @@ void require_this_format(const std::filesystem::path& path, const Json& json) {
 }  // namespace
 
 Summary read_summary(const std::filesystem::path& path) {
-  const auto json = read_json(path, "give the directory of a run that is over");
+  constexpr auto restore = "restore the file, or make the run again";
+  const auto json = read_json(
+      path, {.unreadable = "give the directory of a run that is over", .damaged = restore});
   require_this_format(path, json);
-  if (json.is_discarded())
-    throw FileError(path, "is damaged (it is no JSON)", "restore the file, or make the run again");
   try {
     if (json.contains("curve")) return read_curve(json);
     if (json.contains("column")) return read_column(json);
@@ -235,8 +235,7 @@ Summary read_summary(const std::filesystem::path& path) {
     if (!version.empty() && version != build_info().version)
       throw of_another_version(
           path, fmt::format("does not fit this version of riesel ({})", flaw_of(error)), version);
-    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)),
-                    "restore the file, or make the run again");
+    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)), restore);
   }
 }
 

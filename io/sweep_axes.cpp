@@ -49,9 +49,8 @@ private:
       axis.values.resize(values.size());
     } else if (values.size() != axis.values.size()) {
       throw SettingsError(entry.value.place, entry.key,
-                          fmt::format("the number of values is {}, and {} for {}, which goes "
-                                      "with it",
-                                      values.size(), axis.values.size(), axis.keys.front()),
+                          fmt::format("has {} values, but {}, which varies with it, has {}",
+                                      values.size(), axis.keys.front(), axis.values.size()),
                           "give both the same number, or make them two axes");
     }
     axis.keys.push_back(entry.key);
@@ -132,7 +131,8 @@ std::vector<SweepAxis> read_axes(const YamlNode& node, const GivenSettings& give
   if (node.shape != Shape::list || node.items.empty()
       || !std::ranges::all_of(node.items, is_axis)) {
     throw SettingsError(node.place, "axes",
-                        "expected keys with their values, or a list of such, got " + describe(node),
+                        "expected keys with their values, or a list of such maps, got "
+                            + describe(node),
                         "write for instance '{contact.restitution: [0.8, 0.9]}'");
   }
   for (const auto& item : node.items) axes.push_back(reader.zipped(item));

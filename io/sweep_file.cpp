@@ -89,7 +89,6 @@ std::vector<SweepBranch> read_branches(const YamlNode& node) {
 
 /// A list of seeds, or how many: 3 stands for 1, 2 and 3.
 std::vector<YamlEntry> read_seeds(const YamlNode& node) {
-  constexpr std::int64_t most_seeds = 10'000;
   std::vector<YamlEntry> seeds;
   if (node.shape == YamlNode::Shape::list) {
     for (const auto& item : node.items) seeds.push_back({"seed", item.place, item});

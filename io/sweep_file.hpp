@@ -11,12 +11,16 @@
 #include "io/settings_yaml.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace riesel::io {
+
+/// That a number, which stands for 1, 2, ..., can ask for.
+inline constexpr std::int64_t most_seeds = 10'000;
 
 /// Settings that vary together: one key, or several that are zipped.
 struct SweepAxis {

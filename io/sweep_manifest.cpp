@@ -70,7 +70,7 @@ ManifestPoint point_of(const Json& json, const std::vector<VariedSetting>& varie
 
 Manifest manifest_of(const Json& json) {
   if (json.at("format") != format_name || json.at("format_version") != format_version) {
-    throw std::runtime_error("it is of another format");
+    throw std::runtime_error("it has another format");
   }
   Manifest manifest;
   for (const auto& setting : json.at("varied")) {
@@ -117,13 +117,14 @@ std::string to_json(const Manifest& manifest) {
 
 Manifest read_manifest(const fs::path& directory) {
   const auto path = directory / manifest_name;
-  const auto json = read_json(path, "give the directory of a sweep (see 'riesel sweep')");
+  constexpr auto anew =
+      "run 'riesel sweep' with its sweep file: it writes a new one and keeps the results";
+  const auto json = read_json(
+      path, {.unreadable = "give the directory of a sweep (see 'riesel sweep')", .damaged = anew});
   try {
     return manifest_of(json);
   } catch (const std::exception& error) {
-    throw FileError(path, fmt::format("is no manifest of a sweep ({})", flaw_of(error)),
-                    "run 'riesel sweep' with its sweep file: it writes a new one and keeps the "
-                    "results");
+    throw FileError(path, fmt::format("is not a manifest of a sweep ({})", flaw_of(error)), anew);
   }
 }
 

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace riesel::io {
@@ -122,16 +121,14 @@ private:
   }
 
   /// What the results depend on: the wanted settings that matter, and the content of files that
-  /// they name.
+  /// they name, in the order of the settings.
   template <class Wanted>
   std::string identity_of(const Settings& settings, Wanted wanted) {
     std::string text = settings.effective_yaml(
         [&](const Setting& row) { return row.matters && !row.names_content && wanted(row); });
-    std::set<std::string> files;
     for (const std::string& key :
-         settings.keys([&](const Setting& row) { return row.names_content && wanted(row); }))
-      files.insert(settings.text(key));
-    for (const std::string& file : files) {
+         settings.keys([&](const Setting& row) { return row.names_content && wanted(row); })) {
+      const std::string file = settings.text(key);
       const auto [known, is_new] = contents_.try_emplace(file);
       if (is_new) known->second = hash_content(file);
       text += known->second;

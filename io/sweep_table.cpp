@@ -95,8 +95,8 @@ void SweepTable::set(std::size_t row, const std::string& column, Cell value,
 
 std::vector<std::pair<std::string, Cell>> flat_summary(const std::filesystem::path& path) {
   constexpr auto remedy = "remove the directory and run the point again";
-  const auto json = read_json(path, remedy);
-  if (!json.is_object()) throw FileError(path, "is no summary of a run", remedy);
+  const auto json = read_json(path, {.unreadable = remedy, .damaged = remedy});
+  if (!json.is_object()) throw FileError(path, "is not a summary of a run", remedy);
   std::vector<std::pair<std::string, Cell>> values;
   try {
     flatten(json, "", values);

@@ -64,23 +64,6 @@ TrajectoryFacts facts_of(const State& state, const std::string& settings) {
           .settings = settings};
 }
 
-FixedArrays place_fixed_arrays(const TrajectoryFacts& facts) {
-  std::uint64_t end = trajectory_head_size;
-  const auto take = [&](std::uint64_t count, std::uint64_t size) {
-    const auto begin = end;
-    end += (count * size + 7) / 8 * 8;
-    return begin;
-  };
-  const auto radius = take(facts.grains, sizeof(double));
-  const auto mass = take(facts.grains, sizeof(double));
-  const auto id = take(facts.grains, sizeof(std::int32_t));
-  const auto wall_position =
-      take(facts.walls_move ? 0 : facts.wall_grains * components, sizeof(float));
-  const auto wall_radius = take(facts.wall_grains, sizeof(double));
-  const auto wall_id = take(facts.wall_grains, sizeof(std::int32_t));
-  return {radius, mass, id, wall_position, wall_radius, wall_id, end};
-}
-
 /// Below the end of the period, which rounding to float must not reach.
 float place_y(const Box& box, double y) {
   return std::min(static_cast<float>(y), std::nextafter(static_cast<float>(box.length), 0.0F));
@@ -99,8 +82,13 @@ std::vector<float> places_of_walls(const State& state) {
   return places;
 }
 
-/// In the order in which place_fixed_arrays() places them.
-std::string fixed_arrays_of(const State& state, const TrajectoryFacts& facts) {
+/// The arrays that belong to no frame, one after the other behind the head.
+struct FixedPart {
+  FixedArrays places;
+  std::string bytes;
+};
+
+FixedPart fixed_part_of(const State& state, const TrajectoryFacts& facts) {
   std::vector<double> radius, mass, wall_radius;
   for (const auto slot : slots_by_id(state.grains)) {
     radius.push_back(state.grains.radius[slot]);
@@ -113,14 +101,22 @@ std::string fixed_arrays_of(const State& state, const TrajectoryFacts& facts) {
   std::iota(wall_id.begin(), wall_id.end(), 0);
 
   ByteWriter bytes;
-  const auto put = [&](const auto& values) { bytes.text(bytes_of(values)).align(); };
-  put(radius);
-  put(mass);
-  put(id);
-  if (!facts.walls_move) put(places_of_walls(state));
-  put(wall_radius);
-  put(wall_id);
-  return bytes.bytes();
+  const auto end = [&] { return trajectory_head_size + bytes.bytes().size(); };
+  const auto put = [&](const auto& values) {
+    const auto place = end();
+    bytes.text(bytes_of(values)).align();
+    return place;
+  };
+  const FixedArrays places = {
+      // in the order of the file
+      .radius = put(radius),
+      .mass = put(mass),
+      .id = put(id),
+      .wall_position = put(facts.walls_move ? std::vector<float>() : places_of_walls(state)),
+      .wall_radius = put(wall_radius),
+      .wall_id = put(wall_id),
+      .wall_end = end()};
+  return {.places = places, .bytes = bytes.bytes()};
 }
 
 /// One frame: grains in the order of their ids, in SI units.
@@ -169,10 +165,11 @@ public:
     head_.run = run;
     head_.steps_per_frame = static_cast<std::uint64_t>(steps_per_frame);
     head_.frames_per_block = layout_.frames_per_block;
+    const FixedPart fixed = fixed_part_of(state, facts_);
+    fixed_ = fixed.places;
     head_.end = fixed_.wall_end;
     auto [root, outline] = next_outline();
-    const std::string arrays = fixed_arrays_of(state, facts_);
-    std::string content = written(head_, root) + arrays + outline;
+    std::string content = written(head_, root) + fixed.bytes + outline;
     content.resize(head_.end, '\0');
     write_durably(path_, content);
     write_index();
@@ -187,8 +184,9 @@ public:
     head_ = read_trajectory_head(Bytes(head));
     require(head_.grains == facts_.grains && head_.wall_grains == facts_.wall_grains
                 && head_.frames_per_block == layout_.frames_per_block,
-            "it is of other grains");
+            "it was written for other grains");
     require(head_.end <= fs::file_size(path_), "it is shorter than its head says");
+    fixed_ = fixed_part_of(state, facts_).places;
     read_blocks();
   }
 
@@ -240,7 +238,6 @@ private:
       : path_(std::move(path)),
         facts_(std::move(facts)),
         time_step_(time_step),
-        fixed_(place_fixed_arrays(facts_)),
         layout_(facts_, frames_in_a_block(facts_)) {
     head_.grains = facts_.grains;
     head_.wall_grains = facts_.wall_grains;
@@ -316,7 +313,7 @@ private:
   fs::path path_;
   TrajectoryFacts facts_;
   double time_step_;  // s
-  FixedArrays fixed_;
+  FixedArrays fixed_{};
   FrameBlocks layout_;
   TrajectoryHead head_;
   std::vector<std::uint64_t> blocks_;  // addresses
@@ -349,12 +346,12 @@ TrajectoryFile TrajectoryFile::reopen(const fs::path& path, std::uint64_t run, c
   const auto wanted = static_cast<std::uint64_t>(state.step / steps_per_frame + 1);
   try {
     auto contents = std::make_unique<Contents>(path, state, settings);
-    require(contents->run() == run, "it is of another run");
+    require(contents->run() == run, "it belongs to another run");
     require(contents->steps_per_frame() == static_cast<std::uint64_t>(steps_per_frame),
-            "its frames are of other steps");
+            "its frames are at another interval");
     require(
         contents->frames() >= wanted,
-        fmt::format("it has {} frames and the checkpoint counts {}", contents->frames(), wanted));
+        fmt::format("it has {} frames, but the checkpoint expects {}", contents->frames(), wanted));
     contents->cut(wanted);
     return TrajectoryFile(std::move(contents));
   } catch (const FileError&) {

@@ -45,7 +45,8 @@ std::string written(const TrajectoryHead& head, std::uint64_t root) {
 }
 
 TrajectoryHead read_trajectory_head(const Bytes& bytes) {
-  require(bytes.part(title_place, title.size()).text() == title, "it is no trajectory of riesel");
+  require(bytes.part(title_place, title.size()).text() == title,
+          "it is not a trajectory of riesel");
   require(checksums_are_forged
               || bytes.number(checksum_place, 8)
                      == checksum_of(bytes.part(0, checksum_place).text()),

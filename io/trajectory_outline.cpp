@@ -217,7 +217,7 @@ FrameBlocks::FrameBlocks(const TrajectoryFacts& facts, std::uint64_t frames)
   std::uint64_t end = 0;
   const auto take = [&](std::uint64_t bytes_per_frame) {
     const auto begin = end;
-    end += (frames * bytes_per_frame + eight - 1) / eight * eight;
+    end += padded_to_8(frames * bytes_per_frame);
     return begin;
   };
   position = take(facts.grains * all * real32);

@@ -31,7 +31,7 @@ using System = std::unique_ptr<ut_system, FreeSystem>;
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 
 /// A unit taken apart: scale times a product of powers of base units. The radian counts as a base
-/// unit, as in UDUNITS-2, so that angles are no pure numbers here.
+/// unit, as in UDUNITS-2, so that angles are not pure numbers here.
 struct Dissection {
   double scale = 1.0;
   std::map<std::string, int> powers;
@@ -142,8 +142,8 @@ Dissection dissect_checked(const std::string& unit, const std::string& si_unit) 
   const auto expected = UnitDatabase::instance().dissect(si_unit);
   if (!expected) throw std::logic_error(fmt::format("'{}' is not a unit", si_unit));
   if (known->powers != expected->powers) {
-    const auto target =
-        si_unit == "1" ? "by % or nothing" : "by a unit that converts to " + si_unit;
+    const auto target = si_unit == "1" ? "with %, or leave the unit out"
+                                       : "with a unit that converts to " + si_unit;
     throw UnitError(fmt::format("replace '{}' {}", unit, target));
   }
   return {known->scale / expected->scale, known->powers, true};

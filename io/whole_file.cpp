@@ -37,7 +37,7 @@ public:
     struct stat about = {};
     if (fstat(descriptor_, &about) != 0) throw system_failure(path_, "cannot be read", errno);
     if (S_ISDIR(about.st_mode)) throw system_failure(path_, "cannot be read", EISDIR);
-    if (!S_ISREG(about.st_mode)) throw FileError(path_, "is no regular file", "check the path");
+    if (!S_ISREG(about.st_mode)) throw FileError(path_, "is not a regular file", "check the path");
     return static_cast<std::uint64_t>(about.st_size);
   }
 

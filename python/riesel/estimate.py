@@ -24,8 +24,8 @@ class Estimate(_ValueAndError):
     __array_ufunc__ = None  # so that numpy numbers on the left use the operators below
 
     def __array__(self, *_: object, **__: object) -> NoReturn:
-        raise TypeError("estimates make no array, which would take error bars for values: give "
-                        "[estimate.value for estimate in estimates]")
+        raise TypeError("estimates cannot be turned into an array, which would mix error bars with "
+                        "values; use [estimate.value for estimate in estimates]")
 
     def __format__(self, form: str) -> str:
         return f"{self.value:{form}} +- {self.error:{form}}" if form else str(self)
@@ -84,7 +84,7 @@ def mean_of(values: Sequence[float]) -> Estimate:
     scatter; NaN for a single value. Raises TypeError for anything but plain numbers."""
     n = len(values)
     if not all(isinstance(value, Real) for value in values):
-        raise TypeError("mean_of: takes numbers; of estimates give the values, as in "
+        raise TypeError("mean_of takes numbers; pass the values of estimates, as in "
                         "mean_of([estimate.value for estimate in estimates])")
     if n == 0:
         return Estimate(math.nan, math.nan)

@@ -86,7 +86,7 @@ class Run:
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = pathlib.Path(directory)
         if not self.directory.is_dir():
-            raise NotThere(f"{self.directory}: is no directory; give that of a run")
+            raise NotThere(f"{self.directory}: is not a directory; give that of a run")
 
     def __repr__(self) -> str:
         return f"Run({str(self.directory)!r})"
@@ -109,7 +109,7 @@ class Run:
         number = summary.get("format", 1)  # files of format 1 do not say
         if number != _SUMMARY_FORMAT:
             version = summary.get("version", "?")
-            raise Unreadable(f"{self._summary_file}: has format {number} of riesel {version}, and "
+            raise Unreadable(f"{self._summary_file}: has format {number} of riesel {version}, but "
                              f"this package reads {_SUMMARY_FORMAT}; use the package of that "
                              "riesel, or make the run again")
         return summary

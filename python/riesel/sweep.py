@@ -65,7 +65,8 @@ class Mean(_OfRuns):
     error: float  #: 68 %, from the scatter of the runs, see mean_of(); NaN for a single run
 
     def __str__(self) -> str:
-        return f"{Estimate(self.value, self.error)} ({self.runs} runs, {self.steady} steady, {self.valid} valid)"
+        counts = f"{self.runs} runs, {self.steady} steady, {self.valid} valid"
+        return f"{Estimate(self.value, self.error)} ({counts})"
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ class Sweep:
             self.varied = {setting["key"]: setting["unit"] for setting in manifest["varied"]}
             self.points = [self._point(entry) for entry in manifest["points"]]
         except (KeyError, TypeError) as error:
-            raise Unreadable(f"{file}: is no manifest of a sweep ({error!r}); {anew}") from error
+            raise Unreadable(f"{file}: is not a manifest of a sweep ({error!r}); {anew}") from error
 
     def __repr__(self) -> str:
         return f"Sweep({str(self.directory)!r})"
@@ -99,7 +100,7 @@ class Sweep:
     def table(self) -> Table:
         """The table of `riesel collect`: a row per point, done or not, with its settings and all
         single values of its summary, NaN or "" where there is none."""
-        remedy = f"make it by 'riesel collect {self.directory}'"
+        remedy = f"make it with 'riesel collect {self.directory}'"
         with opened(self.directory / "sweep.h5", remedy, remedy) as file:
             return table_of(part(file, "points", remedy))
 
@@ -110,30 +111,35 @@ class Sweep:
         groups = self._groups(over)
         table = self.table
         if column not in table or table[column].dtype.kind != "f":
-            raise NotThere(f"{self.directory}: no run has a number {column}; 'list(sweep.table)' tells what they have")
+            raise NotThere(f"{self.directory}: no run has a numeric column {column}; "
+                           "list(sweep.table) shows the columns")
         unknown = np.full(len(table[column]), "")
         states, verdicts = table.get("state", unknown), table.get("validity.verdict", unknown)
         row_of = {name: row for row, name in enumerate(table["point"])}
         means = []
         for group in groups:
             if any(point.name not in row_of for point in group):
-                raise NotThere(f"{self.directory}: its table lacks a point; make it anew by 'riesel collect "
-                               f"{self.directory}'")
-            rows = [row for point in group if math.isfinite(table[column][row := row_of[point.name]])]
+                raise NotThere(f"{self.directory}: its table lacks a point; make it again with "
+                               f"'riesel collect {self.directory}'")
+            rows = [row for point in group
+                    if math.isfinite(table[column][row := row_of[point.name]])]
             mean = mean_of([float(value) for value in table[column][rows]])
-            means.append(Mean(**_common(group[0], over), runs=len(rows), steady=sum(states[row] == "steady" for row in rows),
-                              valid=sum(verdicts[row] == "valid" for row in rows), value=mean.value, error=mean.error))
+            means.append(Mean(**_common(group[0], over), runs=len(rows),
+                              steady=sum(states[row] == "steady" for row in rows),
+                              valid=sum(verdicts[row] == "valid" for row in rows),
+                              value=mean.value, error=mean.error))
         return means
 
     def mean_profiles(self, over: str = "seed") -> list[MeanProfiles]:
         """The means of the profiles, strip by strip, over the points that differ only in the
-        setting `over`, otherwise as means(). Raises NotThere if their strips differ."""
+        setting `over`, otherwise as means(). Raises ValueError if their strips differ."""
         found = []
         for group in self._groups(over):
             done = [point.run for point in group if point.is_done]
+            states = [run.summary.get("state") for run in done]
+            verdicts = [run.summary.get("validity.verdict") for run in done]
             found.append(MeanProfiles(**_common(group[0], over), runs=len(done),
-                                      steady=sum(run.summary.get("state") == "steady" for run in done),
-                                      valid=sum(run.summary.get("validity.verdict") == "valid" for run in done),
+                                      steady=states.count("steady"), valid=verdicts.count("valid"),
                                       profiles=_mean_of_profiles(done)))
         return found
 
@@ -141,7 +147,8 @@ class Sweep:
         """Groups of points that differ only in this setting, each point once, in the order of the
         file."""
         if over not in self.varied:
-            raise NotThere(f"{self.directory}: does not vary {over}; choose one of {', '.join(self.varied)}")
+            raise NotThere(f"{self.directory}: does not vary {over}; "
+                           f"choose one of {', '.join(self.varied)}")
         groups: dict[tuple[Any, ...], dict[str, Point]] = {}
         for point in self.points:
             others = tuple(item for item in point.settings.items() if item[0] != over)
@@ -167,7 +174,8 @@ def _mean_of_profiles(runs: list[Run]) -> Table:
     first = runs[0].profiles
     for run in runs:
         if not np.array_equal(run.profiles["x"], first["x"]):
-            raise NotThere(f"{run.directory}: its strips are others than those of {runs[0].directory}")
+            raise ValueError(f"{run.directory}: its strips differ from those of "
+                             f"{runs[0].directory}; average runs of equal strips only")
     columns = {"x": first["x"]}
     for name in first:
         if f"{name}_error" not in first:

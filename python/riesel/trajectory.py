@@ -18,14 +18,14 @@ _REMEDY = "only flows have one, if they are given a setting output.trajectory_in
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame:
-    """Grains at one moment, in the order of their ids: arrays of the shape (grains, 2), x across and
-    y along the tube, in [0, length)."""
+    """Grains at one moment, in the order of their ids: arrays of the shape (grains, 2), x across
+    and y along the tube, in [0, length)."""
 
     time: float  #: s
     step: int
     position: NDArray[np.float32]  #: m
     velocity: NDArray[np.float32]  #: m/s
-    spin: NDArray[np.float32] | None  #: rad/s, of the shape (grains,); None where grains do not rotate
+    spin: NDArray[np.float32] | None  #: rad/s, of shape (grains,); None where grains do not rotate
     wall_position: NDArray[np.float32]  #: m, of wall grains
 
     def __repr__(self) -> str:

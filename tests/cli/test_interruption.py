@@ -267,7 +267,7 @@ class Interruption(CommandTest):
                     shutil.copy(other / name, mixed / name)
                     before = data_of(mixed)
                     result = self.riesel("resume", "mixed", "--set", "run.duration=25 ms")
-                    self.assert_refused(result, "it is of another run", "restore the file that belongs to it")
+                    self.assert_refused(result, "it belongs to another run", "restore the file that belongs to it")
                     self.assertEqual(data_of(mixed), before)
                     self.assertEqual((mixed / name).read_bytes(), (other / name).read_bytes())
         self.resume_to_end(mine, "--set", "run.duration=25 ms")

@@ -15,7 +15,7 @@ MISTAKES_IN_FILES = {
         ["impact: unknown key", "only single_wall_grain or wall_array"]),
     "key in the wrong section": (
         "width: 10 mm,", "width: 10 mm, friction: 0.1,", "4:22",
-        ["tube.friction: unknown key", "belongs into the section contact"]),
+        ["tube.friction: unknown key", "belongs in the section contact"]),
     "unit of another dimension": (
         "width: 10 mm", "width: 10 kg", "4:15", ["tube.width:", "a length", "'10 kg'"]),
     "unknown unit": (
@@ -94,7 +94,7 @@ MISTAKES_IN_OVERRIDES = {
     "grains.area_fraction=2": ["grains.area_fraction:", "from 0.001 to 0.9", "'2'"],
     "seed=[1": ["not valid YAML"],
     "contact.damping=1e4": ["contact.", "damping", "restitution", "remove one"],
-    "tube.tilt=20": ["must be from 0", "'20'", "write '20 degrees'"],
+    "tube.tilt=20": ["must be from 0", "'20'", "did you mean '20 degrees'?"],
     "tube.tilt=20 deg": ["an angle", "write 'degrees'"],
     "wall.shake_amplitude=1 mm": ["wall.shake_amplitude: moves nothing", "give wall.shake_frequency"],
     "start.axial_velocity=1000 km/s": ["start.axial_velocity:", "too fast", "m/s"],
@@ -158,7 +158,9 @@ class Mistakes(CommandTest):
         self.write("tube.yaml", SMALL_TUBE + "".join(f"k{i}: 1\n" for i in range(1000)))
         result = self.riesel("check", "tube.yaml")
         self.assertEqual(result.returncode, BAD_INPUT)
-        self.assertEqual(len(result.stderr.splitlines()), 20)
+        *told, rest = result.stderr.splitlines()
+        self.assertEqual(len(told), 20)
+        self.assertEqual(rest, "riesel: ... and perhaps more: these are the first 20")
 
     def test_in_the_number_of_threads(self):
         self.write("tube.yaml", SMALL_TUBE)

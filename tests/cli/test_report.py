@@ -410,7 +410,7 @@ class Refused(Report):
                 (run_file, whole[run_file][:len(whole[run_file]) // 2], "short/run.h5: is damaged"),
                 (run_file, b"", "short/run.h5: is damaged"),
                 (run_file, (longer / "run.h5").read_bytes(), "short/run.h5: is of another run"),
-                (summary, whole[summary][:100], "short/summary.json: is damaged"),
+                (summary, whole[summary][:100], "short/summary.json: is not complete JSON"),
                 (summary, b"{}", "short/summary.json: is damaged")):
             with self.subTest(mention):
                 path.write_bytes(content)

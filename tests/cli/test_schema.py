@@ -138,6 +138,19 @@ class Schema(CommandTest):
         right = {"base": "tube.yaml", "axes": {"contact.friction": [0.1, 0.3]}, "seeds": 3}
         self.assertTrue(self.of_sweeps.is_valid(right))
         for change in ({"axis": {}}, {"axes": {"contact.fiction": [1]}}, {"axes": {"contact.friction": 1}},
-                       {"seeds": 0}, {"set": {"tube.width": "1 kg"}}, {"base": None}):
+                       {"seeds": 0}, {"seeds": 10_001}, {"set": {"tube.width": "1 kg"}}, {"base": None}):
             with self.subTest(change):
                 self.assertFalse(self.of_sweeps.is_valid({**right, **change}))
+
+    def test_more_values_than_the_program_takes(self):
+        right = {"from": "0.1 m/s", "to": "2 m/s", "points": 10_000, "spacing": "linear"}
+        impact = yaml.safe_load((SHIPPED / "wall_array.yaml").read_text(encoding="utf-8"))
+        for value, is_right in ((right, True), ({**right, "points": 10_001}, False),
+                                ([1.0] * 10_000, True), ([1.0] * 10_001, False)):
+            with self.subTest(is_right=is_right):
+                impact["impact"]["axial_velocity"] = value
+                self.assertEqual(self.mistakes(impact) == [], is_right)
+        for points, is_right in ((10_000, True), (10_001, False)):
+            axis = {"from": 0.1, "to": 0.3, "points": points, "spacing": "linear"}
+            self.assertEqual(self.of_sweeps.is_valid({"base": "a.yaml", "axes": {"contact.friction": axis}}),
+                             is_right)

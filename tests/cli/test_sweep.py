@@ -458,7 +458,7 @@ class Mistakes(SweepTest):
         "base: tube.yaml\naxes: {contact: {friction: [1]}}": [":2:8: contact: is a section"],
         "base: tube.yaml\naxes: {scenario: [wall_array]}": [":2:8: scenario: cannot be changed"],
         "base: tube.yaml\naxes: [{seed: [1, 2], contact.friction: [0, 1, 2]}]": [
-            ":2:41: contact.friction: the number of values is 3, and 2 for seed"],
+            ":2:41: contact.friction: has 3 values, but seed, which varies with it, has 2"],
         "base: tube.yaml\naxes: [{seed: [1]}, {seed: [2]}]": [
             "seed: is set twice", "sweep.yaml:2:9"],
         "base: tube.yaml\nset: {gravity: 0}\naxes: {gravity: [1]}": ["gravity: is set twice"],

@@ -264,7 +264,7 @@ class UntilMistakes(CommandTest):
         "{until: {relative_error: 0}}": ["6:31: run.until.relative_error: must be above 0"],
         "{until: {relative_error: 1 s}}": ["run.until.relative_error:", "a pure number"],
         "{until: {relative_error: 1 %, at_most: 1e30 s}}": ["run.until.at_most: more time steps"],
-        "{relative_error: 1 %}": ["'relative_error' belongs into the section run.until"],
+        "{relative_error: 1 %}": ["'relative_error' belongs in the section run.until"],
         "{until.at_most: 1 s}": ["dotted keys", "run: {until: {at_most: ...}}"],
     }
 

@@ -219,7 +219,7 @@ TEST_CASE("A checkpoint of another version of the format is refused with the way
   for (const auto& error :
        {error_of_reading(path), message_of<FileError>([&] { find_checkpoint(path); })}) {
     CAPTURE(error);
-    CHECK(error.find("has version 99 of the format") != std::string::npos);
+    CHECK(error.find("has format version 99, but this riesel (") != std::string::npos);
     CHECK(error.ends_with("; use riesel 9.9.9"));
   }
 }
@@ -370,15 +370,16 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
   CHECK(refusal([](auto& c) { c.state.tally.visits.of_contacts[7] = -1; })
         == "a count of contacts with walls is negative");
   CHECK(refusal([](auto& c) { c.rows = -1; }) == "the number of rows is negative");
-  CHECK(refusal([](auto& c) { c.wall_seconds = nan; }) == "the time taken is negative");
+  CHECK(refusal([](auto& c) { c.wall_seconds = nan; })
+        == "the wall-clock time is negative or not finite");
   CHECK(refusal([](auto& c) { c.profiles = TimeBlocks(1, 1, 1, {infinity}); })
         == "a sum over a block of time is not finite");
   CHECK(refusal([](auto& c) { c.histograms = TimeBlocks(1, 1, 1, {infinity}); })
         == "a sum over a block of time is not finite");
   CHECK(refusal([](auto& c) { c.rows = 4; })
-        == "the profiles have 5 samples, and there are 4 rows");
+        == "the profiles have 5 samples, but there are 4 rows");
   CHECK(refusal([](auto& c) { c.histograms = TimeBlocks(1, 6, 8, {1.0}); })
-        == "the histograms have 6 samples, and there are 5 rows");
+        == "the histograms have 6 samples, but there are 5 rows");
 }
 
 TEST_CASE("The newest good generation of a checkpoint is found") {

@@ -52,12 +52,15 @@ TEST_CASE("what is wrong with a table is told with its place and a remedy") {
   check_begins(complaint("x,vx\n"), "t.csv: has no rows;");
   check_begins(complaint("x (mm)\n1\n"), "t.csv:1:1: vx: is missing; add the column 'vx (m/s)'");
   check_begins(complaint("x,vx, y\n1,2,3\n"), "t.csv:1:7: y: unknown column;");
-  check_begins(complaint("x,vx,x\n1,2,3\n"), "t.csv:1:6: x: stands there twice;");
-  check_begins(complaint("x (mm,vx\n1,2\n"), "t.csv:1:1: x: has a unit without an end;");
-  check_begins(complaint("x (s),vx\n1,2\n"), "t.csv:1:1: x: 's' is no unit for it;");
+  check_begins(complaint("x,vx,x\n1,2,3\n"), "t.csv:1:6: x: appears twice;");
+  check_begins(complaint("x (mm,vx\n1,2\n"),
+               "t.csv:1:1: x: has a unit without a closing parenthesis;");
+  check_begins(complaint("x (s),vx\n1,2\n"), "t.csv:1:1: x: 's' is not a unit for this column;");
   check_begins(complaint("\"x\",vx\n1,2\n"), "t.csv:1:1: has quotation marks in the first line;");
-  check_begins(complaint("x,vx\n1,2\n\n3\n"), "t.csv:4:1: has 1 cells, and the first line 2;");
-  check_begins(complaint("x,vx\n1,2,3\n"), "t.csv:2:5: has 3 cells, and the first line 2;");
+  check_begins(complaint("x,vx\n1,2\n\n3\n"), "t.csv:4:1: has 1 cell, but the first line has 2;");
+  check_begins(complaint("x,vx\n1,2,3\n"), "t.csv:2:5: has 3 cells, but the first line has 2;");
+  check_begins(complaint("x,vx\n1,1e999\n"),
+               "t.csv:2:3: vx: '1e999' is outside the range of a double; write a number within it");
   for (const std::string bad : {"nan", "inf", "", "1 mm", "0x10", "one", "1e999"}) {
     CAPTURE(bad);
     check_begins(complaint("x,vx\n1, " + bad + "\n"), "t.csv:2:");

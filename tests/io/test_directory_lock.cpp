@@ -41,7 +41,10 @@ TEST_CASE("A lock whose file was removed or replaced holds no longer") {
   const auto complaint = [&] { return message_of<FileError>([&] { lock.require_in_place(); }); };
   CHECK(complaint().empty());
   fs::remove(directory / ".lock");
-  CHECK(contains(complaint(), "has been removed or replaced"));
+  CHECK(complaint()
+        == (directory / ".lock").string()
+               + ": has been removed or replaced, so another process may be working here; continue "
+                 "when none is");
   overwrite(directory / ".lock", "");
   CHECK(contains(complaint(), "has been removed or replaced"));
 }

@@ -34,6 +34,6 @@ TEST_CASE("What has another shape than asked for is refused") {
   CHECK(contains(message_of<Hdf5Error>([&] { data.write(std::span(three)); }),
                  "the size does not match"));
   CHECK(contains(message_of<Hdf5Error>([&] { (void)root.text_attribute("number"); }),
-                 "it is no text of fixed length"));
+                 "it is not a text of fixed length"));
   CHECK_THROWS_AS(root.attribute<double>("text"), Hdf5Error);
 }

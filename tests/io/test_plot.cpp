@@ -193,7 +193,7 @@ TEST_CASE("Marks stay within the axes") {
   auto plot = small_plot();
   const auto before = plot.svg().element();
   plot.level({0.0, 2.0}, 1.5, {.stroke = "red"});
-  plot.moment(-0.1, "before", {.stroke = "red"});
+  plot.marker(-0.1, "before", {.stroke = "red"});
   CHECK(plot.svg().element() == before);
   plot.area({-5.0, 1.0}, {-9.0, 9.0}, {.fill = "red"});
   const Point corner = plot.at(0.0, 1.0), opposite = plot.at(1.0, -1.0);
@@ -202,6 +202,26 @@ TEST_CASE("Marks stay within the axes") {
   const auto text = expected.element();
   const auto begin = text.find("<rect");
   CHECK(count_of(plot.svg().element(), text.substr(begin, text.find("/>") - begin)) == 1);
+}
+
+TEST_CASE("The label of a marker is towards the middle, or in a lower row away from other lines") {
+  Plot plot(700.0, 200.0, "a plot", {"t", {0.0, 10.0}}, {"v", {0.0, 1.0}});
+  const auto anchor_of = [&](const std::string& label) {
+    const auto text = plot.svg().element();
+    const auto begin = text.rfind("<text", text.find(">" + label + "</text>"));
+    return text.substr(begin, text.find('>', begin) - begin);
+  };
+  const auto is_on_the_left = [&](const std::string& label) {
+    return anchor_of(label).find("text-anchor=\"end\"") != std::string::npos;
+  };
+  plot.marker(0.5, "no room on the left", {.stroke = "red"}, 3);
+  plot.marker(3.0, "smaller", {.stroke = "red"}, 2);
+  plot.marker(4.0, "larger", {.stroke = "red"}, 0);
+  plot.marker(9.0, "on the right", {.stroke = "red"}, 1);
+  CHECK_FALSE(is_on_the_left("no room on the left"));
+  CHECK(is_on_the_left("smaller"));
+  CHECK_FALSE(is_on_the_left("larger"));
+  CHECK(is_on_the_left("on the right"));
 }
 
 TEST_CASE("A thinned curve keeps its ends and its extremes in their order") {

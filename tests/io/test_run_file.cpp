@@ -120,7 +120,7 @@ TEST_CASE("A run file that cannot be written stays as it was, and can be written
   check_rows(path, 20);
 }
 
-TEST_CASE("A run file goes on from the rows that the checkpoint counts") {
+TEST_CASE("A run file goes on from the rows that the checkpoint expects") {
   const ScratchDirectory directory;
   const auto path = directory / run_file_name;
   const auto rows = GENERATE(0, 1, 1023, 1024, 1500, 2000);
@@ -174,13 +174,13 @@ TEST_CASE("A run file that does not fit is refused") {
   auto file = RunFile::create(path, provenance, columns);
   append_rows(file, 0, 3);
   file.flush();
-  CHECK(error_of_reopening(columns, 4).find("has 3 rows of time and the checkpoint counts 4")
+  CHECK(error_of_reopening(columns, 4).find("has 3 rows of time, but the checkpoint expects 4")
         != std::string::npos);
   CHECK(error_of_reopening({columns[0]}, 3).find("its series are time,velocity instead of time")
         != std::string::npos);
   CHECK(message_of<FileError>([&] {
           RunFile::reopen(path, {{"run", "2f"}}, columns, 3);
-        }).find("it is of another run")
+        }).find("it belongs to another run")
         != std::string::npos);
   fs::resize_file(path, 500);
   CHECK(error_of_reopening(columns, 3).starts_with(path.string() + ": does not fit"));

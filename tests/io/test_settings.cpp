@@ -224,9 +224,10 @@ TEST_CASE("exactly one of several keys") {
   CHECK(message("")
         == "f.yaml:2:1: contact.damping: is missing; give either contact.damping or "
            "contact.restitution");
-  CHECK(message(", restitution: 0.9, damping: 1")
-        == "f.yaml:2:25: contact.restitution: excludes contact.damping, and both are given; remove "
-           "one of the two");
+  CHECK(
+      message(", restitution: 0.9, damping: 1")
+      == "f.yaml:2:25: contact.restitution: cannot be given together with contact.damping; remove "
+         "one of the two");
 }
 
 TEST_CASE("asking for what the table does not hold is a mistake of the program") {

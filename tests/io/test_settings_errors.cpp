@@ -2,6 +2,8 @@
 // do about it.
 #include "tests/io/settings_fixture.hpp"
 
+#include <algorithm>
+
 using namespace settings_fixture;
 
 namespace {
@@ -14,11 +16,11 @@ TEST_CASE("wrong dimensions and units") {
   CHECK(
       tube_error("grains: {diameter: 3 kg}")
       == "f.yaml:4:20: grains.diameter: expected a length such as '0.66 mm' or a number in m, got "
-         "'3 kg'; replace 'kg' by a unit that converts to m");
+         "'3 kg'; replace 'kg' with a unit that converts to m");
   CHECK(
       tube_error("gravity: 10 m/s")
       == "f.yaml:4:10: gravity: expected an acceleration such as '10 m/s^2' or a number in m/s^2, "
-         "got '10 m/s'; replace 'm/s' by a unit that converts to m/s^2");
+         "got '10 m/s'; replace 'm/s' with a unit that converts to m/s^2");
   CHECK(
       tube_error("grains: {diameter: 3 foo}")
       == "f.yaml:4:20: grains.diameter: expected a length such as '0.66 mm' or a number in m, got "
@@ -26,7 +28,7 @@ TEST_CASE("wrong dimensions and units") {
   CHECK(tube_error("run: {steps_per_collision: 50 m}")
         == "f.yaml:4:28: run.steps_per_collision: expected a pure number such as '0.05' or '5 %', "
            "got "
-           "'50 m'; replace 'm' by % or nothing");
+           "'50 m'; replace 'm' with %, or leave the unit out");
   CHECK(
       error("scenario: wall\ncontact: {law: hertz, stiffness: 2000 N/m}\n")
       == "f.yaml:2:34: contact.stiffness: expected an SI number such as '1.5', without a unit, got "
@@ -51,8 +53,8 @@ TEST_CASE("malformed numbers") {
   CHECK(remedy_for("2 000") == "write the digits without separators");
   CHECK(remedy_for("0x10") == "write a decimal number");
   CHECK(remedy_for("0o17") == "write a decimal number");
-  CHECK(remedy_for("017") == "remove the leading zero, it looks octal");
-  CHECK(remedy_for("-00.5") == "remove the leading zero, it looks octal");
+  CHECK(remedy_for("017") == "remove the leading zero: some programs read it as octal");
+  CHECK(remedy_for("-00.5") == "remove the leading zero: some programs read it as octal");
   for (const std::string value : {".nan", ".inf", "-.INF", "nan", "inf", "-Infinity"}) {
     CHECK(remedy_for(value) == "give a finite number");
   }
@@ -169,7 +171,7 @@ TEST_CASE("unknown keys") {
         == "f.yaml:4:22: grains.5: unknown key; a comma begins the next key; write a decimal "
            "point, as in 0.92");
   CHECK(tube_error("run: {threads:2}")
-        == "f.yaml:4:7: run.threads:2: unknown key; put a blank behind the colon: 'threads: 2'");
+        == "f.yaml:4:7: run.threads:2: unknown key; put a space after the colon: 'threads: 2'");
   CHECK(tube_error("seeed: 2") == "f.yaml:4:1: seeed: unknown key; did you mean 'seed'?");
   CHECK(tube_error("Run: {}") == "f.yaml:4:1: Run: unknown key; did you mean 'run'?");
   CHECK(tube_error("run: {speed_of_light: 2}")
@@ -188,15 +190,14 @@ TEST_CASE("known keys in the wrong place") {
         == "f.yaml:4:7: run.seed: unknown key; 'seed' belongs at the top level, outside of any "
            "section");
   CHECK(tube_error("threads: 2")
-        == "f.yaml:4:1: threads: unknown key; 'threads' belongs into the section run");
-  CHECK(
-      tube_error("grains: {friction: 2}")
-      == "f.yaml:4:10: grains.friction: unknown key; 'friction' belongs into the section contact");
+        == "f.yaml:4:1: threads: unknown key; 'threads' belongs in the section run");
+  CHECK(tube_error("grains: {friction: 2}")
+        == "f.yaml:4:10: grains.friction: unknown key; 'friction' belongs in the section contact");
   CHECK(tube_error("grains: {fricton: 2}")
         == "f.yaml:4:10: grains.fricton: unknown key; did you mean 'contact.friction'?");
   CHECK(tube_error("impact: {starts: 3}")
-        == "f.yaml:4:1: impact: unknown key; the scenario tube does not have it, only wall: remove "
-           "it");
+        == "f.yaml:4:1: impact: unknown key; remove it: the scenario tube does not have it (only "
+           "wall does)");
   CHECK(tube_error("run.threads: 2")
         == "f.yaml:4:1: run.threads: dotted keys are for --set only; write 'run: {threads: ...}'");
 }
@@ -232,18 +233,35 @@ TEST_CASE("settings that another one requires") {
         == 0);
 }
 
+TEST_CASE("mistakes beyond those that are told are mentioned") {
+  std::string file = tube;
+  const auto with_one_more = [&](int number) {
+    file += "k" + std::to_string(number) + ": 1\n";
+    return error(file);
+  };
+  std::string told;
+  for (int i = 1; i <= 19; ++i) told = with_one_more(i);
+  CHECK(std::count(told.begin(), told.end(), '\n') == 18);
+  CHECK(told.find("more") == std::string::npos);
+  for (int i = 20; i <= 21; ++i) {
+    told = with_one_more(i);
+    CHECK(std::count(told.begin(), told.end(), '\n') == 20);
+    CHECK(told.ends_with("\n... and perhaps more: these are the first 20"));
+  }
+}
+
 TEST_CASE("lists and ranges") {
   const std::string expected = "expected a velocity such as '0.5 m/s' or a number in m/s, ";
   CHECK(speed_error("[]")
         == "f.yaml:3:17: impact.speed: the list is empty; give at least one value");
   std::string many = "[1";
   for (int i = 0; i < 10'000; ++i) many += ", 1";
-  CHECK(
-      speed_error(many + "]")
-      == "f.yaml:3:17: impact.speed: the list has 10001 values, 10000 are allowed; split the run");
+  CHECK(speed_error(many + "]")
+        == "f.yaml:3:17: impact.speed: the list has 10001 values, at most 10000 are allowed; split "
+           "it over several runs");
   CHECK(speed_error("[1, 2 kg]")
         == "f.yaml:3:21: impact.speed: " + expected
-               + "got '2 kg'; replace 'kg' by a unit that converts to m/s");
+               + "got '2 kg'; replace 'kg' with a unit that converts to m/s");
   CHECK(speed_error("[1, [2]]")
         == "f.yaml:3:21: impact.speed: " + expected + "got a list; give a single value");
   CHECK(speed_error("[1, -2]").find("f.yaml:3:21: impact.speed: must be at least 0 m/s") == 0);
@@ -251,14 +269,14 @@ TEST_CASE("lists and ranges") {
   CHECK(speed_error("[1, ~]").find("got nothing; give a single value") != std::string::npos);
   CHECK(speed_error("fast").find(
             "f.yaml:3:17: impact.speed: expected a velocity such as '0.5 m/s' or "
-            "a number in m/s, or a list of such, got 'fast'")
+            "a number in m/s, or a list of these, got 'fast'")
         == 0);
 
   CHECK(speed_error("{from: 1, to: 2, points: 3}")
         == "f.yaml:3:17: impact.speed.spacing: is missing; give log or linear");
   CHECK(speed_error("{from: 1, to: 2 kg, points: 3, spacing: log}")
         == "f.yaml:3:31: impact.speed.to: " + expected
-               + "got '2 kg'; replace 'kg' by a unit that converts to m/s");
+               + "got '2 kg'; replace 'kg' with a unit that converts to m/s");
   CHECK(speed_error("{from: 1, to: 2, points: 1, spacing: log}")
         == "f.yaml:3:42: impact.speed.points: must be from 2 to 10000, got '1'; give a value in "
            "this "
@@ -284,7 +302,7 @@ TEST_CASE("overrides are checked like the file, and errors name them") {
   CHECK(error(tube, {"contact.stiffness=3 kg"})
         == "--set contact.stiffness=3 kg: contact.stiffness: expected a stiffness such as '2000 "
            "N/m' or "
-           "a number in N/m, got '3 kg'; replace 'kg' by a unit that converts to N/m");
+           "a number in N/m, got '3 kg'; replace 'kg' with a unit that converts to N/m");
   CHECK(error(tube, {"run.thread=3"})
         == "--set run.thread=3: run.thread: unknown key; did you mean 'run.threads'?");
   CHECK(error(tube, {"scenario=tubs"}).find("--set scenario=tubs: scenario: expected tube or wall")

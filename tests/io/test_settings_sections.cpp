@@ -67,7 +67,7 @@ TEST_CASE("the effective settings of a section within a section can be read agai
 TEST_CASE("a wrong key within a section of a section") {
   CHECK(deep_error("flow: {until: {limt: 3 s}}\n")
         == "f.yaml:3:16: flow.until.limt: unknown key; did you mean 'flow.until.limit'?");
-  CHECK(deep_error("flow: {limit: 3 s}\n").find("'limit' belongs into the section flow.until")
+  CHECK(deep_error("flow: {limit: 3 s}\n").find("'limit' belongs in the section flow.until")
         != std::string::npos);
   CHECK(deep_error("flow: {untl: {limit: 3 s}}\n").find("did you mean 'flow.until'?")
         != std::string::npos);

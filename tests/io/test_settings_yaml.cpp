@@ -100,10 +100,9 @@ TEST_CASE("keys that are no names") {
 }
 
 TEST_CASE("nesting has a limit") {
-  CHECK(
-      error("a: [[[[[[[[[1]]]]]]]]]\n")
-      == "f.yaml:1:11: nested more than 8 levels deep; settings have a section and a key: write it "
-         "flatter");
+  CHECK(error("a: [[[[[[[[[1]]]]]]]]]\n")
+        == "f.yaml:1:11: nested more than 8 levels deep; reduce the nesting: above a key there "
+           "are at most two levels of sections");
 }
 
 TEST_CASE("hostile files of the largest size are refused within seconds") {

@@ -87,8 +87,8 @@ TEST_CASE("Attributes and texts come back, and what is not there is told") {
                     "cannot read the attribute number of /g: it has another type");
   CHECK_THROWS_WITH(group.attribute<double>("none"),
                     "cannot read the attribute none of /g: it is missing");
-  CHECK_THROWS_WITH(group.group("t"), "cannot open the group /g/t: it is no group");
-  CHECK_THROWS_WITH(group.text("t"), "cannot read the text /g/t: it is no text of fixed length");
+  CHECK_THROWS_WITH(group.group("t"), "cannot open the group /g/t: it is not a group");
+  CHECK_THROWS_WITH(group.text("t"), "cannot read the text /g/t: it is not a text of fixed length");
   CHECK_THROWS_WITH(group.data("y"), "cannot open /g/y: it is missing");
 }
 

@@ -113,8 +113,7 @@ TEST_CASE("A summary that does not fit is refused with a reason") {
   const auto text = to_json(special_summary());
   CHECK(complaint(path).find("cannot be opened") != std::string::npos);
   for (const auto& damaged :
-       {std::string(), std::string("[]"), text.substr(0, text.size() / 2),
-        with(text, "\"gravity_work\"", "\"work\""),
+       {std::string("[]"), with(text, "\"gravity_work\"", "\"work\""),
         with(text, "\"grains\": 1403", "\"grains\": \"many\""),
         with(text, "\"verdict\": \"unphysical\"", "\"verdict\": \"good\""),
         with(text, "\"name\": \"max_overlap_ratio\"", "\"name\": \"overlap\"")}) {
@@ -198,6 +197,17 @@ TEST_CASE("A column that is read back and written again is the same text") {
                     {.restitution = std::nan(""), .verdict = Validity::unphysical}};
   overwrite(path, to_json(summary));
   CHECK(to_json(std::get<ColumnSummary>(read_summary(path))) == to_json(summary));
+}
+
+TEST_CASE("A summary that was cut short is told") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  const auto whole = to_json(special_summary());
+  for (const auto& part : {std::string(), whole.substr(0, whole.size() / 2)}) {
+    overwrite(path, part);
+    CHECK(complaint(path)
+          == path.string() + ": is not complete JSON; restore the file, or make the run again");
+  }
 }
 
 TEST_CASE("A whole summary of an older version that lacks a value is not called damaged") {

@@ -176,6 +176,19 @@ TEST_CASE("the name of a point depends on what stands in a file, not on where th
   CHECK(name("set: {start.kind: file, start.from: none.csv}\n") != expected);
 }
 
+TEST_CASE("the name of a point does not depend on how the names of its files sort") {
+  const file_fixture::ScratchDirectory directory;
+  const auto name_with = [&](const char* grains, const char* obstacles) {
+    std::ofstream(directory / grains) << "1\n";
+    std::ofstream(directory / obstacles) << "2\n";
+    return name("set: {start.kind: file, start.from: " + (directory / grains).string()
+                + ", tube.obstacles: " + (directory / obstacles).string() + "}\n");
+  };
+  const auto expected = name_with("a.csv", "b.csv");
+  CHECK(name_with("d.csv", "c.csv") == expected);
+  CHECK(name_with("b.csv", "a.csv") == expected);
+}
+
 TEST_CASE("what stands in a file that may be left out counts where it is given") {
   const file_fixture::ScratchDirectory directory;
   const auto name_with = [&](const char* content) {

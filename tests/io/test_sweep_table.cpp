@@ -56,21 +56,36 @@ TEST_CASE("A manifest reads back as it was written") {
   CHECK(manifest.points[1].parent == point.name);
 }
 
-TEST_CASE("What is no manifest is refused") {
+TEST_CASE("What is not a manifest is refused") {
   const ScratchDirectory directory;
   const auto error = [&] {
     return message_of<FileError>([&] { (void)read_manifest(directory.path()); });
   };
   CHECK(error().find("cannot be opened: No such file or directory; ") != std::string::npos);
-  const auto whole = to_json(example());
-  for (const auto& text : {std::string("{}"), std::string("[1]"), std::string(), std::string("x"),
-                           whole.substr(0, whole.size() / 2)}) {
+  for (const auto* text : {"{}", "[1]"}) {
     write(directory / manifest_name, text);
-    CHECK(error().find("is no manifest of a sweep") != std::string::npos);
+    CHECK(error().find("is not a manifest of a sweep") != std::string::npos);
     CHECK(error().find("json.exception") == std::string::npos);
   }
   write(directory / manifest_name, "{}");
   CHECK(error().find("key 'format' not found") != std::string::npos);
+}
+
+TEST_CASE("A manifest that was cut short is told, with the way to a new one") {
+  const ScratchDirectory directory;
+  const auto whole = to_json(example());
+  for (const auto& text : {std::string(), std::string("x"), whole.substr(0, whole.size() / 2),
+                           whole.substr(0, whole.size() - 2)}) {
+    write(directory / manifest_name, text);
+    CHECK(
+        message_of<FileError>([&] { (void)read_manifest(directory.path()); })
+        == (directory / manifest_name).string()
+               + ": is not complete JSON; run 'riesel sweep' with its sweep file: it writes a new "
+                 "one and keeps the results");
+  }
+  write(directory / manifest_name, std::string(17, '[') + std::string(17, ']'));
+  CHECK(contains(message_of<FileError>([&] { (void)read_manifest(directory.path()); }),
+                 "manifest.json: is nested too deeply; run 'riesel sweep'"));
 }
 
 TEST_CASE("The CSV table quotes what must be and has nothing for a missing value") {
@@ -112,9 +127,11 @@ TEST_CASE("A summary is flattened: single values with dotted names, no lists") {
   CHECK((values[3] == std::pair<std::string, Cell>("n", Cell{})));
   CHECK((values[4] == std::pair<std::string, Cell>("yes", "true")));
   CHECK((values[5] == std::pair<std::string, Cell>("large", "9007199254740993")));
+  const auto complaint = [&] { return message_of<FileError>([&] { (void)flat_summary(path); }); };
+  write(path, "[]");
+  CHECK(contains(complaint(), "summary.json: is not a summary of a run; remove the directory"));
   write(path, "{\"a\": ");
-  CHECK(message_of<FileError>([&] { (void)flat_summary(path); }).find("no summary")
-        != std::string::npos);
+  CHECK(contains(complaint(), "summary.json: is not complete JSON; remove the directory"));
 }
 
 TEST_CASE("The record of the attempts is kept, and none is as good as an empty one") {

@@ -192,12 +192,13 @@ TEST_CASE("a trajectory that does not fit the checkpoint is refused") {
   append_frames(file, 0, 20);
   file.commit();
   CHECK(refusal(path, 19).empty());
-  CHECK(refusal(path, 20).find("has 20 frames and the checkpoint counts 21") != std::string::npos);
+  CHECK(refusal(path, 20).find("has 20 frames, but the checkpoint expects 21")
+        != std::string::npos);
   CHECK(refusal(directory / "none.h5", 3).find("is missing") != std::string::npos);
 
   CHECK(message_of<FileError>([&] {
           TrajectoryFile::reopen(path, run + 1, state_of_frame(3), steps_per_frame, settings);
-        }).find("it is of another run")
+        }).find("it belongs to another run")
         != std::string::npos);
   State other = state_of_frame(3);
   add_grain(other, {.x = 0.01, .y = 0.0, .vx = 0.0, .vy = 0.0, .radius = 1e-3, .mass = 1e-6});

@@ -54,15 +54,15 @@ TEST_CASE("every decimal in millimetres is the double of its SI numeral") {
 }
 
 TEST_CASE("units of another dimension are refused") {
-  CHECK(remedy("3 kg", "m") == "replace 'kg' by a unit that converts to m");
-  CHECK(remedy("3 m", "1") == "replace 'm' by % or nothing");
-  CHECK(remedy("3 %", "m") == "replace '%' by a unit that converts to m");
-  CHECK(remedy("30 degrees", "1") == "replace 'degrees' by % or nothing");
-  CHECK(remedy("30 rad/s", "1/s") == "replace 'rad/s' by a unit that converts to 1/s");
+  CHECK(remedy("3 kg", "m") == "replace 'kg' with a unit that converts to m");
+  CHECK(remedy("3 m", "1") == "replace 'm' with %, or leave the unit out");
+  CHECK(remedy("3 %", "m") == "replace '%' with a unit that converts to m");
+  CHECK(remedy("30 degrees", "1") == "replace 'degrees' with %, or leave the unit out");
+  CHECK(remedy("30 rad/s", "1/s") == "replace 'rad/s' with a unit that converts to 1/s");
 }
 
 TEST_CASE("nothing is converted to the reciprocal, as UDUNITS-2 would") {
-  CHECK(remedy("1e-4 s", "1/s") == "replace 's' by a unit that converts to 1/s");
+  CHECK(remedy("1e-4 s", "1/s") == "replace 's' with a unit that converts to 1/s");
 }
 
 TEST_CASE("units with an offset, logarithms and dates are refused") {

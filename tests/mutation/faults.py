@@ -20,7 +20,7 @@ FAULTS = [
     ("rows of another run", "io/run_file.cpp",
      "if (old.text(run_key) != run_of(provenance))", "if (run_of(provenance).empty())"),
     ("frames of another run", "io/trajectory_file.cpp",
-     'require(contents->run() == run, "it is of another run");', ""),
+     'require(contents->run() == run, "it belongs to another run");', ""),
     ("warnings that a resume forgets", "io/checkpoint.cpp",
      '.warnings = lines_of(root.text("warnings")),', ".warnings = {},"),
     ("a lock that is gone", "io/directory_lock.cpp",

@@ -86,5 +86,5 @@ class Mean(unittest.TestCase):
     def test_of_what_are_no_numbers(self):
         estimates = [riesel.Estimate(1.0, 0.1), riesel.Estimate(2.0, 0.1)]
         for values in (estimates, [1.0, estimates[1]], np.ones((2, 2)), [1.0, None], ["1", "2"]):
-            with self.assertRaisesRegex(TypeError, "takes numbers; of estimates give the values"):
+            with self.assertRaisesRegex(TypeError, "takes numbers; pass the values of estimates"):
                 riesel.mean_of(values)

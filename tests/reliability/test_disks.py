@@ -126,6 +126,6 @@ class Disks(CommandTest):
         process = self.start_long_run()
         moved = self.out.rename(self.home / "moved")
         self.out.mkdir()
-        self.assert_ends_with_word(process, "out", "another directory", "go on where that is now")
+        self.assert_ends_with_word(process, "out", "no longer the directory", "continue in the original one")
         self.assertEqual(bytes_of_files(self.out), {})
         self.assert_goes_on_as_uninterrupted(moved)

@@ -129,7 +129,7 @@ TEST_CASE("grains that cannot stand where they are are told with file, line and 
   check_mentions(complaint_of("5, -1, 0, 0, 1\n"), {"grains.csv:2:4: y: -0.001 m is outside"});
   check_mentions(complaint_of("0.5, 0, 0, 0, 1\n"),
                  {"grains.csv:2:1: x: stands 0.00033 m deep in a wall grain"});
-  check_mentions(complaint_of("5, nan, 0, 0, 1\n"), {"grains.csv:2:4: y: 'nan' is no number"});
+  check_mentions(complaint_of("5, nan, 0, 0, 1\n"), {"grains.csv:2:4: y: 'nan' is not a number"});
   check_mentions(complaint_of("5, 3, 0, 0, 0\n"), {"grains.csv:2:13: diameter: is not above 0"});
   check_mentions(complaint_of("5, 3, 0, 0\n"), {"grains.csv:2:10: has 4 cells"});
   check_mentions(complaint_of(""), {"grains.csv: has no rows"});
