@@ -74,9 +74,9 @@ double bytes_to_save(std::size_t grains, double rows, const TrajectorySize& traj
 void print_series(double rows, double duration) {
   constexpr double hardly_any = 3, few = 1e5, many = 1e6;
   if (rows < hardly_any)
-    warn("{:.0f} row{} in the series, which is too little for a mean: choose output.interval "
-         "shorter, or run longer",
-         rows, rows == 1.0 ? "" : "s");
+    warn("{} in the series, which is too little for a mean: choose output.interval shorter, or run "
+         "longer",
+         so_many(static_cast<std::int64_t>(rows), "row"));
   if (rows < few) return;
   line("series", "{:.3g} rows, {:.1f} MB", rows, bytes_of_series(rows) / 1e6);
   if (rows > many)

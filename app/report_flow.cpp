@@ -48,9 +48,9 @@ private:
 
   void tell_result() {
     const auto& s = summary();
-    page().paragraph(fmt::format("{} grains, {:.6g} s in {} steps. The run ended ({}): {}.",
-                                 s.run.grains, s.time, s.run.steps, s.ended_by,
-                                 explanation_of_end(s.ended_by)));
+    page().paragraph(fmt::format(
+        "{}, {:.6g} s in {}. The run ended ({}): {}.", so_many(s.run.grains, "grain"), s.time,
+        so_many(s.run.steps, "step"), s.ended_by, explanation_of_end(s.ended_by)));
     const bool is_steady = s.state == "steady";
     const bool by_temperature = s.judged_by == "granular_temperature";
     page().paragraph(

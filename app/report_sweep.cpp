@@ -84,7 +84,8 @@ private:
       if (summary->ended_by == "at_most") ++ended_at_most;
       ++verdicts[std::string(name(summary->validity.verdict.verdict))];
     }
-    page().paragraph(fmt::format("{} points: {}.", manifest().points.size(), counted(statuses)));
+    page().paragraph(
+        fmt::format("{}: {}.", so_many(std::ssize(manifest().points), "point"), counted(statuses)));
     if (states.empty()) return;
     const bool is_good = states.size() == 1 && states.contains("steady") && verdicts.size() == 1
                          && verdicts.contains("valid");
