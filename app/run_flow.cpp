@@ -315,8 +315,12 @@ private:
     const io::RunSummary run = run_summary();  // first: its time is to exclude the assessment below
     const State& state = simulation_.state();
     const SteadyState steady = assess();
-    io::FlowSummary s = summarise({files_.record(), steady, measurements_.strips(),
-                                   measurements_.profiles(), interval(), limits_.warnings()},
+    io::FlowSummary s = summarise({.file = files_.record(),
+                                   .steady = steady,
+                                   .strips = measurements_.strips(),
+                                   .profiles = measurements_.profiles(),
+                                   .interval = interval(),
+                                   .warnings = limits_.warnings()},
                                   state, simulation_.model(), measurements_.last());
     s.run = run;
     s.ended_by = ended_by();

@@ -192,7 +192,7 @@ int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryL
                                  .on_change = write_manifest});
   write_table(manifest, sweep);
   print_status(manifest, sweep);
-  if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
+  if (was_stopped(status)) tell("interrupted; the same command goes on from there\n");
   return status;
 }
 
