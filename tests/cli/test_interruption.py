@@ -144,7 +144,7 @@ class Interruption(CommandTest):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1, "--set", "run.duration=1 ms")
         process.stdout.close()
         process.wait(timeout=PATIENCE)
-        self.assertIn("nobody reads what is printed any more", process.stderr.read())
+        self.assertIn("the reader of the output has closed it", process.stderr.read())
         self.assertEqual(process.returncode, 1)
         self.assertTrue((self.out / "summary.json").exists())
 
