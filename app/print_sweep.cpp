@@ -97,7 +97,7 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
       fmt::print("  {} {} ({}): {}\n", point.name, point.status, coordinates_of(point, manifest),
                  point.reason);
   if (counts[to_string(RunStatus::failed)] > 0)
-    fmt::print("  what has failed is run again, with changes by --set if there are any, by '{} "
+    fmt::print("  to run the failed points again (with changes by --set, if any): '{} "
                "--retry-failed'\n",
                call_of("sweep", sweep));
   if (std::filesystem::exists(sweep / io::sweep_csv_name))

@@ -96,8 +96,8 @@ private:
                                            "flow of hard grains."),
                      is_good ? "good" : "doubtful");
     if (ended_at_most > 0)
-      page().paragraph(fmt::format("{} of them ended at run.until.at_most, before two looks in a "
-                                   "row found the mean as precise as was asked for.",
+      page().paragraph(fmt::format("{} of them ended at run.until.at_most, before the mean reached "
+                                   "the requested precision in two successive checks.",
                                    ended_at_most),
                        "doubtful");
   }
@@ -124,7 +124,7 @@ private:
     page().heading(quantity_->heading);
     const auto axis = axis_of(manifest());
     if (!axis) {
-      page().paragraph("There is no figure: no setting with numbers has several values.");
+      page().paragraph("There is no figure: no numeric setting is varied.");
       return;
     }
     const io::VariedSetting& setting = manifest().varied[*axis];
