@@ -18,7 +18,7 @@ std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int
 }
 
 void print_balance(const io::FlowSummary::Balance& b) {
-  const char* none = std::isnan(b.n_dot.value) ? "not known" : "no new ones, only lasting contacts";
+  const char* none = std::isnan(b.n_dot.value) ? "not known" : "no new ones; lasting contacts";
   const std::string factors = b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s",
                                                                 b.n_dot.value, b.dv_y.value)
                                                   : std::string(none);
