@@ -243,7 +243,7 @@ class Interruption(CommandTest):
                     process.send_signal(number)
                     _, stderr = process.communicate(timeout=PATIENCE)
                     self.assertEqual(process.returncode, 128 + number, stderr)
-                    self.assertRegex(stderr, r"riesel: interrupted, [^\n]+; [^\n]+\n\Z")
+                    self.assertRegex(stderr, r"riesel: interrupted; [^\n]+\. [^\n]+\n\Z")
                     self.assertFalse(self.out.exists())
 
     def test_a_run_whose_lock_is_removed_ends_and_can_go_on(self):
