@@ -26,8 +26,8 @@ namespace {
 
 void print_critical_velocity(const TypicalContacts& typical, double fastest) {
   line("v_crit",
-       "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col) with the velocities across of the "
-       "start; lower in a cooler flow",
+       "{:.3g} m/s at a wall grain (chord {:.2g} m over t_col) for the transverse velocities at "
+       "the start; lower in a cooler flow",
        typical.v_crit, typical.chord);
   if (fastest > typical.v_crit)
     warn("velocities up to {:.3g} m/s are above v_crit: grains pass wall grains sooner than the "
@@ -74,9 +74,9 @@ double bytes_to_save(std::size_t grains, double rows, const TrajectorySize& traj
 void print_series(double rows, double duration) {
   constexpr double hardly_any = 3, few = 1e5, many = 1e6;
   if (rows < hardly_any)
-    warn("{:.0f} row{} in the series, which is too little for a mean: choose output.interval "
-         "shorter, or run longer",
-         rows, rows == 1.0 ? "" : "s");
+    warn("{} in the series, which is too little for a mean: choose output.interval shorter, or run "
+         "longer",
+         so_many(static_cast<std::int64_t>(rows), "row"));
   if (rows < few) return;
   line("series", "{:.3g} rows, {:.1f} MB", rows, bytes_of_series(rows) / 1e6);
   if (rows > many)
@@ -185,8 +185,8 @@ void print_brake(const scenarios::Flow& flow, double across, double mean_vy) {
   if (across < slowest_across) {
     constexpr double about_at_rest = 0.01;  // m/s
     if (std::abs(mean_vy) > about_at_rest)
-      warn("all grains move with the same velocity, and so slowly across that any along the walls "
-           "is above v_crit (brake failure): give start.random_velocity");
+      warn("all grains start with the same velocity and almost none towards the walls, so that any "
+           "axial velocity exceeds v_crit (brake failure): set start.random_velocity");
     return;
   }
   print_critical_velocity(typical_contacts(flow.state, flow.model.normal, across),

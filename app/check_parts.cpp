@@ -21,13 +21,12 @@ void print_contact_at_speeds(const char* what, const ContactModel& model, double
   const auto fast = restitution(model, reduced_mass, speed);
   const auto slow = restitution(model, reduced_mass, slower);
   if (fast && slow) {
-    line(what, "t_col = {:.4g} s at {:.3g} m/s, e_N = {:.4f} then and {:.4f} at a tenth of it",
+    line(what, "t_col = {:.4g} s at {:.3g} m/s, e_N = {:.4f}; {:.4f} at a tenth of that speed",
          t_col, speed, *fast, *slow);
     return;
   }
   line(what, "t_col = {:.4g} s at {:.3g} m/s without damping", t_col, speed);
-  warn("{}: so much damping that they do not rebound at {:.3g} m/s; choose less", what,
-       fast ? slower : speed);
+  warn("{}: too much damping, no rebound at {:.3g} m/s; choose less", what, fast ? slower : speed);
 }
 
 }  // namespace

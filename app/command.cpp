@@ -60,7 +60,7 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
 /// --set of the commands that go on with the runs of a sweep.
 CLI::Option* add_changes(CLI::App& command, std::vector<std::string>& overrides) {
   return add_set(command, overrides,
-                 "Follow all runs further, also those that are done, as by run.duration='4 s'");
+                 "Extend all runs, including finished ones, e.g. run.duration='4 s'");
 }
 
 void add_threads(CLI::App& command, std::vector<std::string>& overrides) {
@@ -77,19 +77,19 @@ CLI::Option* add_max_walltime(CLI::App& command, std::optional<double>& max_wall
 }
 
 void add_flow_options(CLI::App& command, app::FlowOptions& options) {
-  command.add_flag("--profile", options.profile, "Tell where the time went; for flows");
-  add_max_walltime(
-      command, options.max_walltime,
-      "Stop with a checkpoint before this time on the clock, such as '23.5 h', is over; for flows");
+  command.add_flag("--profile", options.profile, "Show where the time went; for flows");
+  add_max_walltime(command, options.max_walltime,
+                   "Stop with a checkpoint before this much wall-clock time, such as '23.5 h', has "
+                   "passed; for flows");
 }
 
 void add_verbosity(CLI::App& command, app::Verbosity& verbosity) {
   const auto set = [&verbosity](app::Verbosity to) { return [&verbosity, to] { verbosity = to; }; };
   CLI::Option* quiet = command.add_flag_callback("-q,--quiet", set(app::Verbosity::quiet),
-                                                 "Print errors only: the files tell the result");
+                                                 "Print errors only; results are in the files");
   command
       .add_flag_callback("-v,--verbose", set(app::Verbosity::verbose),
-                         "Tell what the run begins with, and of each checkpoint")
+                         "Also report the start of the run and each checkpoint")
       ->excludes(quiet);
 }
 
@@ -98,7 +98,7 @@ class CommandLine {
 public:
   CommandLine(int argc, char** argv) : arguments_(argv, argv + argc) {
     program_.set_version_flag("--version", version_text());
-    program_.footer("'riesel help COMMAND' tells the options of a command.");
+    program_.footer("'riesel help COMMAND' shows the options of a command.");
     program_.require_subcommand(0, 1);  // so that a wrong one is named; see command()
     add_run();
     add_resume();
@@ -107,7 +107,7 @@ public:
                   "the run or the sweep", app::report);
     add_sweep();
     add_sweep_task();
-    add_directory("status", "Tell how far a sweep has come", "the sweep", app::sweep_status);
+    add_directory("status", "Show how far a sweep has come", "the sweep", app::sweep_status);
     add_directory("collect", "Gather the results of a sweep into one table", "the sweep",
                   app::sweep_collect);
     add_new();
@@ -187,8 +187,8 @@ private:
         sweep->add_flag("--retry-failed", sweep_.retry_failed, "Run again what failed");
     CLI::Option* walltime = add_max_walltime(
         *sweep, sweep_.max_walltime,
-        "Stop with checkpoints before this time on the clock, such as '23.5 h', is over; with "
-        "--slurm: the time of each task, which is queued again then");
+        "Stop with checkpoints before this much wall-clock time, such as '23.5 h', has passed; "
+        "with --slurm: the time of each task, which is queued again then");
     CLI::Option* changes = add_changes(*sweep, sweep_.overrides);
     add_slurm(*sweep)->excludes(jobs)->excludes(prepare);
     prepare->excludes(changes)->excludes(jobs)->excludes(retry)->excludes(walltime);
@@ -198,7 +198,8 @@ private:
   CLI::Option* add_slurm(CLI::App& sweep) {
     CLI::Option* slurm = sweep.add_flag("--slurm", sweep_.to_slurm,
                                         "Submit the sweep to Slurm; --dry-run shows the script");
-    sweep.add_option("--tasks", sweep_.slurm.tasks, "Tasks of Slurm at most [one per point]")
+    sweep
+        .add_option("--tasks", sweep_.slurm.tasks, "Maximum number of Slurm tasks [one per point]")
         ->check(CLI::Range(std::size_t{1}, most_tasks))
         ->needs(slurm);
     sweep.add_option("--threads", sweep_.slurm.threads, "Threads of each task of Slurm [1]")
@@ -219,12 +220,12 @@ private:
     task->add_option("DIR", task_.directory, "Directory of the sweep, see sweep --prepare");
     CLI::Option* index = task->add_option("INDEX", task_.index, "The point, counted from 0")
                              ->check(CLI::NonNegativeNumber);
-    task->add_option("--of", task_.parts, "INDEX is one of so many parts of the sweep")
+    task->add_option("--of", task_.parts, "Split the sweep into this many parts; INDEX is the part")
         ->check(CLI::Range(std::size_t{1}, most_tasks));
     task->add_option("--threads", task_.threads, "Threads [as many as cores]")
         ->check(CLI::Range(1, most_jobs));
     add_max_walltime(*task, task_.max_walltime,
-                     "Stop with checkpoints before this time on the clock is over");
+                     "Stop with checkpoints before this much wall-clock time has passed");
     task->add_flag("--retry-failed", task_.retry_failed, "Run it again if it failed");
     add_changes(*task, task_.overrides);
     set_command(*task, *index, [this] { return app::sweep_task(task_); });
@@ -234,7 +235,7 @@ private:
     CLI::App* made = program_.add_subcommand("new", "Write a settings file to begin with");
     CLI::Option* scenario =
         made->add_option("SCENARIO", new_file_.scenario, "See 'riesel scenarios'");
-    made->add_option("FILE", new_file_.file, "Where to [SCENARIO.yaml]");
+    made->add_option("FILE", new_file_.file, "File to write [SCENARIO.yaml]");
     set_command(*made, *scenario, [this] { return app::new_file(new_file_); });
   }
 
@@ -270,7 +271,7 @@ private:
     CLI::App* schema = program_.add_subcommand(
         "schema",
         "Print the JSON Schema of settings files, for editors that complete and check YAML");
-    schema->add_flag("--sweep", schema_of_sweeps_, "That of sweep files");
+    schema->add_flag("--sweep", schema_of_sweeps_, "Print the schema of sweep files instead");
     schema->callback(
         [this] { command_ = [this] { return app::print_schema(schema_of_sweeps_); }; });
   }
@@ -322,8 +323,8 @@ int fail(int status, const char* message) noexcept {
 int fail_to_print() noexcept {
   return fail(app::exit_failed,
               app::nobody_reads_the_output()
-                  ? "nobody reads what is printed any more; what was computed is on the disk"
-                  : "what was to be printed could not be written; free some space there");
+                  ? "the reader of the output has closed it; results computed so far are on disk"
+                  : "the output could not be written; free some space");
 }
 
 int fail_for_want_of_memory() noexcept {

@@ -17,8 +17,8 @@ void fail_if_too_fast(const State& state) {
   const double largest = largest_speed(state.box, state.time_step, state.grains.size());
   if (fastest.speed < largest) return;
   throw RunFailure(fmt::format(
-      "grain {} moves with {:.3g} m/s {}, too fast for this tube and time step, which hold {:.3g} "
-      "m/s; stiffer contacts, a shorter time step or a slower start may help",
+      "grain {} moves at {:.3g} m/s {}, too fast for this tube and time step (limit {:.3g} m/s); "
+      "stiffer contacts, a shorter time step or a slower start may help",
       fastest.id, fastest.speed, when(state), largest));
 }
 
@@ -26,8 +26,9 @@ void fail_if_too_heavy(const State& state) {
   const double largest = largest_sum(state);
   if (largest < ExactSum::largest_sum) return;
   throw RunFailure(fmt::format(
-      "energies or impulses add up to {:.3g} in SI units {}, more than the {:.3g} that sums hold; "
-      "lighter grains help: masses and stiffness may be scaled together, which changes no motion",
+      "energies or impulses add up to {:.3g} in SI units {}, more than sums can represent "
+      "({:.3g}); lighter grains help: masses and stiffness may be scaled together, which changes "
+      "no motion",
       largest, when(state), ExactSum::largest_sum));
 }
 

@@ -28,7 +28,7 @@ std::int64_t now() {
 /// Makes only calls that are safe in a signal handler.
 void end(int signal) {
   constexpr std::string_view message =
-      "\nriesel: interrupted, nothing is left half-written; call it again to start anew\n";
+      "\nriesel: interrupted; no file is left half-written. Run the command again to start over\n";
   const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
   static_cast<void>(written);
   _exit(128 + signal);

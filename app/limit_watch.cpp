@@ -29,9 +29,10 @@ std::string overlap_exceeded(const State& state, const LargestOverlap& largest) 
 }
 
 std::string energy_error_exceeded(double ratio) {
-  return fmt::format("{:.3g} of the energy turned over came or went by errors of the time step, "
-                     "which is too long for the forces; raise run.steps_per_collision",
-                     ratio);
+  return fmt::format(
+      "errors of the time step created or destroyed a fraction {:.3g} of the energy turned over: "
+      "the step is too long for the forces; raise run.steps_per_collision",
+      ratio);
 }
 
 std::string steps_too_few(double steps) {
@@ -43,12 +44,16 @@ std::string steps_too_few(double steps) {
 
 std::string speed_exceeded(const FastestGrain& fastest) {
   return fmt::format(
-      "grain {} moves with {:.4g} m/s, which no wall brakes enough; lower the velocity "
+      "grain {} moves at {:.4g} m/s, which no wall brakes enough; lower the velocity "
       "at the start, or raise contact.stiffness",
       fastest.id, fastest.speed);
 }
 
 }  // namespace
+
+std::string_view key_of_limit(std::string_view message) {
+  return message.substr(0, message.find(' '));
+}
 
 LimitWatch::LimitWatch(const scenarios::RunLimits& limits, std::vector<std::string> warnings)
     : limits_(limits), warnings_(std::move(warnings)) {}

@@ -11,6 +11,9 @@
 
 namespace riesel::app {
 
+/// The key of the limit that a message of LimitWatch is about.
+std::string_view key_of_limit(std::string_view message);
+
 class LimitWatch {
 public:
   /// `warnings` are those given before the run was resumed.

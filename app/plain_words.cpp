@@ -27,12 +27,12 @@ std::string explanation_of_state(const io::FlowSummary& s) {
   const char* of_what = by_temperature ? " of the granular temperature" : "";
   if (s.state == "steady") return fmt::format("no trend{} after the transient", of_what);
   if (s.state == "accelerating")
-    return by_temperature ? "the granular temperature still grows: its mean is no steady one"
-                          : "the grains still gain speed: the mean is no steady velocity";
+    return by_temperature ? "the granular temperature still grows: its mean is not a steady one"
+                          : "the grains still gain speed: the mean is not a steady velocity";
   if (s.state == "drifting")
-    return fmt::format("there still is a trend{}: the mean is no steady one", of_what);
+    return fmt::format("there is still a trend{}: the mean is not a steady one", of_what);
   if (s.independent_samples < min_independent_samples)
-    return fmt::format("{:.2g} of {:.0f} independent samples{} for a steady mean",
+    return fmt::format("only {:.2g} of the {:.0f} independent samples{} needed for a steady mean",
                        s.independent_samples, min_independent_samples, of_what);
   return fmt::format("the transient takes {:.3g} of {:.3g} s, too much for a steady mean",
                      s.transient_end, s.time);
@@ -54,7 +54,7 @@ double sufficient_duration(const io::FlowSummary& s) {
 std::string explanation_of_end(const std::string& ended_by) {
   if (ended_by == "duration") return "its duration was over";
   if (ended_by == "precision") return "the mean is known as well as was asked for";
-  return "the time was up before two looks in a row found the mean as precise as was asked for";
+  return "the time was up before the mean reached the requested precision in two successive checks";
 }
 
 namespace {
@@ -216,8 +216,8 @@ std::string where_hard(const io::ColumnSummary& summary) {
   const double from = std::prev(soft)->gap_ratio;
   if (soft == points.end()) return "t_col is short enough for all of these gaps.";
   return fmt::format(
-      "t_col is too long for gaps below {:.3g} v t_col: raise contact.stiffness until "
-      "they are wider than that; t_col falls with its square root.",
+      "t_col is too long for gaps below {:.3g} v t_col. Raise contact.stiffness until the gaps are "
+      "wider than that: t_col decreases as 1/sqrt(stiffness).",
       from);
 }
 

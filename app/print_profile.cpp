@@ -41,10 +41,10 @@ void print_profile(const Simulation& simulation, const RunTimes& times, std::int
     fmt::print("{:<18}{:>10.3f}{:>8.1f}{:>12.1f}\n", row.name, row.seconds,
                100.0 * row.seconds / total, 1e9 * row.seconds / static_cast<double>(steps));
   const Way way = simulation.preferred_way();
-  fmt::print("stepped {} on {}{} at the end; one step in {} was looked at in detail, on "
-             "the first thread\n",
-             way.by_flights ? "by windows" : "plainly", so_many(way.threads, "thread"),
-             way.apart ? " apart" : "", Profile::steps_per_sample);
+  fmt::print("at the end: {} on {}{}; one step in {} was timed in detail, on the first thread\n",
+             way.by_flights ? "stepping by windows" : "plain stepping",
+             so_many(way.threads, "thread"), way.apart ? ", each on its own part" : "",
+             Profile::steps_per_sample);
 }
 
 }  // namespace riesel::app

@@ -18,7 +18,7 @@ std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int
 }
 
 void print_balance(const io::FlowSummary::Balance& b) {
-  const char* none = std::isnan(b.n_dot.value) ? "not known" : "none begun, lasting ones";
+  const char* none = std::isnan(b.n_dot.value) ? "not known" : "no new ones; lasting contacts";
   const std::string factors = b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s",
                                                                 b.n_dot.value, b.dv_y.value)
                                                   : std::string(none);
@@ -77,8 +77,8 @@ void print_common(const io::RunSummary& run, const std::filesystem::path& direct
 }  // namespace
 
 void print_summary(const io::FlowSummary& s, const std::filesystem::path& directory) {
-  fmt::print("{}: {} grains, {:.6g} s in {} steps\n", s.run.scenario, s.run.grains, s.time,
-             s.run.steps);
+  fmt::print("{}: {}, {:.6g} s in {}\n", s.run.scenario, so_many(s.run.grains, "grain"), s.time,
+             so_many(s.run.steps, "step"));
   fmt::print("  {:<22}{} (after {:.3g} s)\n", "mean axial velocity",
              text_of(s.mean_axial_velocity, "m/s", 5), s.transient_end);
   print_state(s, directory);
@@ -97,11 +97,13 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
 
 void print_summary(const io::CurveSummary& s, const std::filesystem::path& directory) {
   const auto [passed, stuck] = left_out_of(s);
-  fmt::print("{}: {} points\n", s.run.scenario, s.curve.size());
+  fmt::print("{}: {}\n", s.run.scenario, so_many(std::ssize(s.curve), "point"));
   if (passed > 0)
-    fmt::print("  {:<22}{} impacts, left out of the means\n", "through the wall", passed);
+    fmt::print("  {:<22}{}, left out of the means\n", "through the wall",
+               so_many(passed, "impact"));
   if (stuck > 0)
-    fmt::print("  {:<22}{} impacts, left out of the means\n", "stuck at the wall", stuck);
+    fmt::print("  {:<22}{}, left out of the means\n", "stuck at the wall",
+               so_many(stuck, "impact"));
   fmt::print("  {:<22}{}\n", "validity", count_of_verdicts(s));
   for (const CurveReason& reason : reasons_of(s)) {
     fmt::print("  {:<22}{}\n", name(reason.verdict), reason.text);
@@ -111,7 +113,8 @@ void print_summary(const io::CurveSummary& s, const std::filesystem::path& direc
 }
 
 void print_summary(const io::ColumnSummary& s, const std::filesystem::path& directory) {
-  fmt::print("{}: {} beads, {} drops\n", s.run.scenario, s.run.grains, s.column.size());
+  fmt::print("{}: {}, {}\n", s.run.scenario, so_many(s.run.grains, "bead"),
+             so_many(std::ssize(s.column), "drop"));
   fmt::print("  {:<22}{}\n", "hard beads", description_of(s.rigid));
   for (const io::ColumnPoint* p : {&s.column.front(), &s.column.back()})
     fmt::print("  {:<22}effective restitution {} at gaps of {:.3g} v t_col\n", "these beads",

@@ -77,8 +77,9 @@ void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep
                point_directory(sweep, point.name).string(), readable_time(point.expected_seconds),
                point.status, coordinates_of(point, manifest));
   }
-  fmt::print("{} points, {} runs, about {} with {} side by side\n", manifest.points.size(),
-             runs.size(), readable_time(seconds_left(manifest, jobs)), so_many(jobs, "run"));
+  fmt::print("{}, {}, about {} with {} side by side\n",
+             so_many(std::ssize(manifest.points), "point"), so_many(std::ssize(runs), "run"),
+             readable_time(seconds_left(manifest, jobs)), so_many(jobs, "run"));
 }
 
 void print_status(const io::Manifest& manifest, const std::filesystem::path& sweep) {
@@ -88,14 +89,15 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
   for (const auto status : {RunStatus::done, RunStatus::running, RunStatus::failed,
                             RunStatus::interrupted, RunStatus::waiting})
     add_count(summary, counts[to_string(status)], to_string(status));
-  fmt::print("{}: {} points: {}\n", sweep.string(), manifest.points.size(), summary);
+  fmt::print("{}: {}: {}\n", sweep.string(), so_many(std::ssize(manifest.points), "point"),
+             summary);
   print_verdicts(manifest, sweep);
   for (const io::ManifestPoint& point : manifest.points)
     if (!point.reason.empty())
       fmt::print("  {} {} ({}): {}\n", point.name, point.status, coordinates_of(point, manifest),
                  point.reason);
   if (counts[to_string(RunStatus::failed)] > 0)
-    fmt::print("  what has failed is run again, with changes by --set if there are any, by '{} "
+    fmt::print("  to run the failed points again (with changes by --set, if any): '{} "
                "--retry-failed'\n",
                call_of("sweep", sweep));
   if (std::filesystem::exists(sweep / io::sweep_csv_name))

@@ -38,10 +38,10 @@ void require_finished_run(const fs::path& directory) {
   const std::string way_on = io::DirectoryLock::is_held(directory)
                                  ? "wait until it has"
                                  : "go on with it by '" + call_of("resume", directory) + "'";
-  const std::string no_end = directory.string() + ": its run has not come to its end; ";
+  const std::string no_end = directory.string() + ": its run has not finished; ";
   if (!fs::exists(directory / post_mortem_name)) throw UnusableInput(no_end + way_on);
   // The failure may be an old one: the run may have been resumed since, and stopped again.
-  throw UnusableInput(no_end + "it failed, and the state of then is in "
+  throw UnusableInput(no_end + "it failed, and its state at that moment is in "
                       + (directory / post_mortem_name).string()
                       + ", from which another run can start (start: {kind: continued, from: ...}); "
                         "if it has been resumed since, "

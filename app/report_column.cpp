@@ -13,7 +13,8 @@ namespace riesel::app {
 namespace {
 
 void tell_result(const io::ColumnSummary& s, io::HtmlPage& page) {
-  page.paragraph(fmt::format("{} beads, {} drops.", s.run.grains, s.column.size()));
+  page.paragraph(
+      fmt::format("{}, {}.", so_many(s.run.grains, "bead"), so_many(std::ssize(s.column), "drop")));
   page.paragraph(fmt::format("Hard beads: {}.", description_of(s.rigid)));
   page.paragraph(fmt::format("Validity of the drops: {}. {}", count_of_verdicts(s), where_hard(s)),
                  class_of(worst_of(s.column)));

@@ -48,9 +48,9 @@ private:
 
   void tell_result() {
     const auto& s = summary();
-    page().paragraph(fmt::format("{} grains, {:.6g} s in {} steps. The run ended ({}): {}.",
-                                 s.run.grains, s.time, s.run.steps, s.ended_by,
-                                 explanation_of_end(s.ended_by)));
+    page().paragraph(fmt::format(
+        "{}, {:.6g} s in {}. The run ended ({}): {}.", so_many(s.run.grains, "grain"), s.time,
+        so_many(s.run.steps, "step"), s.ended_by, explanation_of_end(s.ended_by)));
     const bool is_steady = s.state == "steady";
     const bool by_temperature = s.judged_by == "granular_temperature";
     page().paragraph(
@@ -168,8 +168,8 @@ private:
     add("temperature", "Granular temperature (m^2/s^2)", {"temperature_x", "temperature_y"});
     add("stress", "Stress (N/m)", {"stress_xx", "stress_yy", "stress_xy"});
     page().paragraph(fmt::format(
-        "Stresses are positive in compression{}. The bars know nothing of a drift: of a flow that "
-        "is not steady these are means over what was seen.",
+        "Stresses are positive in compression{}. The error bars do not account for drift: if the "
+        "flow is not steady, these are merely means over the observed time.",
         summary().braking_force.weight == 0.0
             ? ""
             : "; in a steady state stress_xy carries the weight of the grains to the walls"));
@@ -188,9 +188,10 @@ private:
     if (std::ranges::all_of(parts, [](const EnergyPart& p) { return std::isfinite(p.value); }))
       draft_.add_figure(
           "energy", draw_energy(parts),
-          "Blue: energy that was there at the start or came in since; what is negative went out. "
-          "Orange: where it is. The residual is what is missing in the balance: the error of the "
-          "calculation. Turned over is what was there at the start and the sizes of the works.");
+          "Blue: energy that was there at the start or came in since; negative values left the "
+          "system. Orange: where it is. The residual is what is missing in the balance: the error "
+          "of the calculation. 'Turned over' is the initial energy plus the absolute values of the "
+          "work.");
   }
 
   void show_walls() {

@@ -84,7 +84,8 @@ private:
       if (summary->ended_by == "at_most") ++ended_at_most;
       ++verdicts[std::string(name(summary->validity.verdict.verdict))];
     }
-    page().paragraph(fmt::format("{} points: {}.", manifest().points.size(), counted(statuses)));
+    page().paragraph(
+        fmt::format("{}: {}.", so_many(std::ssize(manifest().points), "point"), counted(statuses)));
     if (states.empty()) return;
     const bool is_good = states.size() == 1 && states.contains("steady") && verdicts.size() == 1
                          && verdicts.contains("valid");
@@ -95,8 +96,8 @@ private:
                                            "flow of hard grains."),
                      is_good ? "good" : "doubtful");
     if (ended_at_most > 0)
-      page().paragraph(fmt::format("{} of them ended at run.until.at_most, before two looks in a "
-                                   "row found the mean as precise as was asked for.",
+      page().paragraph(fmt::format("{} of them ended at run.until.at_most, before the mean reached "
+                                   "the requested precision in two successive checks.",
                                    ended_at_most),
                        "doubtful");
   }
@@ -123,7 +124,7 @@ private:
     page().heading(quantity_->heading);
     const auto axis = axis_of(manifest());
     if (!axis) {
-      page().paragraph("There is no figure: no setting with numbers has several values.");
+      page().paragraph("There is no figure: no numeric setting is varied.");
       return;
     }
     const io::VariedSetting& setting = manifest().varied[*axis];

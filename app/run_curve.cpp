@@ -61,7 +61,7 @@ void write_curve(io::RunFile& file, const io::CurveSummary& summary) {
       {{"stuck", "1", "Starts that were given up; not in the means."},
        [](auto& p) { return static_cast<double>(p.stuck); }},
       {{"cut_short", "1", "Number of contacts cut short."}, [](auto& p) { return p.cut_short; }},
-      {{"brake_failure_fraction", "1", "Part of the braking that they did."},
+      {{"brake_failure_fraction", "1", "Share of the braking that is done by contacts cut short."},
        [](auto& p) { return p.brake_failure_fraction; }},
       {{"verdict", "1", "Validity: 0 valid, 1 suspect, 2 unphysical."},
        [](auto& p) { return static_cast<double>(p.verdict); }},

@@ -35,6 +35,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -97,9 +98,7 @@ public:
       set_out();
       while (!is_over() && !is_interrupted()) advance();
     } catch (const LimitExceeded& failure) {
-      return fail(failure,
-                  fmt::format("; '{}' goes on from there with another limit",
-                              call_of("resume", files_.directory().file(post_mortem_name))));
+      return fail(failure, way_on_without(key_of_limit(failure.what())));
     } catch (const RunFailure& failure) {
       return fail(failure, "");
     }
@@ -315,8 +314,12 @@ private:
     const io::RunSummary run = run_summary();  // first: its time is to exclude the assessment below
     const State& state = simulation_.state();
     const SteadyState steady = assess();
-    io::FlowSummary s = summarise({files_.record(), steady, measurements_.strips(),
-                                   measurements_.profiles(), interval(), limits_.warnings()},
+    io::FlowSummary s = summarise({.file = files_.record(),
+                                   .steady = steady,
+                                   .strips = measurements_.strips(),
+                                   .profiles = measurements_.profiles(),
+                                   .interval = interval(),
+                                   .warnings = limits_.warnings()},
                                   state, simulation_.model(), measurements_.last());
     s.run = run;
     s.ended_by = ended_by();
@@ -333,6 +336,12 @@ private:
          by_signal ? "interrupted" : "out of time (--max-walltime)", simulation_.state().time(),
          call_of("resume", files_.directory().path()));
     return by_signal ? 128 + interrupting_signal() : exit_out_of_time;
+  }
+
+  /// `limit`: the key of the one that was exceeded.
+  std::string way_on_without(std::string_view limit) const {
+    return fmt::format("; to go on from there, remove the limit or set another: '{} --set {}='",
+                       call_of("resume", files_.directory().file(post_mortem_name)), limit);
   }
 
   /// Keeps the series and the state, which may show why the run failed.

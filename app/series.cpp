@@ -82,11 +82,11 @@ const std::vector<Entry>& entries() {
        [](auto& o, auto&) { return o.energies.normal_loss; }},
       {{"friction_loss", "J", "Dissipated by friction and resistance to rolling since the start."},
        [](auto& o, auto&) { return o.energies.friction_loss; }},
-      {{"energy_residual", "J", "What is missing in the balance of energy."},
+      {{"energy_residual", "J", "Energy missing from the energy balance."},
        [](auto& o, auto&) { return o.energies.residual; }},
       {{"contacts", "1",
-        "Lasting contacts, each once, per grain: a mean coordination number is twice the part of "
-        "those between grains."},
+        "Current contacts per grain, each counted once; for the mean coordination number, double "
+        "the share of those between grains."},
        [](auto& o, auto&) { return o.contacts; }},
       {{"grain_contacts", "1", "Contacts between grains begun since the start."},
        [](auto& o, auto&) { return o.grain_contacts_begun; }},

@@ -55,7 +55,7 @@ std::string name_of(const fs::path& sweep) {
 }
 
 constexpr auto script_form = R"(#!/bin/bash
-# Written by {writer}. What is done is not done again: it may be submitted at any time.
+# Written by {writer}. Finished points are not run again, so this may be submitted at any time.
 #SBATCH --job-name={name}
 #SBATCH --array={array}
 #SBATCH --cpus-per-task={threads}
@@ -126,9 +126,9 @@ std::string submit_to_slurm(const fs::path& script_file) {
   if (!said)
     throw std::runtime_error("sbatch cannot be started; is Slurm installed on this machine?");
   if (said->status != 0)
-    throw std::runtime_error(fmt::format(
-        "sbatch has not taken the job (see above); change {} or the options, and try again",
-        script_file.string()));
+    throw std::runtime_error(
+        fmt::format("sbatch refused the job (see above); change {} or the options, and try again",
+                    script_file.string()));
   const std::size_t end = said->output.find_first_of(";\n");  // "JOB;CLUSTER"
   return said->output.substr(0, end);
 }

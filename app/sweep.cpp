@@ -74,8 +74,8 @@ void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
       earlier, [](const auto& point) { return has_status(point, RunStatus::done); });
   if (gone > 0 && gone == std::ssize(earlier) && any_done)
     throw UnusableInput(sweep.string()
-                        + ": holds another sweep, of which no point is one of this; choose another "
-                          "directory with --out");
+                        + ": holds another sweep that has no point in common with this one; choose "
+                          "another directory with --out");
   if (gone > 0)
     tell("{}: {} of {} points that were here are not in this sweep; their runs stay\n",
          sweep.string(), gone, earlier.size());
@@ -192,7 +192,7 @@ int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryL
                                  .on_change = write_manifest});
   write_table(manifest, sweep);
   print_status(manifest, sweep);
-  if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
+  if (was_stopped(status)) tell("interrupted; the same command goes on from there\n");
   return status;
 }
 
@@ -217,8 +217,8 @@ void reject_options_in_vain(const SweepOptions& options, bool begun) {
                         + " goes on where it is; leave the option out");
   if (!begun && !options.overrides.empty())
     throw UnusableInput(
-        "--set: goes on with the runs of a sweep that was begun; give its directory "
-        "instead of the file, or write the setting into the file, below 'set:'");
+        "--set: is only for continuing a sweep; give the directory of the sweep instead of the "
+        "file, or write the setting into the file, below 'set:'");
 }
 
 }  // namespace

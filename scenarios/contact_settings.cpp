@@ -87,7 +87,7 @@ void reject_heavy_bodies(const io::Settings& settings, const std::string& mass_k
   if (std::max(mass, 1.0) * std::max(speed * speed, 1.0) < most) return;
   settings.reject(
       mass > 1.0 ? mass_key : speed_key,
-      fmt::format("{:.3g} kg at {:.3g} m/s are beyond what sums over contacts hold", mass, speed),
+      fmt::format("{:.3g} kg at {:.3g} m/s would overflow sums over contacts", mass, speed),
       "choose less (do masses and velocities have their units?); stiffness may be "
       "scaled with the mass, which changes no motion");
 }

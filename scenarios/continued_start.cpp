@@ -153,11 +153,12 @@ void reject_other_swing_across(const io::Settings& settings, const State& earlie
     if (const double before = earlier.walls[wall].motion.amplitude_x,
         now = state.walls[wall].motion.amplitude_x;
         !alike(now, before))
-      settings.reject("wall.shake_amplitude",
-                      fmt::format("swings the walls across by {:.6g} m, and the run to be "
-                                  "continued by {:.6g} m",
-                                  now, before),
-                      "shake them as far across, by amplitude and angle, or start afresh");
+      settings.reject(
+          "wall.shake_amplitude",
+          fmt::format("shakes the walls across with amplitude {:.6g} m, the run to be continued "
+                      "with {:.6g} m",
+                      now, before),
+          "make the transverse amplitudes equal (by amplitude and angle), or start afresh");
 }
 
 void reject_released_energy(const io::Settings& settings, const State& earlier,

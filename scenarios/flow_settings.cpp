@@ -19,7 +19,7 @@ io::SettingsTable output_settings() {
        .unit = "s",
        .fallback = "60 s",
        .range = io::positive(),
-       .doc = "Time on the clock between two checkpoints; the results do not depend on it.",
+       .doc = "Wall-clock time between two checkpoints; the results do not depend on it.",
        .matters = false},
       {.key = "output.trajectory_interval",
        .unit = "s",

@@ -42,7 +42,7 @@ double diameter_of(const io::CsvTable& table, std::size_t row, double tube_lengt
   const double least = 1e-6 * tube_length;
   const double value = positive(table, row, "diameter");
   if (value < least)
-    table.reject(row, "diameter", "is not a millionth of the length of the tube",
+    table.reject(row, "diameter", "is less than a millionth of the length of the tube",
                  fmt::format("give the diameter of the grain, at least {:.3g} m", least));
   return value;
 }

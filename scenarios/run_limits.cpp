@@ -14,9 +14,9 @@ io::SettingsTable run_limits_settings() {
        .unit = "1",
        .example = "10 %",
        .range = io::positive(),
-       .doc =
-           "Limit of the energy that comes or goes by errors of the time step, as a part of the "
-           "initial energy and the work of gravity and of moving walls. By default there is none."},
+       .doc = "Limit of the energy created or destroyed by errors of the time step, as a fraction "
+              "of the initial energy and the work of gravity and of moving walls. By default there "
+              "is none."},
       {.key = "limits.speed",
        .unit = "m/s",
        .example = "50 m/s",

@@ -68,7 +68,7 @@ io::SettingsTable size_settings() {
        .unit = "1",
        .fallback = "0.5",
        .range = io::between(0.0, 1.0),
-       .doc = "Part of the number of grains that is large; each grain is drawn for itself.",
+       .doc = "Fraction of grains (by number) that are large; each grain is drawn independently.",
        .only_when = of_two_sizes},
       {.key = file_key,
        .kind = io::Kind::path,

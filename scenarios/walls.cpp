@@ -25,7 +25,7 @@ constexpr auto amplitude_key = "wall.shake_amplitude", frequency_key = "wall.sha
 /// the one is 0.
 void reject_half_given(const io::Settings& settings, const char* given, const char* missing) {
   if (settings.given(given) && settings.number(given) != 0.0 && !settings.given(missing))
-    settings.reject(given, std::string("moves nothing without ") + missing,
+    settings.reject(given, std::string("has no effect without ") + missing,
                     std::string("give ") + missing + ", too, or remove both");
 }
 
@@ -93,17 +93,17 @@ io::SettingsTable wall_settings() {
        .unit = "m",
        .fallback = "0",
        .range = io::non_negative(),
-       .doc = "The walls shake, all alike: by this much to either side."},
+       .doc = "Amplitude of the shaking of the walls, to either side; all walls shake alike."},
       {.key = frequency_key,
        .unit = "1/s",
        .fallback = "0",
        .range = io::non_negative(),
-       .doc = "How often: the f of sin(2 pi f t)."},
+       .doc = "Frequency of the shaking, f in sin(2 pi f t)."},
       {.key = angle_key,
        .unit = "rad",
        .fallback = "0",
        .range = io::between(-0.5 * pi, 0.5 * pi),
-       .doc = "In which direction: 0 along the walls, 90 degrees across them."},
+       .doc = "Direction of the shaking: 0 along the walls, 90 degrees across them."},
   };
 }
 
@@ -181,7 +181,7 @@ void reject_fast_walls(const io::Settings& settings, const State& state) {
     const double periods = wall.motion.frequency * state.time_step;  // per step
     if (shaken > 0.0 && periods * fewest_steps > 1.0)
       settings.reject(frequency_key,
-                      fmt::format("has {:.3g} time steps in a period, which takes at least {:g}",
+                      fmt::format("gives {:.3g} time steps per period; at least {:g} are needed",
                                   1.0 / periods, fewest_steps),
                       fmt::format("choose at most {:.3g} 1/s, or more run.steps_per_collision",
                                   0.99 / (fewest_steps * state.time_step)));

@@ -144,7 +144,7 @@ class Interruption(CommandTest):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1, "--set", "run.duration=1 ms")
         process.stdout.close()
         process.wait(timeout=PATIENCE)
-        self.assertIn("nobody reads what is printed any more", process.stderr.read())
+        self.assertIn("the reader of the output has closed it", process.stderr.read())
         self.assertEqual(process.returncode, 1)
         self.assertTrue((self.out / "summary.json").exists())
 
@@ -243,7 +243,7 @@ class Interruption(CommandTest):
                     process.send_signal(number)
                     _, stderr = process.communicate(timeout=PATIENCE)
                     self.assertEqual(process.returncode, 128 + number, stderr)
-                    self.assertRegex(stderr, r"riesel: interrupted, [^\n]+; [^\n]+\n\Z")
+                    self.assertRegex(stderr, r"riesel: interrupted; [^\n]+\. [^\n]+\n\Z")
                     self.assertFalse(self.out.exists())
 
     def test_a_run_whose_lock_is_removed_ends_and_can_go_on(self):

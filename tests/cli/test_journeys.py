@@ -104,7 +104,7 @@ class Journeys(CommandTest):
             _, stderr = process.communicate(timeout=PATIENCE)
             interrupted = set() if stop is None else {-stop, HEEDED.get(stop, -stop)}
             self.interrupted += process.returncode in interrupted
-            by_limit = process.returncode == FAILED and "goes on from there with another limit" in stderr
+            by_limit = process.returncode == FAILED and "to go on from there, remove the limit" in stderr
             self.limited += by_limit
             ends = {0} | interrupted | ({FAILED} if by_limit else set())
             self.assertIn(process.returncode, ends, (arguments, stderr))

@@ -96,7 +96,7 @@ MISTAKES_IN_OVERRIDES = {
     "contact.damping=1e4": ["contact.", "damping", "restitution", "remove one"],
     "tube.tilt=20": ["must be from 0", "'20'", "did you mean '20 degrees'?"],
     "tube.tilt=20 deg": ["an angle", "write 'degrees'"],
-    "wall.shake_amplitude=1 mm": ["wall.shake_amplitude: moves nothing", "give wall.shake_frequency"],
+    "wall.shake_amplitude=1 mm": ["wall.shake_amplitude: has no effect", "give wall.shake_frequency"],
     "start.axial_velocity=1000 km/s": ["start.axial_velocity:", "too fast", "m/s"],
 }
 

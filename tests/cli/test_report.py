@@ -58,7 +58,7 @@ class FinishedRun(Report):
         temperature = summary["fluctuations"]["granular_temperature"]
         self.assertRegex(self.page.text, r"Mean axial velocity .* Granular temperature "
                          rf"{with_error(temperature)} m\^2/s\^2 \(68 % error bar\)\. State")
-        self.assertIn("too_short: 1 of 20 independent samples", self.page.text)
+        self.assertIn("too_short: only 1 of the 20 independent samples", self.page.text)
         self.assertIn(f"{summary['grains']} grains", self.page.text)
         self.assertIn(summary["state_hash"], self.page.text)
         self.assertIn(summary["validity"]["verdict"].capitalize() + ":", self.page.text)
@@ -396,7 +396,7 @@ class Refused(Report):
     def test_a_run_that_is_not_over(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
         (out / "summary.json").unlink()
-        self.assert_no_report("out", "has not come to its end", "riesel resume out")
+        self.assert_no_report("out", "its run has not finished", "riesel resume out")
         (out / "post_mortem.h5").touch()
         self.assert_no_report("out", "it failed", "out/post_mortem.h5", "if it has been resumed since",
                               "riesel resume out")

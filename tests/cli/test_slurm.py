@@ -168,7 +168,7 @@ class Submission(StandIns):
         self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
         before = self.riesel("status", "out").stdout
         self.stand_in("sbatch", "exit 1")
-        self.assert_failed(self.submit("--retry-failed"), "sbatch has not taken the job")
+        self.assert_failed(self.submit("--retry-failed"), "sbatch refused the job")
         self.assertEqual(self.riesel("status", "out").stdout, before)
 
 

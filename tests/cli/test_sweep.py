@@ -108,6 +108,9 @@ class Grid(SweepTest):
         self.assertIn("contact.restitution=0.9 contact.friction=0.4 start.axial_velocity=8 seed=5 "
                       "fast", result.stdout)
 
+    def test_one_point_is_told_as_one(self):
+        self.assertRegex(self.sweep(ONE_POINT, "out", "--dry-run").stdout, r"(?m)^1 point, 1 run, about ")
+
     def test_every_combination_is_the_run_that_it_names(self):
         self.sweep_to_end(GRID)
         rows = self.rows()

@@ -60,9 +60,9 @@ TEST_CASE("walls that shake too far or too fast are refused") {
 
 TEST_CASE("a shaking of which half is given is refused") {
   check_mentions(complaint(tube_yaml, {"wall.shake_amplitude=1 mm"}),
-                 {"wall.shake_amplitude: moves nothing", "give wall.shake_frequency, too"});
+                 {"wall.shake_amplitude: has no effect", "give wall.shake_frequency, too"});
   check_mentions(complaint(tube_yaml, {"wall.shake_frequency=50"}),
-                 {"wall.shake_frequency: moves nothing", "give wall.shake_amplitude, too"});
+                 {"wall.shake_frequency: has no effect", "give wall.shake_amplitude, too"});
   CHECK(complaint(tube_yaml, shaken({"wall.shake_amplitude=0"})) == "accepted");
 }
 
@@ -73,8 +73,8 @@ TEST_CASE("shaking that time steps do not resolve is refused") {
                                  "wall.shake_frequency=" + std::to_string(1.0 / (steps * dt))});
   };
   CHECK(steps_per_period(20.3) == "accepted");
-  check_mentions(steps_per_period(19.7), {"19.7 time steps in a period"});
-  check_mentions(steps_per_period(2.0), {"wall.shake_frequency", "2 time steps in a period"});
+  check_mentions(steps_per_period(19.7), {"19.7 time steps per period"});
+  check_mentions(steps_per_period(2.0), {"wall.shake_frequency", "2 time steps per period"});
 }
 
 TEST_CASE("rows in step with the shaking, which see it in few phases, are refused") {
@@ -172,6 +172,7 @@ TEST_CASE("a run between shaken walls goes on where they were") {
   if (angle == "90 degrees") CHECK(complaint(tube_yaml, as_far) == "accepted");
   Overrides other = shaken(continued);
   other.emplace_back("wall.shake_amplitude=0.3 mm");
-  check_mentions(complaint(tube_yaml, other),
-                 {"wall.shake_amplitude", "swings the walls across by", "to be continued by"});
+  check_mentions(
+      complaint(tube_yaml, other),
+      {"wall.shake_amplitude", "shakes the walls across with amplitude", "to be continued with"});
 }
