@@ -52,7 +52,7 @@ RunLength run_length(const io::Settings& settings) {
   const bool until = settings.has(error_key) || settings.has(limit_key);
   if (until && settings.has(duration_key))
     settings.reject(
-        duration_key, "excludes run.until, and both are given",
+        duration_key, "cannot be given together with run.until",
         "remove one of the two: on the command line by --set run.duration= or --set run.until=, in "
         "a sweep file by 'run.duration:' without a value, below 'set:'");
   if (until) return until_precise(settings);

@@ -209,7 +209,7 @@ class UntilInPieces(UntilTest):
         self.resume_to_end(out, *INSTEAD)
         self.assert_same_result(whole, out)
         result = self.riesel("resume", out, "--set", "run.duration=4 s")
-        self.assert_refused(result, "run.duration: excludes run.until", "--set run.until=")
+        self.assert_refused(result, "run.duration: cannot be given together with run.until", "--set run.until=")
         self.resume_to_end(out, "--set", "run.until=",
                            "--set", "run.duration=1.5 s")
         self.assertEqual(self.end_of(out)[0], "duration")
@@ -253,8 +253,8 @@ class UntilMistakes(CommandTest):
 
     MISTAKES = {
         "{duration: 1 s, until: {relative_error: 1 %, at_most: 2 s}}":
-            ["6:7: run.duration: excludes run.until", "remove one"],
-        "{duration: 1 s, until: {at_most: 2 s}}": ["6:7: run.duration: excludes run.until"],
+            ["6:7: run.duration: cannot be given together with run.until", "remove one"],
+        "{duration: 1 s, until: {at_most: 2 s}}": ["6:7: run.duration: cannot be given together with run.until"],
         "{until: {relative_error: 1 %}}": ["6:7: run.until.at_most: is missing", "'20 s'"],
         "{until: {at_most: 2 s}}": ["6:7: run.until.relative_error: is missing", "'1 %'"],
         "{until: {}}": ["run.duration: is missing", "run.until"],
@@ -279,4 +279,4 @@ class UntilMistakes(CommandTest):
     def test_a_shipped_file_takes_a_precision_instead_of_its_duration(self):
         self.assert_done(self.riesel("check", SHIPPED / "periodic_tube.yaml", *INSTEAD))
         self.assert_refused(self.riesel("check", SHIPPED / "periodic_tube.yaml", *INSTEAD[2:]),
-                            "run.duration: excludes run.until", "--set run.duration=")
+                            "run.duration: cannot be given together with run.until", "--set run.duration=")
