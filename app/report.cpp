@@ -83,7 +83,7 @@ Report report_of(const io::ColumnSummary& summary, const std::string& effective_
 
 Report report_of_run(const fs::path& directory) {
   const io::Summary summary = io::read_summary(directory / io::summary_name);
-  const std::string settings = io::read_settings_text(directory / io::effective_settings_name);
+  const std::string settings = io::read_kept_text(directory / io::effective_settings_name);
   return std::visit(
       [&](const auto& known) { return report_of(known, settings, directory / io::run_file_name); },
       summary);
@@ -107,7 +107,7 @@ SweepResult result_of(const io::ManifestPoint& point, const fs::path& sweep) {
 Report report_of_sweep(const fs::path& directory) {
   SweepRecord record{.manifest = io::read_manifest(directory),
                      .results = {},
-                     .sweep_file = io::read_settings_text(directory / sweep_file_name)};
+                     .sweep_file = io::read_kept_text(directory / sweep_file_name)};
   refresh(record.manifest, directory);
   for (const io::ManifestPoint& point : record.manifest.points)
     record.results.push_back(result_of(point, directory));
