@@ -30,6 +30,9 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path))
     throw UnusableInput(path.string() + ": does not exist; check the path");
   const auto post_mortem = path / post_mortem_name;
+  const auto holder = io::DirectoryLock::holder(path);
+  if (holder && stopped_before_checkpoint(path))
+    throw UnusableInput(path.string() + ": is in use by " + *holder + "; wait until that ends");
   if (stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "

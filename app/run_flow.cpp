@@ -122,7 +122,7 @@ private:
 
   /// Prepares the directory of a run that goes on.
   void take_up_directory() {
-    files_.directory().go_on(settings_);
+    files_.directory().go_on(settings_, is_over());
     if (!is_over() || past_.had_other_settings) files_.directory().drop_report();
   }
 
