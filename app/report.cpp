@@ -114,6 +114,7 @@ Report report_of_sweep(const fs::path& directory) {
                      .results = {},
                      .sweep_file = io::read_kept_text(directory / sweep_file_name)};
   refresh(record.manifest, directory);
+  note_misplaced(record.manifest, directory);
   for (const io::ManifestPoint& point : record.manifest.points)
     record.results.push_back(result_of(point, directory));
   if (std::ranges::none_of(record.results, [](const auto& r) { return r.summary.has_value(); }))

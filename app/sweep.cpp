@@ -190,8 +190,9 @@ int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryL
                                  .max_walltime = options.max_walltime,
                                  .prolongation = prolongation,
                                  .on_change = write_manifest});
-  write_table(manifest, sweep);
+  const bool all_taken = write_table(manifest, sweep);
   print_status(manifest, sweep);
+  if (status == exit_done && !all_taken) return exit_failed;
   if (status > exit_bad_input) tell("interrupted; the same command goes on from there\n");
   return status;
 }

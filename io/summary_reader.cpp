@@ -1,8 +1,10 @@
 #include "io/summary_reader.hpp"
 
 #include "io/build_info.hpp"
+#include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "io/json_file.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/format.h>
 
@@ -220,11 +222,19 @@ void require_this_format(const std::filesystem::path& path, const Json& json) {
 
 }  // namespace
 
+std::string remedy_for_summary(const std::filesystem::path& path) {
+  const auto directory = path.parent_path();
+  if (!std::filesystem::exists(directory / checkpoint_name))
+    return "restore the file, or make the run again";
+  return "restore the file, or make it anew by 'riesel resume " + in_quotes(directory.string())
+         + "'";
+}
+
 Summary read_summary(const std::filesystem::path& path) {
   const auto json = read_json(path, "give the directory of a run that is over");
   require_this_format(path, json);
   if (json.is_discarded())
-    throw FileError(path, "is damaged (it is no JSON)", "restore the file, or make the run again");
+    throw FileError(path, "is damaged (it is no JSON)", remedy_for_summary(path));
   try {
     if (json.contains("curve")) return read_curve(json);
     if (json.contains("column")) return read_column(json);
@@ -235,8 +245,7 @@ Summary read_summary(const std::filesystem::path& path) {
     if (!version.empty() && version != build_info().version)
       throw of_another_version(
           path, fmt::format("does not fit this version of riesel ({})", flaw_of(error)), version);
-    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)),
-                    "restore the file, or make the run again");
+    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)), remedy_for_summary(path));
   }
 }
 
