@@ -31,7 +31,7 @@ void reject_threads(const std::vector<std::string>& overrides) {
 }
 
 void reject_continuation(const io::Manifest& manifest, const fs::path& sweep) {
-  if (std::ranges::any_of(manifest.points, [](auto& point) { return !point.parent.empty(); }))
+  if (has_chains(manifest))
     throw UnusableInput(sweep.string()
                         + ": its runs start from each other's ends and cannot go on; make a sweep "
                           "with a longer run.duration");
