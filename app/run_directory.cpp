@@ -8,12 +8,15 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
+#include "io/settings_text.hpp"
 #include "io/summary.hpp"
 #include "io/sweep_manifest.hpp"
 #include "io/trajectory_file.hpp"
 #include "io/whole_file.hpp"
 
+#include <optional>
 #include <string_view>
+#include <utility>
 
 namespace riesel::app {
 
@@ -111,24 +114,38 @@ RunDirectory RunDirectory::reopen(const fs::path& path) {
   return {path, io::Signature::later};
 }
 
-void RunDirectory::go_on(const io::Settings& settings, bool is_over) const {
+std::optional<std::string> RunDirectory::go_on(const io::Settings& settings, bool is_over) const {
   lock_->sign();
   const std::string text = text_of(settings);
   const fs::path settings_file = file(io::effective_settings_name);
-  const bool same_settings = io::beginning_of(settings_file, text.size() + 1) == text;
-  if (is_over && same_settings) return;
+  std::string before = io::beginning_of(settings_file, io::largest_settings_text);
+  if (is_over && before == text) return {};
   // The result first, so that it never stands beside settings that are not its own.
   const fs::path summary = file(io::summary_name);
   std::error_code error;
   fs::rename(summary, io::previous_generation(summary), error);
   if (error && error != std::errc::no_such_file_or_directory)
     throw io::system_failure(summary, "cannot be set aside", error.value());
+  const bool had_result = !error;
   try {
     io::write_durably(settings_file, text);
   } catch (const io::FileError&) {
-    fs::rename(io::previous_generation(summary), summary, error);  // if there was one
+    if (had_result) go_back(before);
     throw;
   }
+  return had_result ? std::optional(std::move(before)) : std::nullopt;
+}
+
+void RunDirectory::go_back(const std::string& settings_before) const {
+  const fs::path settings = file(io::effective_settings_name), summary = file(io::summary_name);
+  try {
+    const bool same = io::beginning_of(settings, io::largest_settings_text) == settings_before;
+    if (!same) io::write_durably(settings, settings_before);
+  } catch (const io::FileError&) {
+    return;  // the result must not stand beside settings that are not its own
+  }
+  std::error_code ignored;  // what made the run fail is told
+  fs::rename(io::previous_generation(summary), summary, ignored);
 }
 
 void RunDirectory::drop_report() const {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,12 @@ public:
   static RunDirectory reopen(const std::filesystem::path& path);
   /// Prepares the directory for a run that goes on: renames its result, summary.json, to
   /// summary.json.previous, then writes effective.yaml anew, as settings may have changed. Does
-  /// neither if the run `is_over` and the settings are the same. Throws io::FileError; the result
-  /// is in its place then.
-  void go_on(const io::Settings& settings, bool is_over) const;
+  /// neither if the run `is_over` and the settings are the same. Returns the text of effective.yaml
+  /// before, for go_back(), if there was a result. Throws io::FileError; the result is in its place
+  /// then.
+  std::optional<std::string> go_on(const io::Settings& settings, bool is_over) const;
+  /// Undoes go_on() if nothing has been saved since: the result and its settings count again.
+  void go_back(const std::string& settings_before) const;
   /// Removes the report, which is out of date once the run has gone on, if it is riesel's.
   void drop_report() const;
   /// Writes summary.json and removes its previous version. Throws io::FileError.

@@ -1,6 +1,7 @@
 """Going on with a run: to a longer duration, from whatever checkpoint is whole, and only as the run
 that it was."""
 
+import functools
 import resource
 import shutil
 import subprocess
@@ -18,10 +19,6 @@ def settings_of(checkpoint):
             return file["settings"][()].decode()
     except OSError:
         return ""
-
-
-def no_files_any_more():
-    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
 
 
 class Resume(CommandTest):
@@ -111,11 +108,14 @@ class Resume(CommandTest):
     def test_a_result_outlives_a_resume_that_cannot_write(self):
         out = self.run_small_tube("out")
         before = bytes_of_files(out)
-        for change in ([], ["--set", "run.duration=6 ms"]):
-            with self.subTest(change):
+        # The second limit lets the settings through, but neither run.h5 nor a checkpoint.
+        longer = ["--set", "run.duration=6 ms"]
+        for change, size in ([], 0), (longer, 0), (longer, 8000):
+            with self.subTest(change, size=size):
                 result = subprocess.run([COMMAND, "resume", "out", *change], cwd=self.home,
                                         capture_output=True, text=True, check=False,
-                                        preexec_fn=no_files_any_more)
+                                        preexec_fn=functools.partial(
+                                            resource.setrlimit, resource.RLIMIT_FSIZE, (size, size)))
                 self.assert_failed(result, "raise the limit on the size of files")
                 self.assertEqual(bytes_of_files(out) | {".lock": before[".lock"]}, before)
                 self.assert_done(self.riesel("report", out))
