@@ -209,9 +209,9 @@ public:
     fs::remove(aside, error);
     fs::copy_file(path_, aside, error);
     if (error) {
-      const auto failure = system_failure(path_, "cannot be copied", error.value());
+      const int error_number = error.value();
       fs::remove(aside, error);
-      throw failure;
+      throw system_failure(path_, "cannot be copied", error_number);
     }
     Descriptor(aside, O_RDWR, path_).sync();
     fs::rename(aside, path_);
