@@ -59,8 +59,9 @@ pid_t start(std::vector<std::string> arguments, const std::filesystem::path& log
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
 
+  // O_NONBLOCK, because a plain open() would wait for the reader of a pipe.
   const int descriptor =
-      open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
+      open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (descriptor < 0) throw io::system_failure(log, "cannot be written", errno);
   const pid_t parent = getpid();
   const SignalsHeldBack signals;

@@ -219,7 +219,7 @@ private:
         program_.add_subcommand("sweep-task", "Run one point of a sweep, for a batch system");
     task->add_option("DIR", task_.directory, "Directory of the sweep, see sweep --prepare");
     CLI::Option* index = task->add_option("INDEX", task_.index, "The point, counted from 0")
-                             ->check(CLI::NonNegativeNumber);
+                             ->check(CLI::Range(std::size_t{0}, most_tasks - 1));
     task->add_option("--of", task_.parts, "Split the sweep into this many parts; INDEX is the part")
         ->check(CLI::Range(std::size_t{1}, most_tasks));
     task->add_option("--threads", task_.threads, "Threads [as many as cores]")

@@ -33,13 +33,16 @@ std::string coordinates_of(const io::ManifestPoint& point, const io::Manifest& m
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-/// s: the time of all runs divided by the jobs, or that of the longest chain if it is longer.
-double seconds_left(const io::Manifest& manifest, int jobs) {
+/// s: the time of all runs divided by the jobs, or that of the longest chain if it is longer. What
+/// has failed is run only if it is to be tried again.
+double seconds_left(const io::Manifest& manifest, int jobs, bool retry_failed) {
   std::map<std::string, double> until_end;  // s, of a run together with those it waits for
   double all = 0.0, longest = 0.0;
   for (const io::ManifestPoint& point : manifest.points) {
     if (until_end.contains(point.name)) continue;
-    const double seconds = has_status(point, RunStatus::done) ? 0.0 : point.expected_seconds;
+    const bool is_over = has_status(point, RunStatus::done)
+                         || (has_status(point, RunStatus::failed) && !retry_failed);
+    const double seconds = is_over ? 0.0 : point.expected_seconds;
     const double before = point.parent.empty() ? 0.0 : until_end[point.parent];
     until_end[point.name] = before + seconds;
     all += seconds;
@@ -68,7 +71,8 @@ void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& s
 
 }  // namespace
 
-void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep, int jobs) {
+void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep, int jobs,
+                bool retry_failed) {
   std::set<std::string> runs;
   std::size_t index = 0;
   for (const io::ManifestPoint& point : manifest.points) {
@@ -79,7 +83,7 @@ void print_plan(const io::Manifest& manifest, const std::filesystem::path& sweep
   }
   fmt::print("{}, {}, about {} with {} side by side\n",
              so_many(std::ssize(manifest.points), "point"), so_many(std::ssize(runs), "run"),
-             readable_time(seconds_left(manifest, jobs)), so_many(jobs, "run"));
+             readable_time(seconds_left(manifest, jobs, retry_failed)), so_many(jobs, "run"));
 }
 
 void print_status(const io::Manifest& manifest, const std::filesystem::path& sweep) {
@@ -97,8 +101,8 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
       fmt::print("  {} {} ({}): {}\n", point.name, point.status, coordinates_of(point, manifest),
                  point.reason);
   if (counts[to_string(RunStatus::failed)] > 0)
-    fmt::print("  to run the failed points again (with changes by --set, if any): '{} "
-               "--retry-failed'\n",
+    fmt::print("  to run the failed points again{}: '{} --retry-failed'\n",
+               has_chains(manifest) ? "" : " (with changes by --set, if any)",
                call_of("sweep", sweep));
   if (std::filesystem::exists(sweep / io::sweep_csv_name))
     fmt::print("  table in {}/{} and {}\n", sweep.string(), io::sweep_csv_name, io::sweep_h5_name);

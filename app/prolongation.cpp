@@ -31,7 +31,7 @@ void reject_threads(const std::vector<std::string>& overrides) {
 }
 
 void reject_continuation(const io::Manifest& manifest, const fs::path& sweep) {
-  if (std::ranges::any_of(manifest.points, [](auto& point) { return !point.parent.empty(); }))
+  if (has_chains(manifest))
     throw UnusableInput(sweep.string()
                         + ": its runs start from each other's ends and cannot go on; make a sweep "
                           "with a longer run.duration");
@@ -55,11 +55,15 @@ std::optional<io::FlowSummary> result_of(const fs::path& point) {
   return {};
 }
 
+io::Settings kept_settings(const fs::path& file) {
+  return io::Settings::from_text(io::read_kept_text(file), file.string(),
+                                 scenarios::settings_tables());
+}
+
 /// The length that the run was to have when it ended; nothing if its settings cannot be read.
 std::optional<scenarios::RunLength> length_of(const fs::path& point) {
   try {
-    return scenarios::run_length(
-        io::Settings::from_file(point / io::effective_settings_name, scenarios::settings_tables()));
+    return scenarios::run_length(kept_settings(point / io::effective_settings_name));
   } catch (const io::SettingsError&) {
     return {};
   }
@@ -84,15 +88,14 @@ Prolongation::Prolongation(const io::Manifest& manifest, const fs::path& sweep,
   reject_overrides_of_the_physics(overrides_);
   reject_threads(overrides_);
   reject_continuation(manifest, sweep);
-  const io::SettingsTables& tables = scenarios::settings_tables();
   for (const io::ManifestPoint& point : manifest.points) {
     if (!names.empty() && std::ranges::find(names, point.name) == names.end()) continue;
     const fs::path file = point_directory(sweep, point.name) / point_settings_name;
-    const io::Settings planned = io::Settings::from_file(file, tables);
+    const io::Settings planned = kept_settings(file);
     reject_without_length(planned, sweep);
     goals_[point.name] = {.planned = scenarios::run_length(planned).at_most,
                           .wanted = scenarios::run_length(resumed_settings(
-                              io::read_settings_text(file), file.string(), overrides_))};
+                              io::read_kept_text(file), file.string(), overrides_))};
   }
 }
 

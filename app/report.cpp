@@ -29,15 +29,20 @@ namespace fs = std::filesystem;
 
 constexpr auto figures_name = "figures";
 
+/// What to do about a run without a result.
+std::string way_on_with(const fs::path& directory) {
+  if (io::DirectoryLock::is_held(directory)) return "wait until it has";
+  if (has_checkpoint(directory)) return "go on with it by '" + call_of("resume", directory) + "'";
+  return "as it has no checkpoint to go on from, remove it and start the run again";
+}
+
 void require_finished_run(const fs::path& directory) {
   if (!fs::exists(directory / io::run_file_name))
     throw UnusableInput(directory.string()
                         + ": holds no run and no sweep; give the directory of one (see '"
                         + call_of("run") + "' and '" + call_of("sweep") + "')");
   if (fs::exists(directory / io::summary_name)) return;
-  const std::string way_on = io::DirectoryLock::is_held(directory)
-                                 ? "wait until it has"
-                                 : "go on with it by '" + call_of("resume", directory) + "'";
+  const std::string way_on = way_on_with(directory);
   const std::string no_end = directory.string() + ": its run has not finished; ";
   if (!fs::exists(directory / post_mortem_name)) throw UnusableInput(no_end + way_on);
   // The failure may be an old one: the run may have been resumed since, and stopped again.
@@ -83,7 +88,7 @@ Report report_of(const io::ColumnSummary& summary, const std::string& effective_
 
 Report report_of_run(const fs::path& directory) {
   const io::Summary summary = io::read_summary(directory / io::summary_name);
-  const std::string settings = io::read_settings_text(directory / io::effective_settings_name);
+  const std::string settings = io::read_kept_text(directory / io::effective_settings_name);
   return std::visit(
       [&](const auto& known) { return report_of(known, settings, directory / io::run_file_name); },
       summary);
@@ -107,8 +112,9 @@ SweepResult result_of(const io::ManifestPoint& point, const fs::path& sweep) {
 Report report_of_sweep(const fs::path& directory) {
   SweepRecord record{.manifest = io::read_manifest(directory),
                      .results = {},
-                     .sweep_file = io::read_settings_text(directory / sweep_file_name)};
+                     .sweep_file = io::read_kept_text(directory / sweep_file_name)};
   refresh(record.manifest, directory);
+  note_misplaced(record.manifest, directory);
   for (const io::ManifestPoint& point : record.manifest.points)
     record.results.push_back(result_of(point, directory));
   if (std::ranges::none_of(record.results, [](const auto& r) { return r.summary.has_value(); }))
@@ -117,10 +123,29 @@ Report report_of_sweep(const fs::path& directory) {
   return make_report(record);
 }
 
-/// Removes the figures of an earlier report that this one does not have.
+fs::path file_of(const ReportFigure& figure, const fs::path& figures) {
+  return figures / (figure.name + ".svg");
+}
+
+/// Throws UnusableInput if a file that riesel has not written would be overwritten.
+void reject_files_of_others(const Report& report, const fs::path& directory) {
+  const auto reject = [](const fs::path& file) {
+    throw UnusableInput(file.string()
+                        + ": was not written by riesel, and would be overwritten; rename it");
+  };
+  const fs::path page = directory / report_name;
+  if (fs::exists(page) && !is_own_report(page)) reject(page);
+  for (const ReportFigure& figure : report.figures) {
+    const fs::path file = file_of(figure, directory / figures_name);
+    if (fs::exists(file) && !is_own_drawing(file)) reject(file);
+  }
+}
+
+/// Removes the figures of an earlier report that this one does not have. Others stay.
 void remove_other_figures(const Report& report, const fs::path& figures) {
   for (const auto& entry : fs::directory_iterator(figures)) {
-    const bool is_figure = entry.is_regular_file() && entry.path().extension() == ".svg";
+    const bool is_figure = entry.is_regular_file() && !entry.is_symlink()
+                           && entry.path().extension() == ".svg" && is_own_drawing(entry.path());
     if (is_figure
         && std::ranges::find(report.figures, entry.path().stem().string(), &ReportFigure::name)
                == report.figures.end())
@@ -134,10 +159,11 @@ void write(const Report& report, const fs::path& directory) {
   std::error_code error;
   if (fs::is_symlink(figures, error))
     throw io::FileError(figures, "is a link to another place", "remove it");
+  reject_files_of_others(report, directory);
   fs::create_directories(figures, error);
   if (error) throw io::system_failure(figures, "cannot be made", error.value());
   for (const ReportFigure& figure : report.figures)
-    io::write_durably(figures / (figure.name + ".svg"), figure.svg.file());
+    io::write_durably(file_of(figure, figures), figure.svg.file());
   remove_other_figures(report, figures);
   io::write_durably(directory / report_name, report.page);
 }

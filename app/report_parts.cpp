@@ -1,11 +1,31 @@
 #include "app/report_parts.hpp"
 
+#include "io/whole_file.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace riesel::app {
+
+namespace {
+
+bool contains_mark(const std::filesystem::path& file, std::string_view mark) {
+  constexpr std::uint64_t most_before_mark = 1000;  // bytes
+  return io::beginning_of(file, most_before_mark).find(mark) != std::string::npos;
+}
+
+}  // namespace
+
+bool is_own_report(const std::filesystem::path& page) {
+  return contains_mark(page, io::mark_of_pages);
+}
+
+bool is_own_drawing(const std::filesystem::path& file) {
+  return contains_mark(file, io::mark_of_drawings);
+}
 
 void ReportDraft::add_figure(const std::string& name, const io::Svg& svg,
                              std::string_view caption) {

@@ -9,6 +9,7 @@
 #include "io/svg.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,11 @@ namespace riesel::app {
 
 /// The page, in the directory of its run or sweep.
 inline constexpr auto report_name = "report.html";
+
+/// Whether it is a page that riesel has written, and not a file of that name by the user.
+bool is_own_report(const std::filesystem::path& page);
+/// The same of a figure.
+bool is_own_drawing(const std::filesystem::path& file);
 
 // How figures look.
 inline constexpr double figure_width = 760.0, tall_figure = 420.0;  ///< px

@@ -31,6 +31,9 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path))
     throw UnusableInput(path.string() + ": does not exist; check the path");
   const auto post_mortem = path / post_mortem_name;
+  const auto holder = io::DirectoryLock::holder(path);
+  if (holder && stopped_before_checkpoint(path))
+    throw UnusableInput(path.string() + ": is in use by " + *holder + "; wait until that ends");
   if (stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "
@@ -51,6 +54,29 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
           "(curves of impacts and columns of beads are not resumed: run them again)");
 }
 
+/// Whether it is one of the two generations between which a run that goes on may choose.
+bool is_own_generation(const std::filesystem::path& checkpoint) {
+  const auto name = checkpoint.filename();
+  return name == io::checkpoint_name || name == io::previous_generation(io::checkpoint_name);
+}
+
+/// Throws UnusableInput for a copy of an earlier checkpoint in a directory whose run has gone on
+/// since: going on from there would put the later result out of the way.
+void reject_what_the_run_has_passed(const io::FoundCheckpoint& found,
+                                    const std::filesystem::path& home) {
+  if (is_own_generation(found.path) || !has_checkpoint(home)) return;
+  try {
+    const io::Checkpoint own = io::find_checkpoint(home).checkpoint;
+    if (own.run != found.checkpoint.run || own.state.step <= found.checkpoint.state.step) return;
+    throw UnusableInput(fmt::format("{}: is at {:.6g} s, and the run in {} has come to {:.6g} s "
+                                    "already; to go back, copy the directory, and put this file in "
+                                    "the place of {} there",
+                                    found.path.string(), found.checkpoint.state.time(),
+                                    home.string(), own.state.time(), io::checkpoint_name));
+  } catch (const io::FileError&) {  // there is nothing to go on from but the file that was given
+  }
+}
+
 std::filesystem::path home_of(const std::filesystem::path& checkpoint) {
   return std::filesystem::is_directory(checkpoint)
              ? checkpoint
@@ -65,6 +91,7 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   // From here on the directory is locked, so that no other process changes what is read.
   RunDirectory directory = RunDirectory::reopen(home_of(options.checkpoint));
   io::FoundCheckpoint found = as_input([&] { return io::find_checkpoint(options.checkpoint); });
+  reject_what_the_run_has_passed(found, directory.path());
   if (!found.note.empty()) tell("riesel: {}; going on from {}\n", found.note, found.path.string());
 
   const io::Settings settings =

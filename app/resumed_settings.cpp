@@ -10,15 +10,15 @@
 
 namespace riesel::app {
 
-namespace {
-
-/// Names of keys, and of sections of which all keys may change.
 bool may_change(const std::string& key) {
+  // Names of keys, and of sections of which all keys may change.
   static const std::set<std::string> names = {"run.duration", "run.until",
                                               "run.threads",  "run.stepping",
                                               "limits",       "output.checkpoint_interval"};
   return names.contains(key) || names.contains(io::section_of(key));
 }
+
+namespace {
 
 /// Whether any scenario has it. If none has, the error comes when the settings are read.
 bool is_known(const std::string& key) {

@@ -8,6 +8,9 @@
 
 namespace riesel::app {
 
+/// Whether a setting may change.
+bool may_change(const std::string& key);
+
 /// `overrides`: "key=value". Throws io::SettingsError for a setting that may not change.
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides);
 

@@ -2,9 +2,15 @@
 #include "app/run_column.hpp"
 #include "app/run_curve.hpp"
 #include "app/run_flow.hpp"
+#include "io/summary.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 namespace riesel::app {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -18,6 +24,15 @@ void reject_flow_options(const FlowOptions& options, const std::string& scenario
                         + ", which is no flow; remove it");
 }
 
+/// Also if the file is as riesel writes it, as the results would be written over it.
+void reject_place_of_input(const fs::path& file, const fs::path& place) {
+  std::error_code ignored;
+  if (fs::equivalent(file, place / io::effective_settings_name, ignored))
+    throw UnusableInput(file.string()
+                        + ": would be overwritten, as the results have a file of this name; "
+                          "rename it, or choose another directory with --out");
+}
+
 }  // namespace
 
 int run(const RunOptions& options, const Arguments& arguments) {
@@ -26,8 +41,10 @@ int run(const RunOptions& options, const Arguments& arguments) {
   scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
   if (!std::holds_alternative<scenarios::Flow>(problem))
     reject_flow_options(options.flow, settings.scenario());
-  RunDirectory directory =
-      RunDirectory::create(options.directory.value_or("runs" / options.file.stem()), settings);
+  const fs::path place =
+      options.directory ? *options.directory : place_named_after(options.file, "runs");
+  reject_place_of_input(options.file, place);
+  RunDirectory directory = RunDirectory::create(place, settings);
 
   if (auto* flow = std::get_if<scenarios::Flow>(&problem))
     return run_flow(settings, std::move(*flow), std::move(directory), arguments, options.flow);

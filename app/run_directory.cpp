@@ -8,33 +8,67 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
+#include "io/settings_text.hpp"
 #include "io/summary.hpp"
 #include "io/sweep_manifest.hpp"
 #include "io/trajectory_file.hpp"
+#include "io/whole_file.hpp"
+
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace riesel::app {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// How effective.yaml begins.
+constexpr std::string_view settings_mark = "# Written by riesel ";
+
+std::string text_of(const io::Settings& settings) {
+  return "# Written by " + written_by() + ".\n" + settings.effective_yaml();
+}
+
+}  // namespace
+
+fs::path place_named_after(const fs::path& file, const fs::path& parent) {
+  const fs::path name = file.stem();
+  if (name == "." || name == "..")
+    throw UnusableInput(file.string() + ": has no name that a directory for the results could have"
+                        + "; choose one with --out");
+  return parent / name;
+}
 
 bool has_checkpoint(const fs::path& directory) {
   const fs::path checkpoint = directory / io::checkpoint_name;
   return fs::exists(checkpoint) || fs::exists(io::previous_generation(checkpoint));
 }
 
+bool holds_own_settings(const fs::path& directory) {
+  return io::beginning_of(directory / io::effective_settings_name, settings_mark.size())
+         == settings_mark;
+}
+
 bool stopped_before_checkpoint(const fs::path& directory) {
-  return fs::exists(directory / io::effective_settings_name) && !has_checkpoint(directory)
+  return holds_own_settings(directory) && !has_checkpoint(directory)
          && !fs::exists(directory / io::summary_name);
 }
 
 RunDirectory::RunDirectory(const fs::path& path, io::Signature signature)
     : path_(path), lock_(std::make_unique<io::DirectoryLock>(path, signature)) {}
 
-void RunDirectory::write_settings(const io::Settings& settings) const {
-  io::write_durably(file(io::effective_settings_name),
-                    "# Written by " + written_by() + ".\n" + settings.effective_yaml());
-}
-
 namespace {
+
+/// Of a run that has not come to its first checkpoint yet, nothing but its lock tells that it goes
+/// on.
+void reject_run_that_begins(const fs::path& path) {
+  if (!stopped_before_checkpoint(path)) return;
+  if (const auto holder = io::DirectoryLock::holder(path))
+    throw UnusableInput(path.string() + ": is in use by " + *holder
+                        + "; wait until that ends, or choose another directory with --out");
+}
 
 void reject_directory_in_use(const fs::path& path) {
   if (fs::exists(path) && !fs::is_directory(path))
@@ -43,6 +77,7 @@ void reject_directory_in_use(const fs::path& path) {
     throw UnusableInput(path.string() + ": holds a sweep; choose another directory with --out");
   const bool holds_run = fs::exists(path / io::run_file_name)
                          || fs::exists(path / io::trajectory_name)
+                         || fs::exists(path / io::trajectory_index_name)
                          || fs::exists(path / io::summary_name) || has_checkpoint(path);
   if (holds_run && stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
@@ -53,16 +88,22 @@ void reject_directory_in_use(const fs::path& path) {
                         + (has_checkpoint(path)
                                ? ", or go on with that run by '" + call_of("resume", path) + "'"
                                : ""));
+  const fs::path settings = path / io::effective_settings_name;
+  if (fs::exists(settings) && !holds_own_settings(path))
+    throw UnusableInput(settings.string()
+                        + ": was not written by riesel, and would be overwritten; move it away, "
+                          "or choose another directory with --out");
 }
 
 }  // namespace
 
 RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
+  reject_run_that_begins(path);
   reject_directory_in_use(path);
   io::make_directories(path);
   RunDirectory directory(path, io::Signature::now);
   reject_directory_in_use(path);  // again: before it was locked, another run may have begun in it
-  directory.write_settings(settings);
+  io::write_durably(directory.file(io::effective_settings_name), text_of(settings));
   return directory;
 }
 
@@ -73,18 +114,42 @@ RunDirectory RunDirectory::reopen(const fs::path& path) {
   return {path, io::Signature::later};
 }
 
-void RunDirectory::go_on(const io::Settings& settings) const {
+std::optional<std::string> RunDirectory::go_on(const io::Settings& settings, bool is_over) const {
   lock_->sign();
+  const std::string text = text_of(settings);
+  const fs::path settings_file = file(io::effective_settings_name);
+  std::string before = io::beginning_of(settings_file, io::largest_settings_text);
+  if (is_over && before == text) return {};
   // The result first, so that it never stands beside settings that are not its own.
   const fs::path summary = file(io::summary_name);
   std::error_code error;
   fs::rename(summary, io::previous_generation(summary), error);
   if (error && error != std::errc::no_such_file_or_directory)
     throw io::system_failure(summary, "cannot be set aside", error.value());
-  write_settings(settings);
+  const bool had_result = !error;
+  try {
+    io::write_durably(settings_file, text);
+  } catch (const io::FileError&) {
+    if (had_result) go_back(before);
+    throw;
+  }
+  return had_result ? std::optional(std::move(before)) : std::nullopt;
+}
+
+void RunDirectory::go_back(const std::string& settings_before) const {
+  const fs::path settings = file(io::effective_settings_name), summary = file(io::summary_name);
+  try {
+    const bool same = io::beginning_of(settings, io::largest_settings_text) == settings_before;
+    if (!same) io::write_durably(settings, settings_before);
+  } catch (const io::FileError&) {
+    return;  // the result must not stand beside settings that are not its own
+  }
+  std::error_code ignored;  // what made the run fail is told
+  fs::rename(io::previous_generation(summary), summary, ignored);
 }
 
 void RunDirectory::drop_report() const {
+  if (!is_own_report(file(report_name))) return;
   std::error_code ignored;  // an old report that stays does no harm to results
   fs::remove(file(report_name), ignored);
 }

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,16 @@ using Arguments = std::vector<std::string>;
 /// The last state of a run that failed, as a checkpoint.
 inline constexpr auto post_mortem_name = "post_mortem.h5";
 
+/// Where results go without --out: the directory PARENT/NAME for the file NAME.yaml. Throws
+/// UnusableInput for a name that would lead elsewhere ("..yaml").
+std::filesystem::path place_named_after(const std::filesystem::path& file,
+                                        const std::filesystem::path& parent);
+
 /// Whether there is a checkpoint of either generation, the current or the previous one.
 bool has_checkpoint(const std::filesystem::path& directory);
+
+/// Whether it holds effective.yaml as riesel writes it, and not a file of that name by the user.
+bool holds_own_settings(const std::filesystem::path& directory);
 
 /// Whether it holds a run that has begun, but has neither a checkpoint nor a result.
 bool stopped_before_checkpoint(const std::filesystem::path& directory);
@@ -26,16 +35,20 @@ bool stopped_before_checkpoint(const std::filesystem::path& directory);
 class RunDirectory {
 public:
   /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run or a
-  /// sweep in it already, io::FileError if it cannot be written.
+  /// sweep in it already, or another effective.yaml, io::FileError if it cannot be written.
   static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
   /// The directory of a run that is to go on. Changes nothing in it. Throws UnusableInput if run.h5
   /// is missing.
   static RunDirectory reopen(const std::filesystem::path& path);
   /// Prepares the directory for a run that goes on: renames its result, summary.json, to
-  /// summary.json.previous, then writes effective.yaml anew, as settings may have changed. Throws
-  /// io::FileError.
-  void go_on(const io::Settings& settings) const;
-  /// Removes the report, which is out of date once the run has gone on.
+  /// summary.json.previous, then writes effective.yaml anew, as settings may have changed. Does
+  /// neither if the run `is_over` and the settings are the same. Returns the text of effective.yaml
+  /// before, for go_back(), if there was a result. Throws io::FileError; the result is in its place
+  /// then.
+  std::optional<std::string> go_on(const io::Settings& settings, bool is_over) const;
+  /// Undoes go_on() if nothing has been saved since: the result and its settings count again.
+  void go_back(const std::string& settings_before) const;
+  /// Removes the report, which is out of date once the run has gone on, if it is riesel's.
   void drop_report() const;
   /// Writes summary.json and removes its previous version. Throws io::FileError.
   void write_summary(const std::string& text) const;
@@ -48,8 +61,6 @@ public:
 
 private:
   RunDirectory(const std::filesystem::path& path, io::Signature signature);
-  void write_settings(const io::Settings& settings) const;
-
   std::filesystem::path path_;
   std::unique_ptr<io::DirectoryLock> lock_;
 };

@@ -24,6 +24,7 @@
 #include "engine/steady_state.hpp"
 #include "engine/stopping_rule.hpp"
 #include "engine/time_blocks.hpp"
+#include "io/file_error.hpp"
 #include "io/provenance.hpp"
 #include "io/summary.hpp"
 #include "scenarios/run_limits.hpp"
@@ -121,7 +122,7 @@ private:
 
   /// Prepares the directory of a run that goes on.
   void take_up_directory() {
-    files_.directory().go_on(settings_);
+    settings_before_ = files_.directory().go_on(settings_, is_over());
     if (!is_over() || past_.had_other_settings) files_.directory().drop_report();
   }
 
@@ -140,9 +141,15 @@ private:
   }
 
   /// Writes the changed settings into both generations of the checkpoint, so that after a kill the
-  /// run goes on with them whichever of the two is used.
+  /// run goes on with them whichever of the two is used. If not even the first can be written, the
+  /// run is as it was.
   void keep_settings() {
-    save();
+    try {
+      save();
+    } catch (const io::FileError&) {
+      if (settings_before_) files_.directory().go_back(*settings_before_);
+      throw;
+    }
     save();
   }
 
@@ -368,7 +375,8 @@ private:
   Progress progress_;
   Pace pace_;
   TimeLimit time_limit_;
-  std::string precision_so_far_;  // for the line of progress
+  std::optional<std::string> settings_before_;  // of a result that was set aside
+  std::string precision_so_far_;                // for the line of progress
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
   RunTimes times_;

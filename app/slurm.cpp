@@ -49,6 +49,14 @@ std::vector<std::size_t> open_parts(const io::Manifest& manifest, std::size_t co
   return open;
 }
 
+/// The path of a log, in which Slurm replaces %a by the number of the task, and %% by %.
+std::string log_of_tasks(const fs::path& directory) {
+  std::string pattern;
+  for (const char c : (directory / "slurm").string())
+    pattern += c == '%' ? "%%" : std::string(1, c);
+  return pattern + "/%a.txt";
+}
+
 std::string name_of(const fs::path& sweep) {
   const fs::path path = fs::absolute(sweep).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
@@ -113,7 +121,7 @@ std::string slurm_script(const io::Manifest& manifest, const fs::path& sweep,
   return fmt::format(fmt::runtime(script_form), fmt::arg("writer", written_by()),
                      fmt::arg("name", io::in_quotes(name_of(sweep))),
                      fmt::arg("array", ranges_of(open)), fmt::arg("threads", options.threads),
-                     fmt::arg("log", io::in_quotes((directory / "slurm" / "%a.txt").string())),
+                     fmt::arg("log", io::in_quotes(log_of_tasks(directory))),
                      fmt::arg("more", more),
                      fmt::arg("riesel", io::in_quotes(fs::read_symlink("/proc/self/exe").string())),
                      fmt::arg("sweep", io::in_quotes(directory.string())), fmt::arg("tasks", tasks),

@@ -15,12 +15,12 @@
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/shell_words.hpp"
+#include "io/sweep_table.hpp"
+#include "io/whole_file.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -33,8 +33,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool holds(const fs::path& file, const std::string& content) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream && std::string(std::istreambuf_iterator<char>(stream), {}) == content;
+  return io::beginning_of(file, content.size() + 1) == content;
 }
 
 /// Writes the directory and the settings of each point, the sweep file and the manifest.
@@ -81,10 +80,26 @@ void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
          sweep.string(), gone, earlier.size());
 }
 
-/// Locks the directory against a second sweep. Throws UnusableInput if it holds a run.
-io::DirectoryLock lock(const fs::path& sweep) {
+void reject_directory_of_run(const fs::path& sweep) {
   if (fs::exists(sweep / io::run_file_name))
     throw UnusableInput(sweep.string() + ": holds a run; choose another directory with --out");
+}
+
+/// Where no sweep has been, files with the names of those of a sweep are somebody else's, unless it
+/// is this sweep that has lost its manifest.
+void reject_files_of_others(const SweepPlan& plan, const fs::path& sweep) {
+  if (fs::exists(sweep / io::manifest_name) || holds(sweep / sweep_file_name, plan.sweep_file))
+    return;
+  for (const fs::path& file :
+       {sweep / sweep_file_name, sweep / io::sweep_csv_name, sweep / io::sweep_h5_name})
+    if (fs::exists(file))
+      throw UnusableInput(file.string()
+                          + ": is not of this sweep, and would be overwritten; move it away, or "
+                            "choose another directory with --out");
+}
+
+/// Locks the directory against a second sweep.
+io::DirectoryLock lock(const fs::path& sweep) {
   io::make_directories(sweep);
   return io::DirectoryLock(sweep);
 }
@@ -154,18 +169,23 @@ int show_plan(io::Manifest& manifest, const fs::path& sweep, const Prolongation&
     return show_slurm_script(manifest, sweep, options);
   }
   prolongation.look_ahead(manifest, sweep);
-  print_plan(manifest, sweep, jobs);
+  print_plan(manifest, sweep, jobs, options.retry_failed);
   return exit_done;
 }
 
-int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
-           const SweepOptions& options) {
+/// The number of tasks that an array can have. Throws UnusableInput where there is no Slurm.
+std::size_t required_most_tasks() {
   const auto most = most_tasks_of_slurm();
   if (!most)
     throw UnusableInput("--slurm: scontrol does not answer; call this on a machine with Slurm, or "
                         "see --prepare for other batch systems");
+  return *most;
+}
+
+int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongation& prolongation,
+           const SweepOptions& options, std::size_t most) {
   const std::string script =
-      slurm_script(manifest, sweep, options.overrides, options.slurm, options.max_walltime, *most);
+      slurm_script(manifest, sweep, options.overrides, options.slurm, options.max_walltime, most);
   if (script.empty()) {
     print_status(manifest, sweep);
     return exit_done;
@@ -190,8 +210,9 @@ int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryL
                                  .max_walltime = options.max_walltime,
                                  .prolongation = prolongation,
                                  .on_change = write_manifest});
-  write_table(manifest, sweep);
+  const bool all_taken = write_table(manifest, sweep);
   print_status(manifest, sweep);
+  if (status == exit_done && !all_taken) return exit_failed;
   if (was_stopped(status)) tell("interrupted; the same command goes on from there\n");
   return status;
 }
@@ -203,11 +224,14 @@ SweepPlan plan_in(const fs::path& sweep) {
   std::vector<fs::path> files = {sweep / sweep_file_name};
   for (const io::ManifestPoint& point : plan.manifest.points)
     files.push_back(point_directory(sweep, point.name) / point_settings_name);
-  for (const fs::path& file : files)
+  for (const fs::path& file : files) {
+    if (fs::exists(file) && !fs::is_regular_file(file))
+      throw UnusableInput(file.string() + ": is no regular file; remove it");
     if (!fs::exists(file))
       throw UnusableInput(file.string() + ": is missing; call '" + call_of("sweep")
                           + "' with the sweep file, which makes it anew, and --out "
                           + io::in_quotes(sweep.string()));
+  }
   return plan;
 }
 
@@ -221,17 +245,33 @@ void reject_options_in_vain(const SweepOptions& options, bool begun) {
         "file, or write the setting into the file, below 'set:'");
 }
 
+/// The script for Slurm has a line for each option.
+void reject_line_breaks(const SlurmOptions& options) {
+  for (const std::string& option : options.for_sbatch)
+    if (option.find_first_of("\r\n") != std::string::npos)
+      throw UnusableInput("--sbatch: has a line break; give each option by an --sbatch of its own");
+}
+
 }  // namespace
 
 int sweep(const SweepOptions& options) {
   const bool begun = fs::is_directory(options.file);
   reject_options_in_vain(options, begun);
-  const fs::path directory =
-      begun ? options.file : options.directory.value_or("sweeps" / options.file.stem());
+  reject_line_breaks(options.slurm);
+  const fs::path directory = begun               ? options.file
+                             : options.directory ? *options.directory
+                                                 : place_named_after(options.file, "sweeps");
   SweepPlan plan = begun ? plan_in(directory) : plan_sweep(options.file);
   const Prolongation prolongation(plan.manifest, directory, {}, options.overrides);
   const int jobs = options.jobs.value_or(cores());
-  if (options.dry_run) return show_plan(plan.manifest, directory, prolongation, options, jobs);
+  reject_directory_of_run(directory);
+  if (!begun) reject_files_of_others(plan, directory);
+  if (options.dry_run) {
+    if (!begun) heed_earlier_sweep(plan, directory);
+    return show_plan(plan.manifest, directory, prolongation, options, jobs);
+  }
+  // Asked before anything is written.
+  const std::size_t most_tasks = options.to_slurm ? required_most_tasks() : 0;
   const io::DirectoryLock locked = lock(directory);
   if (!begun) {
     heed_earlier_sweep(plan, directory);
@@ -244,7 +284,7 @@ int sweep(const SweepOptions& options) {
   }
   if (options.to_slurm) {
     refresh_for_slurm(plan.manifest, directory, prolongation, options.retry_failed);
-    return submit(plan.manifest, directory, prolongation, options);
+    return submit(plan.manifest, directory, prolongation, options, most_tasks);
   }
   return run_here(plan.manifest, directory, locked, prolongation, options, jobs);
 }

@@ -14,6 +14,8 @@
 #include "io/sweep_table.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace riesel::app {
@@ -55,7 +57,9 @@ void add_results(const fs::path& summary, std::size_t row, std::size_t columns_o
 
 }  // namespace
 
-void write_table(const io::Manifest& manifest, const fs::path& sweep) {
+bool write_table(io::Manifest& manifest, const fs::path& sweep) {
+  const std::set<std::string> misplaced = note_misplaced(manifest, sweep);
+  bool all_taken = misplaced.empty();
   io::SweepTable table(manifest.points.size());
   for (std::size_t row = 0; row < table.rows(); ++row) add_plan(manifest, row, table);
   const std::size_t columns_of_plan = table.columns().size();
@@ -63,16 +67,18 @@ void write_table(const io::Manifest& manifest, const fs::path& sweep) {
     const io::ManifestPoint& point = manifest.points[row];
     // Whatever the status: a point that has failed to go on keeps its earlier result.
     const fs::path summary = point_directory(sweep, point.name) / io::summary_name;
-    if (!fs::exists(summary)) continue;
+    if (!fs::exists(summary) || misplaced.contains(point.name)) continue;
     try {
       add_results(summary, row, columns_of_plan, table);
     } catch (const io::FileError& error) {  // go on with the other points
+      all_taken = false;
       table.set(row, "reason", std::string(error.what()));
       tell("riesel: {}\n", error.what());
     }
   }
   io::write_durably(sweep / io::sweep_csv_name, io::to_csv(table));
-  io::write_hdf5(sweep / io::sweep_h5_name, table, io::read_settings_text(sweep / sweep_file_name));
+  io::write_hdf5(sweep / io::sweep_h5_name, table, io::read_kept_text(sweep / sweep_file_name));
+  return all_taken;
 }
 
 int sweep_collect(const fs::path& directory) {

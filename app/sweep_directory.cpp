@@ -1,18 +1,27 @@
 #include "app/sweep_directory.hpp"
 
+#include "app/cell_text.hpp"
 #include "app/commands.hpp"
+#include "app/resumed_settings.hpp"
 #include "app/run_directory.hpp"
 #include "io/checkpoint.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
+#include "io/settings_table.hpp"
+#include "io/settings_text.hpp"
 #include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
+#include "io/whole_file.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
+#include <vector>
 
 namespace riesel::app {
 
@@ -20,13 +29,48 @@ namespace fs = std::filesystem;
 
 namespace {
 
+bool has_result(const fs::path& point) { return io::is_bracketed(point / io::summary_name); }
+
 /// Why a run that is neither running nor done counts as failed; "" if it does not.
 std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
   if (!record.failure.empty()) return record.failure;
+  if (fs::exists(point / io::summary_name) && !can_resume(point))
+    return fmt::format("{} is damaged; restore it, or remove {} to begin anew", io::summary_name,
+                       point.string());
   if (has_checkpoint(point) && !can_resume(point))
     return fmt::format("{} is missing beside its checkpoint; restore it, or begin the point anew "
                        "with --retry-failed",
                        io::run_file_name);
+  return "";
+}
+
+/// "seed is 2 in its effective.yaml, not 1": a setting in which the run in the directory of the
+/// point is not what was planned; "" if there is none, or if its settings cannot be read. What a
+/// run that goes on may change does not count, nor do paths, which count by what they lead to.
+std::string difference_from_plan(const io::ManifestPoint& point,
+                                 const std::vector<io::VariedSetting>& varied,
+                                 const fs::path& sweep) {
+  constexpr auto start_from = "start.from";
+  try {
+    const fs::path file = point_directory(sweep, point.name) / io::effective_settings_name;
+    const io::Settings settings = io::Settings::from_text(io::read_kept_text(file), file.string(),
+                                                          scenarios::settings_tables());
+    const io::SettingsTable& table = scenarios::settings_tables().at(settings.scenario());
+    for (std::size_t i = 0; i < varied.size(); ++i) {
+      const std::string& key = varied[i].key;
+      const auto row = std::ranges::find(table, key, &io::Setting::key);
+      if (row == table.end() || row->names_content || may_change(key)) continue;
+      const io::Cell found = io::cell_of(settings, key);
+      if (found != point.values[i])
+        return fmt::format("{} is {} in its {}, not {}", key, text_of(found),
+                           io::effective_settings_name, text_of(point.values[i]));
+    }
+    if (point.parent.empty()) return "";
+    const std::string from = settings.has(start_from) ? settings.text(start_from) : "";
+    if (fs::path(from).filename() != point.parent)
+      return fmt::format("{} is not its neighbour {}", start_from, point.parent);
+  } catch (const io::SettingsError&) {
+  }
   return "";
 }
 
@@ -76,10 +120,12 @@ RunStanding standing_of(const fs::path& point) {
     return RunStanding{.status = status, .attempts = record.attempts, .reason = reason};
   };
   if (io::DirectoryLock::is_held(point)) return with(RunStatus::running);
-  if (fs::exists(point / io::summary_name)) return with(RunStatus::done);
+  if (has_result(point)) return with(RunStatus::done);
   const std::string reason = reason_to_fail(point, record);
   if (!reason.empty()) return with(RunStatus::failed, reason);
-  return with(record.attempts > 0 ? RunStatus::interrupted : RunStatus::waiting);
+  // A damaged result is made anew from the last checkpoint.
+  const bool has_begun = record.attempts > 0 || fs::exists(point / io::summary_name);
+  return with(has_begun ? RunStatus::interrupted : RunStatus::waiting);
 }
 
 void refresh(io::Manifest& manifest, const fs::path& sweep) {
@@ -94,13 +140,33 @@ void refresh(io::Manifest& manifest, const fs::path& sweep) {
   }
 }
 
+bool has_chains(const io::Manifest& manifest) {
+  return std::ranges::any_of(manifest.points,
+                             [](const auto& point) { return !point.parent.empty(); });
+}
+
+std::set<std::string> note_misplaced(io::Manifest& manifest, const fs::path& sweep) {
+  std::set<std::string> misplaced;
+  for (io::ManifestPoint& point : manifest.points) {
+    if (!has_result(point_directory(sweep, point.name))) continue;
+    const std::string difference = difference_from_plan(point, manifest.varied, sweep);
+    if (difference.empty()) continue;
+    misplaced.insert(point.name);
+    point.status = to_string(RunStatus::failed);
+    point.reason = fmt::format("{} is of another point ({}); put the directories back in their "
+                               "places, or remove this one to begin anew",
+                               point_directory(sweep, point.name).string(), difference);
+  }
+  return misplaced;
+}
+
 bool can_resume(const fs::path& point) {
   return fs::exists(point / io::run_file_name) && has_checkpoint(point);
 }
 
 void clear(const fs::path& point) {
   const io::DirectoryLock lock(point);
-  if (fs::exists(point / io::summary_name)) return;
+  if (fs::exists(point / io::summary_name)) return;  // even if it is damaged
   const fs::path checkpoint = point / io::checkpoint_name, post_mortem = point / post_mortem_name;
   for (const fs::path& file : {checkpoint, io::previous_generation(checkpoint), post_mortem,
                                io::previous_generation(post_mortem), point / io::run_file_name,

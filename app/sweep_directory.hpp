@@ -5,6 +5,7 @@
 #include "io/sweep_manifest.hpp"
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace riesel::app {
@@ -12,7 +13,7 @@ namespace riesel::app {
 enum class RunStatus {
   waiting,      ///< not started yet
   running,      ///< a process is working on it
-  done,         ///< it has a summary
+  done,         ///< it has a summary, which is not cut short
   failed,       ///< for a reason that would occur again
   interrupted,  ///< stopped; goes on from its checkpoint, or from the start if there is none
 };
@@ -45,6 +46,13 @@ RunStanding standing_of(const std::filesystem::path& point);
 /// Brings status, attempts and reason of each point of the manifest up to date from the
 /// directories.
 void refresh(io::Manifest& manifest, const std::filesystem::path& sweep);
+
+/// Whether some runs start from the ends of others. Such runs cannot be extended.
+bool has_chains(const io::Manifest& manifest);
+
+/// Marks points as failed whose directories hold the results of other settings than theirs, as
+/// after a mistake in moving directories. Returns their names.
+std::set<std::string> note_misplaced(io::Manifest& manifest, const std::filesystem::path& sweep);
 
 /// Whether a run of the point can go on from a checkpoint.
 bool can_resume(const std::filesystem::path& point);

@@ -184,16 +184,17 @@ private:
     if (job.status == RunStatus::running || job.status == RunStatus::done || in_vain) return;
     ++job.starts;
     const bool goes_on = can_resume(job.directory);
+    const fs::path settings = job.directory / point_settings_name;
+    // A run takes its settings from a pipe, too, and would wait for its writer.
+    if (!goes_on && fs::exists(settings) && !fs::is_regular_file(settings))
+      return fail(job, settings.string() + ": is no regular file; remove it");
     if (!goes_on && !cleared(job)) return;
     io::RunRecord record = io::read_run_record(job.directory);
     io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});
 
     const std::string directory = job.directory.string();
     std::vector<std::string> arguments = {"resume", directory};
-    if (!goes_on) {
-      const auto settings = job.directory / point_settings_name;
-      arguments = {"run", settings.string(), "--out", directory};
-    }
+    if (!goes_on) arguments = {"run", settings.string(), "--out", directory};
     arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
     for (const std::string& setting : options_.prolongation.overrides_for(job.directory))
       arguments.insert(arguments.end(), {"--set", setting});

@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 int sweep_status(const fs::path& directory) {
   io::Manifest manifest = manifest_in(directory);
   refresh(manifest, directory);
+  note_misplaced(manifest, directory);
   print_status(manifest, directory);
   return exit_done;
 }

@@ -42,9 +42,16 @@ std::string description_of_holder(int descriptor) {
 constexpr auto patience = std::chrono::milliseconds(40);
 
 /// Negative, with errno set, if it cannot be opened. `flags` are added to those of every lock.
+/// O_NONBLOCK, because a plain open() would wait for the writer of a pipe.
 int open_lock(const std::filesystem::path& directory, int flags) {
   const auto lock = directory / lock_name;
-  return uninterrupted([&] { return open(lock.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666); });
+  return uninterrupted(
+      [&] { return open(lock.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666); });
+}
+
+bool is_regular(int descriptor) {
+  struct stat about = {};
+  return fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
 }
 
 /// The file with this name (`ask` is stat), or an open file, whatever has its name by now (fstat).
@@ -61,6 +68,10 @@ std::optional<FileIdentity> identity_by(int (*ask)(File, struct stat*), File fil
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature signature)
     : directory_(directory), descriptor_(open_lock(directory, O_RDWR | O_CREAT)) {
   if (descriptor_ < 0) throw system_failure(directory, cannot_be_locked, errno);
+  if (!is_regular(descriptor_)) {
+    close(descriptor_);
+    throw FileError(directory / lock_name, "is no regular file", "remove it");
+  }
   if (lock_patiently(descriptor_, patience)) {
     if (signature == Signature::now) sign();
     directory_identity_ = identity_by(stat, directory.c_str());
@@ -97,11 +108,17 @@ void DirectoryLock::require_in_place() const {
 }
 
 bool DirectoryLock::is_held(const std::filesystem::path& directory) {
+  return holder(directory).has_value();
+}
+
+std::optional<std::string> DirectoryLock::holder(const std::filesystem::path& directory) {
   const int descriptor = open_lock(directory, O_RDONLY);
-  if (descriptor < 0) return false;
-  const bool held = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (descriptor < 0) return {};
+  std::optional<std::string> holder;
+  if (is_regular(descriptor) && flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    holder = description_of_holder(descriptor);
   close(descriptor);
-  return held;
+  return holder;
 }
 
 DirectoryLock::~DirectoryLock() { close(descriptor_); }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace riesel::io {
 
@@ -39,6 +40,9 @@ public:
 
   /// Whether another process holds the lock at the moment. Writes nothing.
   static bool is_held(const std::filesystem::path& directory);
+
+  /// Which process holds the lock at the moment, as messages call it; nothing if none does.
+  static std::optional<std::string> holder(const std::filesystem::path& directory);
 
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;

@@ -10,6 +10,9 @@
 
 namespace riesel::io {
 
+/// Near the beginning of each page, before the version of riesel: tells it from files of others.
+inline constexpr std::string_view mark_of_pages = R"(<meta name="generator" content="riesel )";
+
 /// A cell of a table.
 struct HtmlCell {
   HtmlCell(std::string content, std::string address = "")  // NOLINT(google-explicit-constructor)

@@ -69,6 +69,15 @@ std::string read_settings_text(const std::filesystem::path& file) {
   return text;
 }
 
+std::string read_kept_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  const bool is_other = std::filesystem::exists(status) && !is_directory(status);
+  if (is_other && !is_regular_file(status))
+    throw SettingsError({file.string()}, "", "is no regular file", "remove it");
+  return read_settings_text(file);
+}
+
 std::string with_plain_line_ends(std::string_view text) {
   std::string plain;
   plain.reserve(text.size());

@@ -12,8 +12,13 @@ namespace riesel::io {
 
 constexpr std::size_t largest_settings_text = 1'000'000;  ///< bytes
 
-/// The file verbatim. Throws SettingsError if it cannot be read, is a directory or is too large.
+/// The file verbatim, which may be a pipe. Throws SettingsError if it cannot be read, is a
+/// directory or is too large.
 std::string read_settings_text(const std::filesystem::path& file);
+
+/// A file that riesel keeps in the directory of a run or a sweep: refused, too, if it is no regular
+/// file, as a pipe that nobody writes to would be waited for.
+std::string read_kept_text(const std::filesystem::path& file);
 
 /// With each carriage return and line feed replaced by a line feed alone.
 std::string with_plain_line_ends(std::string_view text);

@@ -1,8 +1,10 @@
 #include "io/summary_reader.hpp"
 
 #include "io/build_info.hpp"
+#include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "io/json_file.hpp"
+#include "io/shell_words.hpp"
 
 #include <fmt/format.h>
 
@@ -220,10 +222,17 @@ void require_this_format(const std::filesystem::path& path, const Json& json) {
 
 }  // namespace
 
+std::string remedy_for_summary(const std::filesystem::path& path) {
+  const auto directory = path.parent_path();
+  if (!std::filesystem::exists(directory / checkpoint_name))
+    return "restore the file, or make the run again";
+  return "restore the file, or make it anew by 'riesel resume " + in_quotes(directory.string())
+         + "'";
+}
+
 Summary read_summary(const std::filesystem::path& path) {
-  constexpr auto restore = "restore the file, or make the run again";
-  const auto json = read_json(
-      path, {.unreadable = "give the directory of a run that is over", .damaged = restore});
+  const auto json = read_json(path, {.unreadable = "give the directory of a run that is over",
+                                     .damaged = remedy_for_summary(path)});
   require_this_format(path, json);
   try {
     if (json.contains("curve")) return read_curve(json);
@@ -235,7 +244,7 @@ Summary read_summary(const std::filesystem::path& path) {
     if (!version.empty() && version != build_info().version)
       throw of_another_version(
           path, fmt::format("does not fit this version of riesel ({})", flaw_of(error)), version);
-    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)), restore);
+    throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)), remedy_for_summary(path));
   }
 }
 

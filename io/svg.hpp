@@ -11,6 +11,10 @@
 
 namespace riesel::io {
 
+/// Near the beginning of each file of a drawing, before the version of riesel: tells it from files
+/// of others.
+inline constexpr std::string_view mark_of_drawings = "<!-- Drawn by riesel ";
+
 struct Point {
   double x, y;
 };

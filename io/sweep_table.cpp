@@ -7,6 +7,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/json_cell.hpp"
 #include "io/json_file.hpp"
+#include "io/summary_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -94,7 +95,7 @@ void SweepTable::set(std::size_t row, const std::string& column, Cell value,
 }
 
 std::vector<std::pair<std::string, Cell>> flat_summary(const std::filesystem::path& path) {
-  constexpr auto remedy = "remove the directory and run the point again";
+  const std::string remedy = remedy_for_summary(path);
   const auto json = read_json(path, {.unreadable = remedy, .damaged = remedy});
   if (!json.is_object()) throw FileError(path, "is not a summary of a run", remedy);
   std::vector<std::pair<std::string, Cell>> values;

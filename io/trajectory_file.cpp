@@ -197,6 +197,26 @@ public:
 
   void cut(std::uint64_t frames) { head_.frames = frames; }
 
+  /// Copies the file if it has other names: a copy of the run that was made of hard links (cp -al,
+  /// rsnapshot) is to keep its frames, and this file grows in place.
+  void leave_other_names() {
+    if (fs::hard_link_count(path_) < 2) return;
+    fs::path aside = path_;
+    aside += ".tmp";
+    std::error_code error;
+    fs::remove(aside, error);
+    fs::copy_file(path_, aside, error);
+    if (error) {
+      const int error_number = error.value();
+      fs::remove(aside, error);
+      throw system_failure(path_, "cannot be copied", error_number);
+    }
+    Descriptor(aside, O_RDWR, path_).sync();
+    fs::rename(aside, path_);
+    sync_directory_of(path_);
+    file_.emplace(path_, O_RDWR | O_NOFOLLOW, path_);
+  }
+
   void append(const State& state) {
     const Frame frame(state);
     const std::uint64_t in_block = head_.frames % layout_.frames_per_block;
@@ -353,6 +373,7 @@ TrajectoryFile TrajectoryFile::reopen(const fs::path& path, std::uint64_t run, c
         contents->frames() >= wanted,
         fmt::format("it has {} frames, but the checkpoint expects {}", contents->frames(), wanted));
     contents->cut(wanted);
+    contents->leave_other_names();
     return TrajectoryFile(std::move(contents));
   } catch (const FileError&) {
     throw;

@@ -54,6 +54,11 @@ public:
     return size;
   }
 
+  void go_to(std::uint64_t place) const {
+    if (lseek(descriptor_, static_cast<off_t>(place), SEEK_SET) < 0)
+      throw system_failure(path_, "cannot be read", errno);
+  }
+
 private:
   const fs::path& path_;
   int descriptor_;
@@ -78,6 +83,36 @@ std::vector<char> read_whole_file(const fs::path& path, std::uint64_t most) {
   std::vector<char> bytes(size);
   bytes.resize(file.read(bytes));
   return bytes;
+}
+
+bool is_bracketed(const fs::path& path) {
+  constexpr std::uint64_t most_white_space = 16;  // bytes, at either end
+  constexpr auto white_space = " \t\r\n";
+  try {
+    File file(path);
+    const auto size = file.size(), part = std::min(size, most_white_space);
+    std::string first(part, '\0'), last(part, '\0');
+    first.resize(file.read(first));
+    file.go_to(size - part);
+    last.resize(file.read(last));
+    const auto begin = first.find_first_not_of(white_space);
+    const auto end = last.find_last_not_of(white_space);
+    return begin != std::string::npos && first[begin] == '{' && end != std::string::npos
+           && last[end] == '}';
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+std::string beginning_of(const fs::path& path, std::uint64_t most) {
+  try {
+    File file(path);
+    std::string bytes(std::min(file.size(), most), '\0');
+    bytes.resize(file.read(bytes));
+    return bytes;
+  } catch (const FileError&) {
+    return {};
+  }
 }
 
 }  // namespace riesel::io

@@ -105,7 +105,11 @@ class Run:
     @cached_property
     def summary(self) -> Tree:
         """summary.json: summary["balance.n_dot"]. Values that are unknown are None."""
-        summary = Tree(members(self._summary_file, json.loads, self._go_on))
+        anew = "make the run again"
+        if (self.directory / "checkpoint.h5").exists():
+            anew = f"make it anew by 'riesel resume {self.directory}'"
+        summary = Tree(members(self._summary_file, json.loads, self._go_on,
+                               f"restore the file, or {anew}"))
         number = summary.get("format", 1)  # files of format 1 do not say
         if number != _SUMMARY_FORMAT:
             version = summary.get("version", "?")

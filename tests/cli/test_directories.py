@@ -1,5 +1,6 @@
 """Where results go: never over another run, and with a clear word where there is no room."""
 
+import shutil
 import subprocess
 import unittest
 
@@ -32,6 +33,45 @@ class Directories(CommandTest):
         (out / "notes.txt").write_text("mine", encoding="utf-8")
         self.run_small_tube("out", "--set", "run.duration=0.1 ms")
         self.assertEqual((out / "notes.txt").read_text(encoding="utf-8"), "mine")
+
+    def test_settings_of_the_user_are_not_overwritten(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        (self.home / "out").mkdir()
+        self.write("out/effective.yaml", SMALL_TUBE)
+        before = bytes_of_files(self.home)
+        for settings in ("tube.yaml", "out/effective.yaml"):
+            self.assert_refused(self.riesel("run", settings, "--out", "out"), "out/effective.yaml",
+                                "would be overwritten", "--out")
+        self.assert_refused(self.riesel("resume", "out"), "holds no run")
+        self.assertEqual(bytes_of_files(self.home), before)
+
+    def test_what_a_run_reads_it_does_not_overwrite(self):
+        """Not even if riesel has written it, for another run."""
+        run = self.run_small_tube("run", "--set", "run.duration=0.1 ms")
+        (self.home / "out").mkdir()
+        shutil.copy(run / "effective.yaml", self.home / "out")
+        before = bytes_of_files(self.home)
+        result = self.riesel("run", "out/effective.yaml", "--out", "out")
+        self.assert_refused(result, "out/effective.yaml", "rename it")
+        self.assertEqual(bytes_of_files(self.home), before)
+
+    def test_what_a_run_left_that_had_hardly_begun_is_no_obstacle(self):
+        run = self.run_small_tube("run", "--set", "run.duration=0.1 ms")
+        (self.home / "out").mkdir()
+        shutil.copy(run / "effective.yaml", self.home / "out")
+        self.run_small_tube("out", "--set", "run.duration=0.2 ms")
+
+    def test_names_that_lead_out_of_their_directory(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        for name in ("..yaml", "...yaml"):
+            with self.subTest(name):
+                self.write(name, SMALL_TUBE)
+                self.assert_refused(self.riesel("run", name), f"{name}: ", "--out")
+                self.run_to_end(name, f"out{name}", "--set", "run.duration=0.1 ms")
+                self.write(name, "base: tube.yaml\nseeds: [1]\n")
+                self.assert_refused(self.riesel("sweep", name), f"{name}: ", "--out")
+        for directory in ("runs", "sweeps"):
+            self.assertFalse((self.home / directory).exists())
 
     def test_a_file_in_the_way_is_named(self):
         self.write("tube.yaml", SMALL_TUBE)

@@ -2,6 +2,7 @@
 system ends the command."""
 
 import json
+import os
 import resource
 import shutil
 import subprocess
@@ -155,6 +156,52 @@ class HostileFiles(CommandTest):
         self.assertEqual(result.returncode, 1, result)
         self.assertIn("remove the link", result.stderr)
         self.assertEqual(elsewhere.read_bytes(), before)
+
+    def test_pipes_that_nobody_writes_to_are_not_waited_for(self):
+        run = self.run_small_tube("run", "--set", "run.duration=0.1 ms")
+        sweep = self.write("sweep.yaml",
+                           "base: tube.yaml\nset: {run.duration: 0.1 ms}\nseeds: [1]\n")
+        self.assertEqual(self.riesel("sweep", sweep, "--out", "sweep").returncode, 0)
+        point, = (self.home / "sweep/points").iterdir()
+        commands = {run / ".lock": (["report", "run"], ["resume", "run"]),
+                    run / "effective.yaml": (["report", "run"],),
+                    point / ".lock": (["status", "sweep"], ["collect", "sweep"], ["report", "sweep"],
+                                      ["sweep", "sweep"], ["sweep-task", "sweep", 0]),
+                    point / "effective.yaml": (["status", "sweep"], ["collect", "sweep"],
+                                               ["sweep", "sweep", "--set", "run.duration=0.1 ms"]),
+                    point / "point.yaml": (["status", "sweep"], ["sweep", "sweep"],
+                                           ["sweep-task", "sweep", 0],
+                                           ["sweep", "sweep", "--set", "run.duration=0.2 ms"]),
+                    self.home / "sweep/sweep.yaml": (
+                        ["collect", "sweep"], ["report", "sweep"], ["sweep", "sweep"],
+                        ["sweep", sweep, "--out", "sweep", "--dry-run"])}
+        for path, called in commands.items():
+            aside = path.with_name("aside")
+            path.rename(aside)
+            for command in called:
+                with self.subTest(path.name, command=command):
+                    os.mkfifo(path)
+                    result = self.limited(*command)
+                    self.assertIn(result.returncode, (0, 1, 2))
+                    if result.returncode != 0:
+                        self.assertIn(f"{path.name}: is no regular file; remove it",
+                                      result.stderr + result.stdout)
+                    path.unlink()
+            aside.rename(path)
+        for name in ("summary.json", "checkpoint.h5", "checkpoint.h5.previous"):
+            (point / name).unlink()
+        (point / "point.yaml").unlink()
+        os.mkfifo(point / "point.yaml")
+        result = self.limited("sweep-task", "sweep", 0)
+        self.assertEqual(result.returncode, 1, result)
+        self.assertIn("point.yaml: is no regular file; remove it", result.stdout)
+
+    def test_a_pipe_may_bring_the_settings(self):
+        for command in ("check", "run"):
+            script = f'"$1" {command} <(printf "%s" "$2") --set run.duration="0.1 ms"'
+            result = subprocess.run(["bash", "-c", script, "-", COMMAND, SMALL_TUBE], cwd=self.home,
+                                    timeout=120, capture_output=True, text=True, check=False)
+            self.assertEqual(result.returncode, 0, result)
 
     def test_deep_nesting_in_json(self):
         for name, command in (("run/summary.json", "report"), ("run/manifest.json", "status")):

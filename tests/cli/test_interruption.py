@@ -1,5 +1,6 @@
 """A run that is stopped at any moment, politely or not, goes on as if it had never been stopped."""
 
+import fcntl
 import pathlib
 import random
 import re
@@ -11,7 +12,8 @@ import time
 
 import h5py
 
-from riesel_command import COMMAND, PATIENCE, SMALL_TUBE, CommandTest, data_of, final_time, saved_step
+from riesel_command import (COMMAND, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files, data_of,
+                            final_time, saved_step)
 
 # Rows of 1 ms hold about 1000 steps; the run ends long after the tests. After its first checkpoint none is due:
 # what is saved later has been saved because the run was told to stop.
@@ -170,6 +172,20 @@ class Interruption(CommandTest):
         result = self.riesel("resume", "out", "--set", "run.duration=1 ms")
         if result.returncode != 0:
             self.assert_refused(result, "out", "start the run again")
+
+    def test_what_has_hardly_begun_is_not_called_dead(self):
+        """A run in its first save is one that holds the lock and has no checkpoint."""
+        self.run_to_end("long.yaml", "out", "--set", "run.duration=1 ms")
+        for path in [self.out / "summary.json", *self.out.glob("checkpoint*")]:
+            path.unlink()
+        with open(self.out / ".lock", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            before = bytes_of_files(self.out)
+            self.assert_refused(self.riesel("resume", "out"), "out: is in use by process", "wait")
+            self.assert_refused(self.riesel("run", "long.yaml", "--out", "out"),
+                                "out: is in use by process", "--out")
+            self.assertEqual(bytes_of_files(self.out), before)
+        self.assert_refused(self.riesel("resume", "out"), "remove it and start the run again")
 
     def test_by_the_limit_on_the_clock(self):
         """Of a run that is resumed, too. It is held up for a while, in a piece of the way or in saving: from then on

@@ -9,12 +9,17 @@ import h5py
 import numpy as np
 
 from report_files import SVG, Report
-from riesel_command import SHIPPED, bytes_of_files, with_error
+from riesel_command import SHIPPED, SMALL_TUBE, bytes_of_files, with_error
 
 FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits",
            "area_fraction", "velocity", "temperature", "stress", "braking",
            "grain_contact_duration", "grain_contact_overlap", "wall_contact_duration",
            "wall_contact_overlap"}
+IMPACT = """\
+scenario: single_wall_grain
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+impact: {axial_velocity: [1 m/s]}
+"""
 
 
 class FinishedRun(Report):
@@ -271,11 +276,29 @@ class OtherRuns(Report):
     def test_figures_of_an_earlier_report_do_not_stay(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.2 ms")
         self.report_on(out)
-        (out / "figures/of_another_time.svg").write_text("<svg/>", encoding="utf-8")
-        (out / "figures/notes.txt").write_text("mine", encoding="utf-8")
+        figures = out / "figures"
+        shutil.copy(figures / "energy.svg", figures / "of_another_time.svg")
+        mine = {"notes.txt": "mine", "drawn.svg": "<svg/>"}
+        for name, text in mine.items():
+            (figures / name).write_text(text, encoding="utf-8")
         self.report_on(out)
-        self.assertEqual({path.name for path in (out / "figures").iterdir()},
-                         {f"{name}.svg" for name in FIGURES} | {"notes.txt"})
+        self.assertEqual({path.name for path in figures.iterdir()},
+                         {f"{name}.svg" for name in FIGURES} | set(mine))
+
+    def test_pages_and_figures_of_others_are_not_overwritten(self):
+        out = self.run_small_tube("out", "--set", "run.duration=0.2 ms")
+        (out / "figures").mkdir()
+        for name in ("report.html", "figures/energy.svg"):
+            with self.subTest(name):
+                (out / name).write_text("mine", encoding="utf-8")
+                before = bytes_of_files(out)
+                self.assert_refused(self.riesel("report", out), f"out/{name}", "rename it")
+                self.assertEqual(before, bytes_of_files(out) | {".lock": before[".lock"]})
+                if name == "report.html":
+                    self.resume_to_end(out, "--set", "run.duration=0.3 ms")
+                    self.assertEqual((out / name).read_text(encoding="utf-8"), "mine")
+                (out / name).unlink()
+        self.report_on(out)
 
     def test_a_resumed_run_tells_of_both_parts(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
@@ -400,6 +423,16 @@ class Refused(Report):
         (out / "post_mortem.h5").touch()
         self.assert_no_report("out", "it failed", "out/post_mortem.h5", "if it has been resumed since",
                               "riesel resume out")
+
+    def test_what_cannot_be_resumed_is_not_to_be_resumed(self):
+        for name, text in (("tube", SMALL_TUBE), ("impact", IMPACT)):
+            with self.subTest(name):
+                out = self.run_to_end(self.write(f"{name}.yaml", text), name)
+                for path in [out / "summary.json", *out.glob("checkpoint*")]:
+                    path.unlink()
+                start_again = "remove it and start the run again"
+                self.assert_no_report(name, "has not come to its end", start_again)
+                self.assert_refused(self.riesel("resume", name), start_again)
 
     def test_files_that_are_damaged_or_not_of_one_run(self):
         short = self.run_small_tube("short", "--set", "run.duration=0.1 ms")

@@ -1,12 +1,15 @@
 """Going on with a run: to a longer duration, from whatever checkpoint is whole, and only as the run
 that it was."""
 
+import functools
+import resource
 import shutil
+import subprocess
 import time
 
 import h5py
 
-from riesel_command import CommandTest, bytes_of_files
+from riesel_command import COMMAND, CommandTest, bytes_of_files
 
 
 def settings_of(checkpoint):
@@ -101,6 +104,55 @@ class Resume(CommandTest):
         self.resume_to_end(out)
         self.assert_same_result(as_it_was, out)
         self.assertTrue((out / "report.html").exists())
+
+    def test_a_result_outlives_a_resume_that_cannot_write(self):
+        out = self.run_small_tube("out")
+        before = bytes_of_files(out)
+        # The second limit lets the settings through, but neither run.h5 nor a checkpoint.
+        longer = ["--set", "run.duration=6 ms"]
+        for change, size in ([], 0), (longer, 0), (longer, 8000):
+            with self.subTest(change, size=size):
+                result = subprocess.run([COMMAND, "resume", "out", *change], cwd=self.home,
+                                        capture_output=True, text=True, check=False,
+                                        preexec_fn=functools.partial(
+                                            resource.setrlimit, resource.RLIMIT_FSIZE, (size, size)))
+                self.assert_failed(result, "raise the limit on the size of files")
+                self.assertEqual(bytes_of_files(out) | {".lock": before[".lock"]}, before)
+                self.assert_done(self.riesel("report", out))
+                for path in [out / "report.html", *out.glob("figures/*")]:
+                    path.unlink()
+        self.assertEqual(self.resume_to_end(out).returncode, 0)
+
+    def test_an_older_checkpoint_does_not_put_a_later_result_out_of_the_way(self):
+        out = self.run_small_tube("out", "--set", "run.duration=2 ms")
+        shutil.copy(out / "checkpoint.h5", out / "keep.h5")
+        self.resume_to_end(out, "--set", "run.duration=5 ms")
+        before = bytes_of_files(out)
+        self.assert_refused(self.riesel("resume", "out/keep.h5"), "out/keep.h5", "has come to 0.005",
+                            "copy the directory")
+        self.assertEqual(bytes_of_files(out), before)
+        again = self.copy(out, "again")
+        shutil.copy(again / "keep.h5", again / "checkpoint.h5")
+        self.resume_to_end(again, "--set", "run.duration=3 ms")
+        self.assertAlmostEqual(self.summary(again)["time"], 3e-3, delta=1e-6)
+        (out / "checkpoint.h5").write_bytes(b"")  # nothing but the copy is left to go on from
+        (out / "checkpoint.h5.previous").unlink()
+        self.resume_to_end(out / "keep.h5", "--set", "run.duration=5 ms")
+        self.assert_same_result(self.run_small_tube("whole"), out)
+
+    def test_frames_do_not_go_into_a_copy_made_of_hard_links(self):
+        frames = ["--set", "output.trajectory_interval=1 ms"]
+        out = self.run_small_tube("out", *frames)
+        subprocess.run(["cp", "-al", "out", "copy"], cwd=self.home, check=True)
+        before = bytes_of_files(out)
+        self.resume_to_end(self.home / "copy", "--set", "run.duration=8 ms")
+        del before[".lock"]  # tells who was the last to write
+        after = bytes_of_files(out)
+        self.assertEqual({name: after[name] for name in before}, before)
+        whole = self.run_small_tube("whole", *frames, "--set", "run.duration=8 ms")
+        copied = self.home / "copy/trajectory.h5"
+        with h5py.File(whole / "trajectory.h5") as one, h5py.File(copied) as other:
+            self.assertEqual(one["coordinates"][()].tobytes(), other["coordinates"][()].tobytes())
 
     def test_a_report_does_not_outlive_its_result(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")

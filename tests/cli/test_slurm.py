@@ -90,6 +90,25 @@ class Script(SweepTest):
         self.write("sweep.yaml", FOUR)
         result = self.riesel("sweep", "sweep.yaml", "--out", "out", "--slurm", PATH="/nowhere")
         self.assert_refused(result, "--slurm", "--prepare")
+        self.assertFalse((self.home / "out").exists())
+
+    def test_slurm_replaces_nothing_in_the_name_of_the_directory(self):
+        self.write("sweep.yaml", FOUR)
+        result = self.riesel("sweep", "sweep.yaml", "--out", "10%j", "--slurm", "--dry-run",
+                             PATH="/nowhere")
+        self.assert_done(result)
+        self.assertEqual(lines_of(result.stdout, "#SBATCH --output=.*/(.*/.*/.*)"),
+                         ["10%%j/slurm/%a.txt"])
+        self.assertIn("/10%j 0", result.stdout.replace('"$SLURM_ARRAY_TASK_ID"', "0"))
+
+    def test_an_option_is_a_line(self):
+        self.write("sweep.yaml", FOUR)
+        before = bytes_of_files(self.home)
+        for options in ([], ["--dry-run"]):
+            result = self.riesel("sweep", "sweep.yaml", "--slurm", "--sbatch=--mem=1G\nrm -r x",
+                                 *options)
+            self.assert_refused(result, "--sbatch", "line break")
+        self.assertEqual(bytes_of_files(self.home), before)
 
     def test_options_of_slurm_want_slurm(self):
         self.write("sweep.yaml", FOUR)

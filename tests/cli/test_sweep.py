@@ -4,6 +4,7 @@ happens on the way."""
 import csv
 import json
 import re
+import shutil
 import signal
 
 import h5py
@@ -387,12 +388,95 @@ class Failures(SweepTest):
             attempts.append([point["attempts"] for point in self.points()])
         self.assertEqual(attempts, [[1, 1, 1], [1, 1, 1], [1, 2, 1]])
 
+    def damage(self, text):
+        """The summary of the first point."""
+        point = self.home / "out/points" / self.points()[0]["name"]
+        (point / "summary.json").write_text(text, encoding="utf-8")
+        return point
+
+    def test_a_result_that_is_cut_short_is_made_anew(self):
+        self.sweep_to_end(ONE_POINT)
+        whole = self.hashes()
+        for text in ("", "{", '{"scenario": "peri'):
+            with self.subTest(text):
+                self.damage(text)
+                self.assertIn("1 interrupted", self.riesel("status", "out").stdout)
+                self.assert_done(self.riesel("sweep", "out"))
+                self.assertEqual(self.hashes(), whole)
+
+    def test_a_result_that_is_cut_short_and_cannot_be_made_anew_is_a_failure(self):
+        self.sweep_to_end(ONE_POINT)
+        point = self.damage("{")
+        for path in point.glob("checkpoint*"):
+            path.unlink()
+        before = bytes_of_files(point)
+        for options in ([], ["--retry-failed"]):
+            result = self.riesel("sweep", "out", *options)
+            self.assertEqual(result.returncode, FAILED, result)
+            self.assertIn("summary.json is damaged; restore it", result.stdout)
+            self.assertEqual(bytes_of_files(point), before)
+
+    def test_a_result_that_is_damaged_otherwise_is_told(self):
+        self.sweep_to_end(ONE_POINT)
+        point = self.damage("{]}")
+        result = self.riesel("sweep", "out")
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assert_one_message(result.stderr, "summary.json",
+                                f"riesel resume out/points/{point.name}'")
+        self.resume_to_end(point)
+        self.assert_done(self.riesel("sweep", "out"))
+
+    def test_results_of_other_points_are_not_taken(self):
+        """After two directories have changed places: of other settings, or of another past."""
+        for text, one, other in ((GRID, 0, 1), (CHAIN, 1, 3)):
+            with self.subTest(text):
+                shutil.rmtree(self.home / "out", ignore_errors=True)
+                out = self.sweep_to_end(text)
+                points = self.points()
+                one_point, other_point = (out / "points" / points[i]["name"] for i in (one, other))
+                aside = one_point.with_name("aside")
+                one_point.rename(aside)
+                other_point.rename(one_point)
+                aside.rename(other_point)
+                for command in (["collect", "out"], ["status", "out"]):
+                    result = self.riesel(*command)
+                    self.assert_done(result)
+                    self.assertIn("2 failed", result.stdout)
+                    self.assertEqual(result.stdout.count("is of another point"), 2)
+                self.assertEqual(self.riesel("sweep", "out").returncode, FAILED)
+                for row in self.rows():
+                    misplaced = row["point"] in (one_point.name, other_point.name)
+                    self.assertEqual((row["status"], row["state_hash"] == ""),
+                                     ("failed", True) if misplaced else ("done", False))
+
+    def test_what_is_left_takes_no_time_for_what_has_failed(self):
+        self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
+        manifest = self.manifest()
+        for point in manifest["points"]:
+            point["expected_seconds"] = 36000.0
+        self.write("out/manifest.json", json.dumps(manifest))
+        for options, told in (([], "1 s"), (["--retry-failed"], "10.0 h")):
+            result = self.riesel("sweep", "out", "--dry-run", *options)
+            self.assertIn(f"3 runs, about {told} with ", result.stdout)
+
+    def test_failed_chains_are_not_to_be_run_with_changes(self):
+        out = self.sweep_to_end(CHAIN)
+        point = out / "points" / self.points()[-1]["name"]
+        for path in [point / "summary.json", *point.glob("checkpoint*")]:
+            path.unlink()
+        (point / "attempts.json").write_text(json.dumps({"attempts": 1, "failure": "bad luck"}),
+                                             encoding="utf-8")
+        told = self.riesel("status", "out").stdout
+        self.assertIn("what has failed is run again, by '", told)
+        self.assertNotIn("--set", told)
+
     def test_status_tells_why(self):
         self.sweep(ONE_FAILS)
         result = self.riesel("status", "out")
         self.assert_done(result)
         self.assertIn("3 points: 2 done, 1 failed", result.stdout)
         self.assertIn("--retry-failed'", result.stdout)
+        self.assertIn("--set", result.stdout)
         self.assertRegex(result.stdout, r"failed \(contact.stiffness=0.5 seed=1\): .*a wall")
 
 
@@ -430,6 +514,39 @@ class Tasks(SweepTest):
         before = bytes_of_files(self.home / "out")
         self.assert_refused(self.sweep(CHAIN), "out: holds a run", "--out")
         self.assertEqual(bytes_of_files(self.home / "out"), before)
+
+    def test_a_dry_run_refuses_what_the_sweep_refuses(self):
+        self.run_small_tube("run", "--set", "run.duration=0.1 ms")
+        self.sweep_to_end(ONE_POINT, "other")
+        before = bytes_of_files(self.home)
+        for out, mention in (("run", "run: holds a run"), ("other", "other: holds another sweep")):
+            for options in ([], ["--dry-run"], ["--slurm", "--dry-run"]):
+                with self.subTest(out, options=options):
+                    self.assert_refused(self.sweep(CHAIN, out, *options), mention, "--out")
+        after = bytes_of_files(self.home)
+        del before["sweep.yaml"], after["sweep.yaml"], before["other/.lock"], after["other/.lock"]
+        self.assertEqual(after, before)
+
+    def test_files_of_others_are_not_overwritten(self):
+        for name in ("sweep.yaml", "sweep.csv", "sweep.h5"):
+            for options in ([], ["--dry-run"]):
+                with self.subTest(name, options=options):
+                    (self.home / name).mkdir()
+                    self.write(f"{name}/{name}", "mine")
+                    self.write("one.yaml", ONE_POINT)
+                    result = self.riesel("sweep", "one.yaml", "--out", name, *options)
+                    self.assert_refused(result, f"{name}/{name}", "--out")
+                    self.assertEqual(bytes_of_files(self.home / name), {name: b"mine"})
+                    shutil.rmtree(self.home / name)
+
+    def test_a_sweep_that_has_lost_its_manifest_makes_it_anew(self):
+        out = self.sweep_to_end(ONE_POINT)
+        before = self.manifest()
+        (out / "manifest.json").unlink()
+        self.sweep_to_end(ONE_POINT)
+        for manifest in (before, self.manifest()):
+            del manifest["points"][0]["expected_seconds"]
+            self.assertEqual(manifest["points"][0]["status"], "done")
 
     def test_the_directory_of_a_sweep_is_no_place_for_a_run(self):
         self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from riesel_command import COMMAND, DONE, FAILED
+from riesel_command import BAD_INPUT, COMMAND, DONE, FAILED
 from test_sweep import CHAIN, GRID, ONE_FAILS, SweepTest
 
 OUT_OF_TIME = 3
@@ -90,6 +90,10 @@ class Tasks(SweepTest):
     def test_no_such_part(self):
         self.prepare(GRID)
         self.assert_refused(self.task(3, "--of", 3), "part 3", "from 0 to 2")
+        for index in ("-1", "99999999999999999999999"):
+            result = self.task(index)
+            self.assertEqual(result.returncode, BAD_INPUT)
+            self.assertIn(f"INDEX: Value {index} not in range 0 to ", result.stderr)
 
     @unittest.skipIf(shutil.which("parallel") is None, "there is no GNU parallel")
     def test_gnu_parallel(self):

@@ -3,6 +3,8 @@
 #include "io/file_error.hpp"
 #include "tests/io/file_fixture.hpp"
 
+#include <sys/stat.h>
+
 #include <csignal>
 
 using namespace riesel::io;
@@ -56,6 +58,23 @@ TEST_CASE("A lock that is a link to another file is refused, and that file is le
   CHECK(contains(error_of_locking(directory.path()), "cannot be locked"));
   CHECK_FALSE(DirectoryLock::is_held(directory.path()));
   CHECK(contents(directory / "precious") == "mine");
+}
+
+TEST_CASE("A lock that is a pipe is refused and not waited for") {
+  const ScratchDirectory directory;
+  REQUIRE(mkfifo((directory / ".lock").c_str(), 0600) == 0);
+  CHECK(contains(error_of_locking(directory.path()), "is no regular file"));
+  CHECK_FALSE(DirectoryLock::is_held(directory.path()));
+}
+
+TEST_CASE("The holder of a lock is told to those who only ask") {
+  const ScratchDirectory directory;
+  CHECK_FALSE(DirectoryLock::holder(directory.path()));
+  {
+    const DirectoryLock lock(directory.path());
+    CHECK(DirectoryLock::holder(directory.path()).value_or("").starts_with("process "));
+  }
+  CHECK_FALSE(DirectoryLock::holder(directory.path()));
 }
 
 TEST_CASE("The lock of a killed process is gone") {

@@ -341,9 +341,11 @@ class Unreadable(CommandTest):
         for name, parts in (("run.h5", ("series", "profiles", "histograms", "final", "provenance")),
                             ("trajectory.h5", ("trajectory",)), ("summary.json", ("summary",)),
                             ("effective.yaml", ("settings",))):
+            of_summary = name == "summary.json"
+            anew = "make it anew by 'riesel resume" if of_summary else "make the run again"
             for part in parts:
                 self.assert_unreadable(directory / name, lambda: getattr(run, part),
-                                       "restore the file, or make the run again")
+                                       f"restore the file, or {anew}")
         self.assert_unreadable(directory / "trajectory.h5", lambda: list(frames), "restore")
 
     def test_files_that_hold_something_else(self):
