@@ -196,8 +196,8 @@ class Limits(CommandTest):
         self.assertNotIn("is exceeded", result.stderr)
         after = self.summary(self.home / "warned")["validity"]
         self.assertEqual(after["warnings"], before["warnings"])
-        self.assertEqual(after["findings"][-1]["name"], "limits_exceeded")
-        self.assertEqual((after["findings"][-1]["value"], after["findings"][-1]["verdict"]), (2, "suspect"))
+        [exceeded] = [finding for finding in after["findings"] if finding["name"] == "limits_exceeded"]
+        self.assertEqual((exceeded["value"], exceeded["verdict"]), (2, "suspect"))
         self.assert_done(self.riesel("report", "warned"))
         page = (self.home / "warned/report.html").read_text(encoding="utf-8")
         for warning in before["warnings"]:

@@ -431,7 +431,7 @@ class Refused(Report):
                 for path in [out / "summary.json", *out.glob("checkpoint*")]:
                     path.unlink()
                 start_again = "remove it and start the run again"
-                self.assert_no_report(name, "has not come to its end", start_again)
+                self.assert_no_report(name, "has not finished", start_again)
                 self.assert_refused(self.riesel("resume", name), start_again)
 
     def test_files_that_are_damaged_or_not_of_one_run(self):

@@ -467,7 +467,7 @@ class Failures(SweepTest):
         (point / "attempts.json").write_text(json.dumps({"attempts": 1, "failure": "bad luck"}),
                                              encoding="utf-8")
         told = self.riesel("status", "out").stdout
-        self.assertIn("what has failed is run again, by '", told)
+        self.assertIn("to run the failed points again: '", told)
         self.assertNotIn("--set", told)
 
     def test_status_tells_why(self):

@@ -129,9 +129,9 @@ TEST_CASE("A summary is flattened: single values with dotted names, no lists") {
   CHECK((values[5] == std::pair<std::string, Cell>("large", "9007199254740993")));
   const auto complaint = [&] { return message_of<FileError>([&] { (void)flat_summary(path); }); };
   write(path, "[]");
-  CHECK(contains(complaint(), "summary.json: is not a summary of a run; remove the directory"));
+  CHECK(contains(complaint(), "summary.json: is not a summary of a run; restore the file"));
   write(path, "{\"a\": ");
-  CHECK(contains(complaint(), "summary.json: is not complete JSON; remove the directory"));
+  CHECK(contains(complaint(), "summary.json: is not complete JSON; restore the file"));
 }
 
 TEST_CASE("The record of the attempts is kept, and none is as good as an empty one") {

@@ -12,7 +12,7 @@ COMMAND = pathlib.Path(os.environ["RIESEL"]).resolve()
 BUILD = COMMAND.parents[1]
 PATIENCE = 250.0  # s
 
-PROGRAM = re.compile(r"(\w+=\S+ )*(riesel|cmake|cpack|ctest|export|for|mkdir|python3|seq|timeout|valgrind|"
+PROGRAM = re.compile(r"(\w+=\S+ )*(riesel|cmake|cpack|ctest|export|for (?=\w+ in )\w+|mkdir|python3|seq|timeout|valgrind|"
                      r"(\./|build/|docs/|tests/|bench/)\S+) ")
 
 
