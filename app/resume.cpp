@@ -7,6 +7,7 @@
 #include "engine/histogram_blocks.hpp"
 #include "engine/strips.hpp"
 #include "io/checkpoint.hpp"
+#include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
