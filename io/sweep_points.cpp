@@ -128,7 +128,7 @@ private:
         [&](const Setting& row) { return row.matters && !row.names_content && wanted(row); });
     for (const std::string& key :
          settings.keys([&](const Setting& row) { return row.names_content && wanted(row); })) {
-      const std::string file = settings.text(key);
+      const std::string& file = settings.text(key);
       const auto [known, is_new] = contents_.try_emplace(file);
       if (is_new) known->second = hash_content(file);
       text += known->second;
