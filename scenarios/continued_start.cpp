@@ -1,6 +1,7 @@
 #include "scenarios/continued_start.hpp"
 
 #include "engine/encounter.hpp"
+#include "engine/observables.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "scenarios/scenario.hpp"
@@ -101,13 +102,6 @@ double energy_of_fluctuations(const State& state) {
   return 0.5 * (twice_energy - (px * px + py * py) / mass);
 }
 
-/// J
-double energy_of_contacts(const State& state) {
-  double energy = 0.0;
-  for (const Contact& contact : state.contacts) energy += contact.elastic_energy;
-  return energy;
-}
-
 bool alike(double a, double b) {
   constexpr double rounding = 1e-12;  // of settings that were converted, and of sines of angles
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
@@ -163,7 +157,8 @@ void reject_other_swing_across(const io::Settings& settings, const State& earlie
 
 void reject_released_energy(const io::Settings& settings, const State& earlier,
                             const State& state) {
-  const double before = energy_of_contacts(earlier), now = energy_of_contacts(state);
+  const double before = observe(earlier).energies.elastic;
+  const double now = observe(state).energies.elastic;
   const double had = before + energy_of_fluctuations(earlier);
   if (now - before <= had) return;
   settings.reject("contact.stiffness",
