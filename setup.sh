@@ -7,7 +7,7 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 build_packages=(
   cmake ninja-build g++ git
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
-  libudunits2-dev librandom123-dev catch2
+  libudunits2-dev zlib1g-dev librandom123-dev catch2
   python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib)
 # Read what riesel writes, in the tests only; a shell that completes its command line; what runs the
 # tasks of a sweep.

@@ -19,6 +19,7 @@ riesel_require(HDF5 libhdf5-dev 1.10 COMPONENTS C)
 riesel_require(yaml-cpp libyaml-cpp-dev)
 riesel_require(fmt libfmt-dev 9)
 riesel_require(UDUNITS2 libudunits2-dev)
+riesel_require(ZLIB zlib1g-dev)
 
 # Headers and programs that only the build of riesel itself needs.
 if(NOT RIESEL_DEPENDENCIES_FOR_PACKAGE)

@@ -1,9 +1,11 @@
 // The seal of a file that holds HDF5: its first 512 bytes, a text that gives the kind of file, its
-// length and a checksum of all that follows.
+// length and two checksums of all that follows.
 //
-// HDF5 skips such a user block. Changing one byte always changes the checksum (FNV-1a: each byte
-// goes in by a one-to-one map); any other damage goes unnoticed in one case of 2^64. The seal
-// guards against accidents: anyone who wants to deceive can make it right, see stored_hdf5.hpp.
+// HDF5 skips such a user block. Changing one byte always changes either checksum (FNV-1a: each byte
+// goes in by a one-to-one map); any other damage passes both in one case of 2^96. The CRC-32 is for
+// the Python package, which would need minutes for the other one; riesel itself reads files without
+// it, as riesel 0.10 and before wrote them. The seal guards against accidents: anyone who wants to
+// deceive can make it right, see stored_hdf5.hpp.
 #pragma once
 
 #include <cstddef>

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import pathlib
+import re
+import zlib
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import h5py
 import yaml
 
+_SEAL_SIZE = 512  # seal_size of io/seal.hpp, bytes
 _RESTORE = "restore the file, or make the run again"
 
 
@@ -23,24 +27,39 @@ class Unreadable(ValueError):
 
 
 @contextlib.contextmanager
-def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE) -> Iterator[Any]:
+def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE,
+           sealed: bool = False) -> Iterator[Any]:
     """The HDF5 file, open as long as the `with` block lasts. The texts are remedies for the
     messages. Raises NotThere if it is missing, and Unreadable for any flaw that h5py finds in the
-    block."""
+    block, or that the seal shows (docs/files.md)."""
     _require(path, if_missing)
     try:
-        with h5py.File(path, "r") as file:
+        with h5py.File(_unsealed(path) if sealed else path, "r") as file:
             yield file
     except (OSError, KeyError, IndexError, RuntimeError, ValueError) as error:
         raise Unreadable(f"{path}: cannot be read ({error}); {if_damaged}") from error
 
 
-def part(file: Any, name: str, remedy: str) -> Any:
-    """A group of the HDF5 file. Raises NotThere if it is missing or empty: riesel makes that of the
-    series for every run, even if it has none."""
-    if not len(file.get(name, ())):
-        raise NotThere(f"{file.filename}: has no {name}; {remedy}")
-    return file[name]
+@contextlib.contextmanager
+def part(path: pathlib.Path, name: str, if_missing: str, if_without: str,
+         if_damaged: str = _RESTORE, sealed: bool = False) -> Iterator[Any]:
+    """A group of the HDF5 file, like `opened`. Raises NotThere if it is missing or empty, too:
+    riesel makes that of the series for every run, even if it has none."""
+    with opened(path, if_missing, if_damaged, sealed) as file:
+        if not len(file.get(name, ())):
+            raise NotThere(f"{path}: has no {name}; {if_without}")
+        yield file[name]
+
+
+def _unsealed(path: pathlib.Path) -> io.BytesIO:
+    """The content of a file whose seal is intact. The seals of riesel 0.10 and before have no
+    CRC-32: of these files all is taken. Raises ValueError."""
+    image = path.read_bytes()
+    block, content = image[:_SEAL_SIZE], image[_SEAL_SIZE:]
+    crc = re.search(rb"^CRC-32 of those behind the block: ([0-9a-f]{8})$", block, re.MULTILINE)
+    if crc and int(crc[1], 16) != zlib.crc32(content):
+        raise ValueError("its checksum is wrong")
+    return io.BytesIO(image)
 
 
 def members(path: pathlib.Path, parse: Callable[[str], Any], if_missing: str,

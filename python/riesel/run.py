@@ -7,6 +7,7 @@ import math
 import os
 import pathlib
 from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -16,7 +17,7 @@ import yaml
 from numpy.typing import NDArray
 
 from .estimate import Estimate
-from .files import NotThere, Unreadable, members, opened, part
+from .files import NotThere, Unreadable, members, part
 from .table import Table, table_of, text
 from .trajectory import Trajectory
 from .tree import Tree
@@ -141,28 +142,27 @@ class Run:
     @cached_property
     def series(self) -> Table:
         """Of a flow: one row per output.interval; while it runs, up to the last checkpoint."""
-        with opened(self._run_file, self._go_on) as file:
-            return table_of(part(file, "series", "only flows have one"))
+        with self._part("series", "only flows have one") as group:
+            return table_of(group)
 
     @cached_property
     def profiles(self) -> Table:
         """Profiles across the tube: "x", the middle of each strip, and NAME with NAME_error."""
-        with opened(self._run_file, self._go_on) as file:
-            return table_of(part(file, "profiles", self._written_at_the_end))
+        with self._part("profiles", self._written_at_the_end) as group:
+            return table_of(group)
 
     @cached_property
     def histograms(self) -> Mapping[str, Histogram]:
         """Histograms of contacts and of visits to walls, by name."""
-        with opened(self._run_file, self._go_on) as file:
-            group = part(file, "histograms", self._written_at_the_end)
+        with self._part("histograms", self._written_at_the_end) as group:
             return {name: _histogram(item) for name, item in group.items()}
 
     @cached_property
     def final(self) -> FinalState:
         """Of a flow, the state at its last checkpoint: its end if `is_done`, and of a run that
         failed, the state in which it failed. `step` and `time` tell which it is."""
-        with opened(self._run_file, self._go_on) as file:
-            group = part(file, "final", "only flows have one, from their first checkpoint on")
+        with self._part("final",
+                        "only flows have one, from their first checkpoint on") as group:
             return FinalState(time=float(group.attrs["time"]), step=int(group.attrs["step"]),
                               width=float(group.attrs["box_width"]),
                               length=float(group.attrs["box_length"]), grains=table_of(group),
@@ -177,8 +177,8 @@ class Run:
     def curve(self) -> Table:
         """Of an impact scenario or bead_column: a row per point, as in docs/files.md; "verdict" is
         0 for valid, 1 for suspect, 2 for unphysical."""
-        with opened(self._run_file, self._go_on) as file:
-            return table_of(part(file, "curve", "only impact scenarios and bead_column have one"))
+        with self._part("curve", "only impact scenarios and bead_column have one") as group:
+            return table_of(group)
 
     @cached_property
     def provenance(self) -> Mapping[str, str]:
@@ -192,19 +192,17 @@ class Run:
 
     @cached_property
     def _provenances(self) -> list[Mapping[str, str]]:
-        with opened(self._run_file, self._go_on) as file:
-            group = part(file, "provenance", "give the directory of a run")
+        with self._part("provenance", "give the directory of a run") as group:
             resumed = sorted((name for name in group if name.startswith("resume_")),
                              key=lambda name: int(name.removeprefix("resume_")))
             return [_texts(group), *(_texts(group[name]) for name in resumed)]
 
+    def _part(self, name: str, if_without: str) -> AbstractContextManager[Any]:
+        return part(self.directory / "run.h5", name, self._go_on, if_without, sealed=True)
+
     @property
     def _summary_file(self) -> pathlib.Path:
         return self.directory / "summary.json"
-
-    @property
-    def _run_file(self) -> pathlib.Path:
-        return self.directory / "run.h5"
 
     @property
     def _go_on(self) -> str:

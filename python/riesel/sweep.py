@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .estimate import Estimate, mean_of
-from .files import NotThere, Unreadable, members, opened, part
+from .files import NotThere, Unreadable, members, part
 from .run import Run
 from .table import Table, table_of
 
@@ -101,8 +101,8 @@ class Sweep:
         """The table of `riesel collect`: a row per point, done or not, with its settings and all
         single values of its summary, NaN or "" where there is none."""
         remedy = f"make it with 'riesel collect {self.directory}'"
-        with opened(self.directory / "sweep.h5", remedy, remedy) as file:
-            return table_of(part(file, "points", remedy))
+        with part(self.directory / "sweep.h5", "points", remedy, remedy, remedy) as group:
+            return table_of(group)
 
     def means(self, column: str, over: str = "seed") -> list[Mean]:
         """The means of a column of `table` over the points that differ only in the setting `over`,

@@ -7,9 +7,8 @@ import resource
 import shutil
 import subprocess
 
-import h5py
-
 from riesel_command import COMMAND, SMALL_TUBE, CommandTest, bytes_of_files
+from seal import changed_behind_seal, seal_again
 
 PROCESSOR_TIME, MEMORY = 2, 1 << 30  # s, bytes
 SIZE = 100_000_000
@@ -18,18 +17,6 @@ SIZE = 100_000_000
 def limit():
     resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_TIME, PROCESSOR_TIME))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-
-
-def seal_again(path):
-    """Makes length and checksum right, as io/seal.cpp does."""
-    content = path.read_bytes()
-    checksum = 0xcbf29ce484222325
-    for byte in content[512:]:
-        checksum = (checksum ^ byte) * 0x100000001b3 & 0xffffffffffffffff
-    lines = content[:512].rstrip(b"\0").split(b"\n")
-    lines[2:4] = [b"bytes in all: %d" % len(content),
-                  b"FNV-1a of those behind the block: %016x" % checksum]
-    path.write_bytes(b"\n".join(lines).ljust(512, b"\0") + content[512:])
 
 
 class HostileFiles(CommandTest):
@@ -215,14 +202,13 @@ class HostileFiles(CommandTest):
         whole = checkpoint.read_bytes()
         seal_again(checkpoint)
         self.assertEqual(checkpoint.read_bytes(), whole, "the seal is made as it was")
-        with h5py.File(checkpoint, "r+") as file:
+        with changed_behind_seal(checkpoint) as file:
             profiles = file["profiles"]
             sums = profiles["sums"][:profiles.attrs["samples"]]
             for name, value in (("columns", 1), ("samples_per_block", 1)):
                 profiles.attrs.modify(name, value)
             del profiles["sums"]
             profiles.create_dataset("sums", data=sums, chunks=sums.shape, fletcher32=True)
-        seal_again(checkpoint)
         (checkpoint.parent / "checkpoint.h5.previous").unlink()
         self.assert_refused(self.riesel("resume", "run"), "is damaged", "profiles",
                             "start the run again")

@@ -166,6 +166,19 @@ TEST_CASE("Each byte of a checkpoint is protected") {
   }
 }
 
+TEST_CASE("Checkpoints of riesel 0.10, whose seals lack a line, are read") {
+  const ScratchDirectory directory;
+  const auto path = directory / "c.h5";
+  write_checkpoint(path, special_checkpoint());
+  auto bytes = contents(path);
+  const auto begin = bytes.find("CRC-32"), end = bytes.find('\n', begin) + 1;
+  REQUIRE(end < seal_size);
+  std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+            bytes.begin() + static_cast<std::ptrdiff_t>(end), '\0');
+  overwrite(path, bytes);
+  CHECK(error_of_reading(path).empty());
+}
+
 TEST_CASE("Behind the seal, data sets have checksums for any reader of HDF5") {
   const ScratchDirectory directory;
   const auto path = directory / "c.h5";

@@ -385,10 +385,8 @@ FAULTS = [
     ("a write that is cut short by a signal taken for an error", "io/uninterrupted.hpp",
      "if (const auto result = call(); result >= 0 || errno != EINTR) return result;", "return call();"),
     ("a checksum that is not looked at", "io/seal.cpp",
-     "const bool is_whole = is_long_enough && text_of(image).starts_with(seal_text(image, kind));",
-     "const auto but_checksum = [](const std::string& text) { return text.substr(0, text.find(\"FNV\")); };\n"
-     "  const bool is_whole = is_long_enough\n"
-     "                        && text_of(image).starts_with(but_checksum(seal_text(image, kind)));"),
+     "block == filling_the_block(earlier + crc_line(image))",
+     "block.starts_with(earlier.substr(0, earlier.find(\"FNV\")))"),
     ("a kick not kept in checkpoints", "io/state_layout.hpp",
      'visit("kick_y", "quantum_y / step^2", kick, along_y);',
      'visit("kick_y", "quantum_y / step^2", kick, along_x);'),

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import shutil
 import statistics
 
@@ -11,6 +12,7 @@ import numpy as np
 import riesel
 
 from riesel_command import SMALL_TUBE, CommandTest, saved_step
+from seal import changed_behind_seal
 
 IMPACTS = """\
 scenario: wall_array
@@ -352,7 +354,7 @@ class Unreadable(CommandTest):
         directory = self.run_small_tube("run", "--set", "output.trajectory_interval=1 ms")
         for name in ("summary.json", "effective.yaml"):
             (directory / name).write_text("[1, 2]", encoding="utf-8")
-        with h5py.File(directory / "run.h5", "r+") as file:
+        with changed_behind_seal(directory / "run.h5") as file:
             del file["final"].attrs["time"]
         with h5py.File(directory / "trajectory.h5", "w"):
             pass
@@ -360,6 +362,24 @@ class Unreadable(CommandTest):
         for name, part in (("summary.json", "summary"), ("effective.yaml", "settings"),
                            ("run.h5", "final"), ("trajectory.h5", "trajectory")):
             self.assert_unreadable(directory / name, lambda: getattr(run, part), "restore")
+
+    def test_a_changed_bit_behind_the_seal(self):
+        path = self.run_small_tube("run") / "run.h5"
+        good = path.read_bytes()
+        for place in (512, 512 + 97, len(good) // 2, len(good) - 1):
+            bad = bytearray(good)
+            bad[place] ^= 1
+            path.write_bytes(bad)
+            self.assert_unreadable(path, lambda: riesel.Run(path.parent).provenance, "restore")
+
+    def test_seals_of_riesel_0_10_say_nothing_to_python(self):
+        path = self.run_small_tube("run") / "run.h5"
+        good = path.read_bytes()
+        time = riesel.Run(path.parent).final.time
+        line = re.compile(rb"CRC-32 .*\n")
+        self.assertRegex(good[:512], line)
+        path.write_bytes(line.sub(b"", good[:512]).ljust(512, b"\0") + good[512:])
+        self.assertEqual(riesel.Run(path.parent).final.time, time)
 
     def test_a_summary_of_another_format(self):
         directory = self.run_small_tube("run")
@@ -417,7 +437,7 @@ class OfSweep(CommandTest):
         summary = json.loads((last / "summary.json").read_text(encoding="utf-8"))
         summary["validity"]["verdict"] = "valid"
         (last / "summary.json").write_text(json.dumps(summary | {"state": "steady"}), encoding="utf-8")
-        with h5py.File(last / "run.h5", "r+") as file:
+        with changed_behind_seal(last / "run.h5") as file:
             file["profiles/temperature_x"][0] = np.nan
         means = riesel.Sweep(self.home / "out").mean_profiles()
         self.assertEqual([(mean.runs, mean.steady) for mean in means], [(2, 0), (3, 0), (3, 0), (3, 1)])
@@ -425,7 +445,7 @@ class OfSweep(CommandTest):
         self.assertEqual(means[3].valid, verdicts[:2].count("valid") + 1)
         others = [table["temperature_x"][0] for table in tables[:-1]]
         self.assertAlmostEqual(means[3].profiles["temperature_x"][0], statistics.mean(others), places=12)
-        with h5py.File(last / "run.h5", "r+") as file:
+        with changed_behind_seal(last / "run.h5") as file:
             file["profiles/x"][:] *= 2.0
         with self.assertRaisesRegex(ValueError, "its strips differ from those of") as told:
             riesel.Sweep(self.home / "out").mean_profiles()
