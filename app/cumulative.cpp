@@ -5,13 +5,7 @@
 #include <numeric>
 
 namespace riesel::app {
-
 namespace {
-
-/// NaN if there are too few samples to have a scatter.
-double error_of_mean(const std::vector<double>& samples) {
-  return samples.size() > 1 ? estimate_mean(samples).error : unknown;
-}
 
 double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -35,7 +29,8 @@ double CumulativeSeries::total(const std::string& name) const {
 io::Measured CumulativeSeries::rate(const std::string& name) const {
   const std::vector<double> steps = increments(name);
   const double duration = interval_ * static_cast<double>(steps.size());
-  return {.value = total(name) / duration, .error = error_of_mean(steps) / interval_};
+  const double error = steps.size() > 1 ? estimate_mean(steps).error : unknown;
+  return {.value = total(name) / duration, .error = error / interval_};
 }
 
 io::Measured CumulativeSeries::ratio(const std::string& part, const std::string& whole) const {
@@ -46,7 +41,7 @@ io::Measured CumulativeSeries::ratio(const std::string& part, const std::string&
   const double ratio = total(part) / weight;
   for (std::size_t i = 0; i < deviations.size(); ++i) deviations[i] -= ratio * weights[i];
   const double mean_weight = weight / static_cast<double>(weights.size());
-  return {.value = ratio, .error = error_of_mean(deviations) / mean_weight};
+  return {.value = ratio, .error = error_per_weight(deviations, weights) / mean_weight};
 }
 
 }  // namespace riesel::app

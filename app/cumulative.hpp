@@ -22,7 +22,7 @@ public:
   double total(const std::string& name) const;
   /// Per second.
   io::Measured rate(const std::string& name) const;
-  /// total(part) / total(whole), with the error of a ratio estimator. NaN if total(whole) is 0.
+  /// total(part) / total(whole) with its error (error_per_weight). NaN if total(whole) is 0.
   io::Measured ratio(const std::string& part, const std::string& whole) const;
 
 private:

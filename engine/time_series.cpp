@@ -1,5 +1,7 @@
 #include "engine/time_series.hpp"
 
+#include "engine/estimate.hpp"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -210,6 +212,14 @@ MeanEstimate estimate_mean(std::span<const double> series) {
           .error = student_68 * allowance * std::sqrt(long_run_variance(deviations, 1) / n),
           .autocorrelation_time = time,
           .independent_samples = independent};
+}
+
+double error_per_weight(std::span<const double> linear, std::span<const double> weights) {
+  const auto of_all = finite_samples(linear);
+  const auto weight = finite_samples(weights);
+  if ((weight > 0.0).count() < 2) return unknown;
+  const ArrayXd from_others = of_all / (1.0 - weight / weight.sum());
+  return estimate_mean({from_others.data(), static_cast<std::size_t>(from_others.size())}).error;
 }
 
 TrendEstimate estimate_trend(std::span<const double> series) {

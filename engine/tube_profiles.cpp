@@ -37,21 +37,31 @@ public:
   double mean(StripSum sum) const { return mean_of(means(sum)); }
   double mean(StripSum sum, std::size_t strip) const { return mean_of(means(sum, strip)); }
 
-  /// An estimate with this value; its error is that of its linear part, which `parts` describe.
-  Estimate estimate(double value, std::span<const Part> parts) const {
-    std::vector<double> linear(size_, 0.0);
-    for (const Part& part : parts) {
-      const std::vector<double> of_blocks =
-          part.strip ? means(part.sum, *part.strip) : means(part.sum);
-      for (std::size_t i = 0; i < size_; ++i) linear[i] += part.derivative * of_blocks[i];
-    }
-    return {value, size_ > 1 ? estimate_mean(linear).error : unknown};
+  /// A sum with this value; its error is that of its linear part, which `parts` describe.
+  Estimate sum(double value, std::span<const Part> parts) const {
+    return {value, size_ > 1 ? estimate_mean(linear(parts)).error : unknown};
   }
-  Estimate estimate(double value, std::initializer_list<Part> parts) const {
-    return estimate(value, std::span(parts));
+  Estimate sum(double value, std::initializer_list<Part> parts) const {
+    return sum(value, std::span(parts));
+  }
+  /// The same for a mean over the grains of the zone.
+  Estimate mean_over_grains(double value, std::span<const Part> parts) const {
+    return {value, error_per_weight(linear(parts), means(StripSum::grains))};
+  }
+  Estimate mean_over_grains(double value, std::initializer_list<Part> parts) const {
+    return mean_over_grains(value, std::span(parts));
   }
 
 private:
+  std::vector<double> linear(std::span<const Part> parts) const {
+    std::vector<double> total(size_, 0.0);
+    for (const Part& part : parts) {
+      const std::vector<double> of_blocks =
+          part.strip ? means(part.sum, *part.strip) : means(part.sum);
+      for (std::size_t i = 0; i < size_; ++i) total[i] += part.derivative * of_blocks[i];
+    }
+    return total;
+  }
   double mean_of(const std::vector<double>& of_blocks) const {
     return std::accumulate(of_blocks.begin(), of_blocks.end(), 0.0) / static_cast<double>(size_);
   }
@@ -76,11 +86,10 @@ private:
 
 /// The sum `a`, or a + b, over the area of the zone (m^2).
 Estimate density(const ZoneBlocks& b, double area, StripSum a) {
-  return b.estimate(b.mean(a) / area, {{a, 1.0 / area}});
+  return b.sum(b.mean(a) / area, {{a, 1.0 / area}});
 }
 Estimate density(const ZoneBlocks& blocks, double area, StripSum a, StripSum b) {
-  return blocks.estimate((blocks.mean(a) + blocks.mean(b)) / area,
-                         {{a, 1.0 / area}, {b, 1.0 / area}});
+  return blocks.sum((blocks.mean(a) + blocks.mean(b)) / area, {{a, 1.0 / area}, {b, 1.0 / area}});
 }
 
 /// Mean over the grains of the zone.
@@ -88,7 +97,7 @@ Estimate per_grain(const ZoneBlocks& b, StripSum sum) {
   const double grains = b.mean(StripSum::grains);
   if (grains == 0.0) return not_known;
   const double ratio = b.mean(sum) / grains;
-  return b.estimate(ratio, {{sum, 1.0 / grains}, {StripSum::grains, -ratio / grains}});
+  return b.mean_over_grains(ratio, {{sum, 1.0 / grains}, {StripSum::grains, -ratio / grains}});
 }
 
 /// Which sums are those of weights, of weights times w and of weights times w^2.
@@ -126,7 +135,7 @@ Estimate variance_of_w(const ZoneBlocks& b) {
   const double variance = random.sum / grains;
   random.parts.push_back({StripSum::grains, -variance});
   for (Part& part : random.parts) part.derivative /= grains;
-  return b.estimate(variance, random.parts);
+  return b.mean_over_grains(variance, random.parts);
 }
 
 /// The kinetic stress along the tube, with that of the contacts if asked for.
@@ -136,7 +145,7 @@ Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
   const double sum = random.sum + contact * b.mean(StripSum::contact_yy);
   random.parts.push_back({StripSum::contact_yy, contact});
   for (Part& part : random.parts) part.derivative /= area;
-  return b.estimate(sum / area, random.parts);
+  return b.sum(sum / area, random.parts);
 }
 
 struct Quantity {

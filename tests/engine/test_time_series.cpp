@@ -235,3 +235,45 @@ TEST_CASE("a trend beneath correlated noise is found, with its error", "[time_se
   CHECK(covered > 110);
   CHECK(covered < 165);
 }
+
+TEST_CASE("the error of a ratio whose weight lies in one sample is unknown", "[time_series]") {
+  Series linear(30, 0.0), weights(30, 0.0);
+  weights[7] = 25.0;
+  CHECK(std::isnan(riesel::error_per_weight(linear, weights)));
+  weights[8] = 1.0;
+  CHECK(riesel::error_per_weight(linear, weights) == 0.0);
+}
+
+TEST_CASE("each sample is compared with the ratio of all others", "[time_series]") {
+  // Weights of 3 and 1, with 2 and 6 per weight: 3 in the mean of all. The first deviates by -3 from
+  // it and by -12 from the other; for the second it is 3 and 4.
+  const Series linear{-3.0, 3.0}, weights{3.0, 1.0};
+  CHECK(riesel::error_per_weight(linear, weights) == Approx((4.0 + 12.0) / 2.0));
+}
+
+TEST_CASE("error bars of ratios of rare events keep their word", "[time_series]") {
+  // Five events in the mean, in 100 samples. The linear part as it is covers 55 %.
+  std::mt19937 random(5);
+  std::poisson_distribution<int> events(0.05);
+  std::exponential_distribution<double> size(1.0);
+  int covered = 0, known = 0;
+  while (known < 2000) {
+    Series deviations(100, 0.0), weights(100, 0.0);
+    double weight = 0.0, total = 0.0;
+    for (std::size_t i = 0; i < deviations.size(); ++i) {
+      weights[i] = events(random);
+      for (double event = 0.0; event < weights[i]; ++event) deviations[i] += size(random);
+      weight += weights[i];
+      total += deviations[i];
+    }
+    if (weight == 0.0) continue;
+    const double ratio = total / weight;
+    for (std::size_t i = 0; i < deviations.size(); ++i) deviations[i] -= ratio * weights[i];
+    const double error = riesel::error_per_weight(deviations, weights) * 100.0 / weight;
+    if (std::isnan(error)) continue;
+    ++known;
+    covered += std::abs(ratio - 1.0) <= error;
+  }
+  CHECK(covered > 0.61 * known);
+  CHECK(covered < 0.70 * known);
+}
