@@ -2,16 +2,9 @@
 
 #include "engine/time_series.hpp"
 
-#include <numeric>
+#include <cmath>
 
 namespace riesel::app {
-namespace {
-
-double sum(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-}  // namespace
 
 std::vector<double> CumulativeSeries::increments(const std::string& name) const {
   const std::vector<double> series = file_->series(name);
@@ -29,18 +22,21 @@ double CumulativeSeries::total(const std::string& name) const {
 io::Measured CumulativeSeries::rate(const std::string& name) const {
   const std::vector<double> steps = increments(name);
   const double duration = interval_ * static_cast<double>(steps.size());
-  const double error = steps.size() > 1 ? estimate_mean(steps).error : unknown;
-  return {.value = total(name) / duration, .error = error / interval_};
+  return {.value = total(name) / duration, .error = mean_with_error(steps).error / interval_};
 }
 
-io::Measured CumulativeSeries::ratio(const std::string& part, const std::string& whole) const {
+double CumulativeSeries::quotient(const std::string& part, const std::string& whole) const {
+  const double divisor = total(whole);
+  return divisor == 0.0 ? unknown : total(part) / divisor;
+}
+
+io::Measured CumulativeSeries::ratio(const std::string& part, const std::string& counted) const {
+  const double ratio = quotient(part, counted);
+  if (std::isnan(ratio)) return {.value = unknown, .error = unknown};
   std::vector<double> deviations = increments(part);
-  const std::vector<double> weights = increments(whole);
-  const double weight = sum(weights);
-  if (weight == 0.0) return {.value = unknown, .error = unknown};
-  const double ratio = total(part) / weight;
+  const std::vector<double> weights = increments(counted);
   for (std::size_t i = 0; i < deviations.size(); ++i) deviations[i] -= ratio * weights[i];
-  const double mean_weight = weight / static_cast<double>(weights.size());
+  const double mean_weight = total(counted) / static_cast<double>(weights.size());
   return {.value = ratio, .error = error_per_weight(deviations, weights) / mean_weight};
 }
 

@@ -22,8 +22,10 @@ public:
   double total(const std::string& name) const;
   /// Per second.
   io::Measured rate(const std::string& name) const;
-  /// total(part) / total(whole) with its error (error_per_weight). NaN if total(whole) is 0.
-  io::Measured ratio(const std::string& part, const std::string& whole) const;
+  /// total(part) / total(whole). NaN if total(whole) is 0.
+  double quotient(const std::string& part, const std::string& whole) const;
+  /// quotient(part, counted) with its error (error_per_weight). What is counted never falls.
+  io::Measured ratio(const std::string& part, const std::string& counted) const;
 
 private:
   std::vector<double> increments(const std::string& name) const;

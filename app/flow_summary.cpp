@@ -23,8 +23,8 @@ namespace {
 /// Mean of one series from row `first` on, which is the end of the transient.
 io::Measured mean_of(const io::RunFile& file, const std::string& name, std::size_t first) {
   const std::vector<double> series = file.series(name);
-  const MeanEstimate mean = estimate_mean(std::span(series).subspan(first));
-  return {.value = mean.mean, .error = series.size() - first > 1 ? mean.error : unknown};
+  const Estimate mean = mean_with_error(std::span(series).subspan(first));
+  return {.value = mean.value, .error = mean.error};
 }
 
 io::FlowSummary::Fluctuations fluctuations_of(const io::RunFile& file, std::size_t first) {
@@ -149,7 +149,7 @@ Evidence evidence(const CumulativeSeries& series, const State& state, const Ener
   // Then no braking failed, even if there is none, as at smooth walls without friction.
   const bool none_failed = enough && series.total("wall_contacts_cut_short") == 0.0;
   const auto of_walls = [&](const char* part, const char* whole) {
-    return enough ? series.ratio(part, whole).value : unknown;
+    return enough ? series.quotient(part, whole) : unknown;
   };
   return {
       .max_overlap_ratio = largest_overlap(state).ratio,
@@ -175,7 +175,7 @@ io::FlowSummary::Validity validity_of(const CumulativeSeries& series, const Stat
           .t_col_grains = typical.t_col_grains,
           .t_col_walls = typical.t_col_walls,
           .friction_failure_fraction =
-              series.ratio("wall_friction_loss_cut_short", "wall_friction_loss").value,
+              series.quotient("wall_friction_loss_cut_short", "wall_friction_loss"),
           .warnings = warnings};
 }
 

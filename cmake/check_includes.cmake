@@ -17,7 +17,7 @@ set(engine_external  "Eigen/" "omp.h" "Random123/")
 set(engine_not       "fstream" "iostream" "filesystem" "cstdio" "print")   # no files, no printing
 
 set(io_rooms         "engine/" "io/")
-set(io_external      "hdf5.h" "yaml-cpp/" "udunits2.h" "nlohmann/" "fmt/"
+set(io_external      "hdf5.h" "yaml-cpp/" "udunits2.h" "zlib.h" "nlohmann/" "fmt/"
                      "unistd.h" "fcntl.h" "sys/")
 
 set(scenarios_rooms     "engine/" "io/" "scenarios/")

@@ -40,10 +40,8 @@ std::vector<double> counts_of(const Tally& tally) {
 
 /// Rate of one bin in 1/s, from its column of the blocks.
 Estimate rate(const TimeBlocks& blocks, std::size_t column, std::int64_t first, double interval) {
-  const std::vector<double> means = blocks.means(column, first + 1);
-  if (means.empty()) return {unknown, unknown};
-  const MeanEstimate per_sample = estimate_mean(means);
-  return {per_sample.mean / interval, means.size() > 1 ? per_sample.error / interval : unknown};
+  const Estimate per_sample = mean_with_error(blocks.means(column, first + 1));
+  return {per_sample.value / interval, per_sample.error / interval};
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "engine/time_series.hpp"
 
-#include "engine/estimate.hpp"
-
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -214,10 +212,16 @@ MeanEstimate estimate_mean(std::span<const double> series) {
           .independent_samples = independent};
 }
 
+Estimate mean_with_error(std::span<const double> series) {
+  if (series.empty()) return {unknown, unknown};
+  const MeanEstimate estimate = estimate_mean(series);
+  return {estimate.mean, series.size() > 1 ? estimate.error : unknown};
+}
+
 double error_per_weight(std::span<const double> linear, std::span<const double> weights) {
   const auto of_all = finite_samples(linear);
   const auto weight = finite_samples(weights);
-  if ((weight > 0.0).count() < 2) return unknown;
+  if ((weight >= weight.sum()).any()) return unknown;
   const ArrayXd from_others = of_all / (1.0 - weight / weight.sum());
   return estimate_mean({from_others.data(), static_cast<std::size_t>(from_others.size())}).error;
 }

@@ -11,6 +11,8 @@
 // for a sample that is not finite.
 #pragma once
 
+#include "engine/estimate.hpp"
+
 #include <cstddef>
 #include <span>
 
@@ -55,11 +57,14 @@ double standard_deviation(std::span<const double> series);
 /// one independent sample, whose error is the standard deviation; none at all give zeros.
 MeanEstimate estimate_mean(std::span<const double> series);
 
+/// The same for printing: the error of a single sample is unknown, and so is the mean of none.
+Estimate mean_with_error(std::span<const double> series);
+
 /// The error of a quantity that is counted per weight, such as a sum of parts over a sum of
 /// weights. `linear`: what each sample contributes to its linear part (0 in the mean over all
 /// samples); `weights`, none below 0, as many. A sample that holds a large part of the weight has
 /// drawn the quantity towards itself: each is compared with what the others give (the jackknife).
-/// Unknown unless two samples have a weight.
+/// Unknown if one sample holds all of the weight, but for rounding.
 double error_per_weight(std::span<const double> linear, std::span<const double> weights);
 
 /// Least-squares slope. Its error is taken from cosines of the residuals, as for the mean. If too

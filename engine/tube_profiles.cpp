@@ -39,7 +39,7 @@ public:
 
   /// A sum with this value; its error is that of its linear part, which `parts` describe.
   Estimate sum(double value, std::span<const Part> parts) const {
-    return {value, size_ > 1 ? estimate_mean(linear(parts)).error : unknown};
+    return {value, mean_with_error(linear(parts)).error};
   }
   Estimate sum(double value, std::initializer_list<Part> parts) const {
     return sum(value, std::span(parts));

@@ -240,6 +240,8 @@ TEST_CASE("the error of a ratio whose weight lies in one sample is unknown", "[t
   Series linear(30, 0.0), weights(30, 0.0);
   weights[7] = 25.0;
   CHECK(std::isnan(riesel::error_per_weight(linear, weights)));
+  weights[8] = 1e-20;
+  CHECK(std::isnan(riesel::error_per_weight(linear, weights)));
   weights[8] = 1.0;
   CHECK(riesel::error_per_weight(linear, weights) == 0.0);
 }
