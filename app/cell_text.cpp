@@ -1,5 +1,7 @@
 #include "app/cell_text.hpp"
 
+#include "io/units.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,9 +15,10 @@ namespace {
 /// Six digits, which hide rounding errors, if that is the number; otherwise as many as it takes.
 std::string text_of(double number) {
   constexpr double rounding = 1e-12;
+  if (!std::isfinite(number)) return fmt::format("{}", number);
   std::string text = fmt::format("{:.6g}", number);
-  const bool tells = std::abs(std::stod(text) - number) <= rounding * std::abs(number);
-  return tells || !std::isfinite(number) ? text : fmt::format("{}", number);
+  const double told = io::decimal_value(text).value_or(0.0);
+  return std::abs(told - number) <= rounding * std::abs(number) ? text : fmt::format("{}", number);
 }
 
 }  // namespace

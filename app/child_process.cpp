@@ -2,6 +2,7 @@
 
 #include "app/interrupt.hpp"
 #include "io/file_error.hpp"
+#include "io/uninterrupted.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -73,12 +74,12 @@ pid_t start(std::vector<std::string> arguments, const std::filesystem::path& log
   return child;
 }
 
-ProcessEnd end_of(int status) {
-  if (WIFSIGNALED(status)) return {.status = 0, .signal = WTERMSIG(status)};
-  return {.status = WEXITSTATUS(status), .signal = 0};
-}
-
 }  // namespace
+
+ProcessEnd end_of(int wait_status) {
+  if (WIFSIGNALED(wait_status)) return {.status = 0, .signal = WTERMSIG(wait_status)};
+  return {.status = WEXITSTATUS(wait_status), .signal = 0};
+}
 
 void heed_ends_of_children() { std::signal(SIGCHLD, SIG_DFL); }
 
@@ -89,8 +90,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
 ChildProcess::~ChildProcess() {
   if (end()) return;
   send(SIGTERM);
-  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  io::uninterrupted([&] { return waitpid(id_, nullptr, 0); });
 }
 
 std::optional<ProcessEnd> ChildProcess::end() {

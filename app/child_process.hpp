@@ -19,7 +19,12 @@ void heed_ends_of_children();
 struct ProcessEnd {
   int status = 0;  ///< exit status, if no signal ended it
   int signal = 0;  ///< the signal that ended it, or 0
+
+  bool is_success() const { return status == 0 && signal == 0; }
 };
+
+/// `wait_status`: what waitpid() tells of a process that has ended.
+ProcessEnd end_of(int wait_status);
 
 /// This program, started again with other arguments. Signals of the terminal do not reach it: its
 /// parent has to pass them on with send(). If its parent dies, it gets SIGTERM.

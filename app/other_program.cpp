@@ -1,5 +1,7 @@
 #include "app/other_program.hpp"
 
+#include "io/uninterrupted.hpp"
+
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -15,7 +17,8 @@ std::string all_that_comes(int descriptor) {
   std::string text;
   std::array<char, 4096> piece{};
   ssize_t size = 0;
-  while ((size = read(descriptor, piece.data(), piece.size())) > 0)
+  const auto next = [&] { return read(descriptor, piece.data(), piece.size()); };
+  while ((size = io::uninterrupted(next)) > 0)
     text.append(piece.data(), static_cast<std::size_t>(size));
   return text;
 }
@@ -45,9 +48,8 @@ std::optional<ProgramEnd> run_other_program(const std::vector<std::string>& argu
   close(ends[0]);
   if (error != 0) return {};
   int status = 0;
-  waitpid(id, &status, 0);
-  return ProgramEnd{.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status),
-                    .output = std::move(output)};
+  if (io::uninterrupted([&] { return waitpid(id, &status, 0); }) < 0) return {};
+  return ProgramEnd{.how = end_of(status), .output = std::move(output)};
 }
 
 }  // namespace riesel::app

@@ -1,6 +1,8 @@
 // Calling other programs, such as sbatch, and reading what they print.
 #pragma once
 
+#include "app/child_process.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +10,7 @@
 namespace riesel::app {
 
 struct ProgramEnd {
-  int status = 0;      ///< exit status, or 128 + the signal that ended it
+  ProcessEnd how;
   std::string output;  ///< what it printed on standard output
 };
 
@@ -16,7 +18,7 @@ struct ProgramEnd {
 enum class Complaints { shown, hidden };
 
 /// Runs a program to its end. `arguments` begin with its name, which is looked up in PATH. Nothing
-/// if it cannot be started.
+/// if it cannot be started, or if its end cannot be learned.
 std::optional<ProgramEnd> run_other_program(const std::vector<std::string>& arguments,
                                             Complaints complaints);
 

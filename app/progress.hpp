@@ -13,6 +13,11 @@ namespace riesel::app {
 class Progress {
 public:
   explicit Progress(Verbosity verbosity);
+  ~Progress() { finish(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  Progress(Progress&&) = delete;
+  Progress& operator=(Progress&&) = delete;
 
   /// `done`: from 0 to 1; `text`: what else to show.
   void show(double done, const std::string& text);

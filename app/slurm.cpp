@@ -73,10 +73,10 @@ constexpr auto script_form = R"(#!/bin/bash
 {more}
 {riesel} sweep-task {sweep} "$SLURM_ARRAY_TASK_ID" --of {tasks} --threads {threads}{options} &
 task=$!
-trap 'late=1; kill -TERM $task' USR1  # the time is almost over: the runs write their checkpoints
-trap 'kill -TERM $task' TERM          # cancelled, or another job comes first
-wait $task; status=$?
-if ((status > 128)); then wait $task; status=$?; fi  # a signal had ended the first wait
+trap 'late=1; again=1; kill -TERM $task' USR1  # the time is almost over: runs write checkpoints
+trap 'again=1; kill -TERM $task' TERM          # cancelled, or another job comes first
+again=1
+while ((again)); do again=0; wait $task; status=$?; done  # a signal ends the wait, not the task
 
 # 3: it has seen for itself that its time is almost over.
 if ((status == 3)) || [[ -n "${{late-}}" && $status != 0 ]]; then
@@ -89,7 +89,7 @@ exit $status
 
 std::optional<std::size_t> most_tasks_of_slurm() {
   const auto said = run_other_program({"scontrol", "show", "config"}, Complaints::hidden);
-  if (!said || said->status != 0) return {};
+  if (!said || !said->how.is_success()) return {};
   constexpr std::string_view name = "MaxArraySize";
   const std::size_t place = said->output.find(name);
   if (place == std::string::npos) return {};
@@ -133,7 +133,7 @@ std::string submit_to_slurm(const fs::path& script_file) {
       run_other_program({"sbatch", "--parsable", script_file.string()}, Complaints::shown);
   if (!said)
     throw std::runtime_error("sbatch cannot be started; is Slurm installed on this machine?");
-  if (said->status != 0)
+  if (!said->how.is_success())
     throw std::runtime_error(
         fmt::format("sbatch refused the job (see above); change {} or the options, and try again",
                     script_file.string()));

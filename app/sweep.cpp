@@ -121,33 +121,38 @@ void refresh_for_slurm(io::Manifest& manifest, const fs::path& sweep,
   }
 }
 
-/// Removes the failures from the records of runs, so that tasks treat these as interrupted. (Tasks
-/// called with --retry-failed would try again each time they are queued.) Returns the earlier
-/// records by directory.
-std::map<fs::path, io::RunRecord> forget_failures(const io::Manifest& manifest,
-                                                  const fs::path& sweep,
-                                                  const Prolongation& prolongation) {
-  std::map<fs::path, io::RunRecord> forgotten;
+/// The records of runs, by directory.
+using Records = std::map<fs::path, io::RunRecord>;
+
+Records records_of_failed(const io::Manifest& manifest, const fs::path& sweep,
+                          const Prolongation& prolongation) {
+  Records records;
   for (const io::ManifestPoint& point : manifest.points) {
     const fs::path directory = point_directory(sweep, point.name);
-    if (prolongation.standing_of(directory).status != RunStatus::failed) continue;
-    const io::RunRecord record = io::read_run_record(directory);
-    io::write_run_record(directory, {.attempts = record.attempts, .failure = ""});
-    forgotten.emplace(directory, record);
+    if (prolongation.standing_of(directory).status == RunStatus::failed)
+      records.emplace(directory, io::read_run_record(directory));
   }
-  return forgotten;
+  return records;
+}
+
+/// Removes the failures from the records, so that tasks treat these runs as interrupted. (Tasks
+/// called with --retry-failed would try again each time they are queued.)
+void forget_failures(const Records& failed) {
+  for (const auto& [directory, record] : failed)
+    io::write_run_record(directory, {.attempts = record.attempts, .failure = ""});
 }
 
 /// Submits the script and returns the number of the job. Failures are forgotten before that, as
 /// tasks may begin at once, and restored if there is no job.
 std::string submitted_job(const io::Manifest& manifest, const fs::path& sweep,
                           const Prolongation& prolongation, bool retry_failed) {
-  std::map<fs::path, io::RunRecord> forgotten;
-  if (retry_failed) forgotten = forget_failures(manifest, sweep, prolongation);
+  const Records failed =
+      retry_failed ? records_of_failed(manifest, sweep, prolongation) : Records();
   try {
+    forget_failures(failed);
     return submit_to_slurm(sweep / slurm_script_name);
   } catch (const std::runtime_error&) {
-    for (const auto& [directory, record] : forgotten) io::write_run_record(directory, record);
+    for (const auto& [directory, record] : failed) io::write_run_record(directory, record);
     throw;
   }
 }

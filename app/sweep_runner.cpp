@@ -68,7 +68,8 @@ std::string complaint_in(const fs::path& log, std::uintmax_t begin) {
   return complaint;
 }
 
-bool was_stopped(const ProcessEnd& end) {
+/// By somebody or something outside of it, so that it can go on.
+bool was_ended_from_outside(const ProcessEnd& end) {
   const int by_signal = end.signal != 0 ? end.signal : end.status - 128;
   return by_signal == SIGINT || by_signal == SIGTERM || by_signal == SIGHUP || by_signal == SIGKILL;
 }
@@ -226,7 +227,7 @@ private:
     look_at(job);
     const bool taken_by_another = job.status == RunStatus::running;
     if (job.status == RunStatus::done || taken_by_another) return;
-    if (was_stopped(*end)) {
+    if (was_ended_from_outside(*end)) {
       job.status = RunStatus::interrupted;
       if (job.starts == most_starts && ending_signal() == 0)
         tell_of("point {} was stopped {} times; '{}' goes on with it", job, most_starts,

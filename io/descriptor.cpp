@@ -68,11 +68,13 @@ void Descriptor::write_at(std::uint64_t offset, std::string_view content) {
   }
 }
 
-void Descriptor::make_at_least(std::uint64_t size) {
-  struct stat about = {};
-  check(fstat(descriptor_, &about));
-  const auto wanted = static_cast<off_t>(size);
-  if (about.st_size < wanted) check(uninterrupted([&] { return ftruncate(descriptor_, wanted); }));
+std::uint64_t Descriptor::size() const { return static_cast<std::uint64_t>(status().st_size); }
+
+bool Descriptor::has_other_names() const { return status().st_nlink > 1; }
+
+void Descriptor::make_at_least(std::uint64_t wanted) {
+  if (size() >= wanted) return;
+  check(uninterrupted([&] { return ftruncate(descriptor_, static_cast<off_t>(wanted)); }));
 }
 
 void Descriptor::sync() {
@@ -84,6 +86,12 @@ void Descriptor::lock() const {
 }
 
 void Descriptor::close() { check(::close(std::exchange(descriptor_, -1))); }
+
+struct stat Descriptor::status() const {
+  struct stat about = {};
+  check(fstat(descriptor_, &about), "cannot be examined");
+  return about;
+}
 
 void Descriptor::check(ssize_t result, const char* action) const {
   if (result < 0) throw system_failure(path_, action, errno);

@@ -1,6 +1,7 @@
 // An open file descriptor that closes itself and reports errors as FileError.
 #pragma once
 
+#include <sys/stat.h>
 #include <sys/types.h>
 
 #include <cstddef>
@@ -27,8 +28,12 @@ public:
   std::string read_at(std::uint64_t offset, std::size_t size);
   void write_at(std::uint64_t offset, std::string_view content);
 
+  std::uint64_t size() const;  ///< bytes
+  /// Whether the file can also be reached by another name (a hard link).
+  bool has_other_names() const;
+
   /// Extends the file if it is shorter; what lies beyond the old end reads as zeros.
-  void make_at_least(std::uint64_t size);
+  void make_at_least(std::uint64_t wanted);
 
   /// On return the content is on the disk.
   void sync();
@@ -42,6 +47,7 @@ public:
   void close();
 
 private:
+  struct stat status() const;
   void check(ssize_t result, const char* action = "cannot be written") const;
 
   std::filesystem::path path_;

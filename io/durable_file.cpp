@@ -88,6 +88,18 @@ void write_durably(const fs::path& path, std::string_view content, Previous prev
   directory.sync();
 }
 
+void replace_by_copy(const fs::path& path) {
+  Descriptor directory = directory_of(path);
+  directory.lock();
+  const Leftover aside(with_suffix(path, ".tmp"));
+  std::error_code error;
+  fs::copy_file(path, aside.path(), error);
+  if (error) throw system_failure(path, "cannot be copied", error.value());
+  Descriptor(aside.path(), O_RDWR, path).sync();
+  rename_to(aside.path(), path, path);
+  directory.sync();
+}
+
 void make_directories(const fs::path& path) {
   const fs::path parent = path.parent_path();
   std::error_code error;

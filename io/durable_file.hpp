@@ -29,6 +29,10 @@ enum class Previous { discard, keep };
 void write_durably(const std::filesystem::path& path, std::string_view content,
                    Previous previous = Previous::discard);
 
+/// Replaces a file by a copy of it, which has no other names; on return it is on the disk. If
+/// anything fails, throws FileError and leaves the file and its other names as they are.
+void replace_by_copy(const std::filesystem::path& path);
+
 /// Flushes the directory of `path` to the disk, so that what was created there will be found.
 /// Throws FileError.
 void sync_directory_of(const std::filesystem::path& path);

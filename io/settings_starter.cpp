@@ -88,7 +88,7 @@ private:
   static std::string example_of(const Setting& row) {
     const std::string example = describe_unit(row.unit).example;
     const bool is_pure = example.find(' ') == std::string::npos;
-    return is_pure && !row.range.contains(std::stod(example))
+    return is_pure && !row.range.contains(decimal_value(example).value())
                ? fmt::format("{}", row.range.low + 1.0)
                : example;
   }

@@ -82,14 +82,14 @@ Manifest manifest_of(const Json& json) {
   return manifest;
 }
 
-}  // namespace
-
 /// A list of effective.yaml without its line breaks.
 std::string in_one_line(std::string text) {
   for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end))
     text.replace(end, text.find_first_not_of(" \n", end) - end, " ");
   return text;
 }
+
+}  // namespace
 
 Cell cell_of(const Settings& settings, const std::string& key) {
   const auto text = settings.written(key);

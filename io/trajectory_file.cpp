@@ -185,7 +185,7 @@ public:
     require(head_.grains == facts_.grains && head_.wall_grains == facts_.wall_grains
                 && head_.frames_per_block == layout_.frames_per_block,
             "it was written for other grains");
-    require(head_.end <= fs::file_size(path_), "it is shorter than its head says");
+    require(head_.end <= file_->size(), "it is shorter than its head says");
     fixed_ = fixed_part_of(state, facts_).places;
     read_blocks();
   }
@@ -193,27 +193,14 @@ public:
   std::uint64_t run() const { return head_.run; }
   std::uint64_t steps_per_frame() const { return head_.steps_per_frame; }
   std::uint64_t frames() const { return head_.frames; }
-  const fs::path& path() const { return path_; }
 
   void cut(std::uint64_t frames) { head_.frames = frames; }
 
   /// Copies the file if it has other names: a copy of the run that was made of hard links (cp -al,
   /// rsnapshot) is to keep its frames, and this file grows in place.
   void leave_other_names() {
-    if (fs::hard_link_count(path_) < 2) return;
-    fs::path aside = path_;
-    aside += ".tmp";
-    std::error_code error;
-    fs::remove(aside, error);
-    fs::copy_file(path_, aside, error);
-    if (error) {
-      const int error_number = error.value();
-      fs::remove(aside, error);
-      throw system_failure(path_, "cannot be copied", error_number);
-    }
-    Descriptor(aside, O_RDWR, path_).sync();
-    fs::rename(aside, path_);
-    sync_directory_of(path_);
+    if (!file_->has_other_names()) return;
+    replace_by_copy(path_);
     file_.emplace(path_, O_RDWR | O_NOFOLLOW, path_);
   }
 
@@ -308,8 +295,8 @@ private:
   void read_blocks() {
     const OutlinePlace& place = head_.places.at(head_.in_use);
     require(head_.outline_size <= place.capacity && place.capacity <= head_.end
-                && place.address <= fs::file_size(path_)
-                && head_.outline_size <= fs::file_size(path_) - place.address
+                && place.address <= file_->size()
+                && head_.outline_size <= file_->size() - place.address
                 && head_.blocks <= head_.outline_size / 8,
             "its head is damaged");
     const std::string outline = file_->read_at(place.address, head_.outline_size);
@@ -364,6 +351,10 @@ TrajectoryFile TrajectoryFile::reopen(const fs::path& path, std::uint64_t run, c
   if (!fs::exists(path, ignored))
     throw FileError(path, "is missing", "restore the file, or start the run again elsewhere");
   const auto wanted = static_cast<std::uint64_t>(state.step / steps_per_frame + 1);
+  const auto misfit = [&](const std::exception& flaw) {
+    return FileError(path, fmt::format("does not fit the checkpoint ({})", flaw.what()),
+                     "restore the file that belongs to it, or start the run again");
+  };
   try {
     auto contents = std::make_unique<Contents>(path, state, settings);
     require(contents->run() == run, "it belongs to another run");
@@ -375,11 +366,10 @@ TrajectoryFile TrajectoryFile::reopen(const fs::path& path, std::uint64_t run, c
     contents->cut(wanted);
     contents->leave_other_names();
     return TrajectoryFile(std::move(contents));
-  } catch (const FileError&) {
-    throw;
-  } catch (const std::runtime_error& error) {  // Hdf5Error or OutOfBytes
-    throw FileError(path, fmt::format("does not fit the checkpoint ({})", error.what()),
-                    "restore the file that belongs to it, or start the run again");
+  } catch (const Hdf5Error& flaw) {
+    throw misfit(flaw);
+  } catch (const OutOfBytes& flaw) {
+    throw misfit(flaw);
   }
 }
 

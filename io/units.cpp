@@ -114,18 +114,20 @@ private:
 
 // --- what a settings file may say ---
 
-/// UDUNITS-2 takes "5 m", "m 5" and "m/1000" for units, and "s^0.5" for "5 s^0". In a settings file
-/// numbers belong in the numeral; within a unit only integer exponents and the 1 of "1/s" are
-/// plausible.
+/// Whether a digit after this text belongs to an exponent, as in "m2", "m^2" and "m^-2".
+bool leads_to_exponent(std::string_view text) {
+  if (text.ends_with('+') || text.ends_with('-')) text.remove_suffix(1);
+  return !text.empty() && (is_letter(text.back()) || text.back() == '^');
+}
+
+/// UDUNITS-2 takes "5 m", "m 5", "-5 m" and "m/1000" for units, and "s^0.5" for "5 s^0". In a
+/// settings file numbers belong in the numeral; within a unit only integer exponents and the 1 of
+/// "1/s" are plausible.
 bool has_only_exponents(std::string_view unit) {
   if (unit.starts_with("1/")) unit.remove_prefix(2);
-  char previous = ' ';
-  for (const char c : unit) {
-    const bool after_exponent_sign = previous == '^' || previous == '+' || previous == '-';
-    if (is_digit(c) && !is_digit(previous) && !is_letter(previous) && !after_exponent_sign) {
-      return false;
-    }
-    previous = c;
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    const bool begins_number = is_digit(unit[i]) && (i == 0 || !is_digit(unit[i - 1]));
+    if (begins_number && !leads_to_exponent(unit.substr(0, i))) return false;
   }
   return true;
 }

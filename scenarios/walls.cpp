@@ -2,6 +2,7 @@
 
 #include "engine/observables.hpp"
 #include "engine/stopping_rule.hpp"
+#include "io/units.hpp"
 #include "scenarios/run_length.hpp"
 
 #include <fmt/core.h>
@@ -224,7 +225,8 @@ void reject_rows_in_step(const io::Settings& settings, const State& state) {
   const auto seen = phases(asked);
   if (!seen) return;
   std::string other;  // as it is printed: the rounded value must be good, too
-  for (double interval = 0.93 * asked; other.empty() || phases(std::stod(other)); interval *= 0.93)
+  for (double interval = 0.93 * asked; other.empty() || phases(io::decimal_value(other).value());
+       interval *= 0.93)
     other = fmt::format("{:.3g}", interval);
   settings.reject(
       key,

@@ -3,6 +3,7 @@ time of a task is not enough. The script alone is looked at, and run, without Sl
 
 import json
 import os
+import pathlib
 import re
 import signal
 import subprocess
@@ -239,6 +240,19 @@ class Submitted(StandIns):
         task = self.start_task(ENDLESS)
         self.signal_within_run(task, signal.SIGUSR1)
         self.assertEqual((task.wait(PATIENCE), self.requeued()), (143, ["requeue 17_0"]))
+
+    def test_a_second_signal_does_not_end_the_script_before_its_task(self):
+        task = self.start_task(ENDLESS)
+        self.signal_within_run(task, signal.SIGSTOP)
+        child, = pathlib.Path(f"/proc/{task.pid}/task/{task.pid}/children").read_text().split()
+        os.kill(int(child), signal.SIGSTOP)
+        for number in (signal.SIGCONT, signal.SIGUSR1, signal.SIGTERM):
+            task.send_signal(number)
+            time.sleep(0.3)  # to be taken one by one
+            self.assertIsNone(task.poll(), number)
+        os.kill(int(child), signal.SIGCONT)
+        self.assertEqual((task.wait(PATIENCE), self.requeued()), (143, ["requeue 17_0"]))
+        self.assertIn("1 interrupted", self.riesel("status", "out").stdout)
 
     def test_what_is_cancelled_is_not_queued_again(self):
         task = self.start_task(ENDLESS)
