@@ -378,7 +378,7 @@ FAULTS = [
     # Files
     ("a file not flushed to the disk", "io/durable_file.cpp", "  file.sync();\n", ""),
     ("a folder not flushed to the disk", "io/durable_file.cpp",
-     "  directory.sync();\n", ""),
+     "previous_generation(path), path);\n  directory.sync();\n", "previous_generation(path), path);\n"),
     ("the generation before not kept", "io/durable_file.cpp",
      "  if (keeps) rename_to(replaced.path(), previous_generation(path), path);\n",
      "  static_cast<void>(keeps);\n"),
