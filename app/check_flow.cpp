@@ -189,8 +189,7 @@ void print_brake(const scenarios::Flow& flow, double across, double mean_vy) {
            "axial velocity exceeds v_crit (brake failure): set start.random_velocity");
     return;
   }
-  print_critical_velocity(typical_contacts(flow.state, flow.model.normal, across),
-                          std::abs(mean_vy));
+  print_critical_velocity(typical_contacts(flow.state, flow.model, across), std::abs(mean_vy));
 }
 
 /// Warns of limits that the run would exceed from its beginning.

@@ -6,13 +6,15 @@
 #include "engine/closed_forms.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace riesel::app {
 
 void check_impacts(const io::Settings& settings, const scenarios::ImpactCurve& curve) {
   const ImpactSetup& setup = curve.setup;
-  double fastest_normal = 0.0, fastest = 0.0, slowest = 1e300, longest_step = 0.0,
-         shortest_step = 1e300;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double fastest_normal = 0.0, fastest = 0.0, slowest = none;
+  double longest_step = 0.0, shortest_step = none;
   for (const Impact& impact : curve.impacts) {
     fastest_normal = std::max(fastest_normal, impact.v_x);
     fastest = std::max(fastest, impact.v_y);

@@ -17,7 +17,8 @@ namespace {
 /// For a law whose restitution depends on the speed.
 void print_contact_at_speeds(const char* what, const ContactModel& model, double reduced_mass,
                              double speed) {
-  const double t_col = collision_time(model.normal, reduced_mass, speed), slower = 0.1 * speed;
+  const double t_col = collision_time(model.normal, reduced_mass, speed, model.attraction);
+  const double slower = 0.1 * speed;
   const auto fast = restitution(model, reduced_mass, speed);
   const auto slow = restitution(model, reduced_mass, slower);
   if (fast && slow) {

@@ -65,30 +65,43 @@ io::Measured scaled(const io::Measured& m, double factor) {
   return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
 }
 
+/// m/s, from row `first` on: the mean velocity, each grain weighed by its mass, but for a constant.
+/// Walls and gravity alone change it.
+std::vector<double> velocities_by_mass(const io::RunFile& file, const State& state,
+                                       std::size_t first) {
+  const std::vector<double> time = file.series("time"), impulse = file.series("wall_impulse_y");
+  const double mass = total_mass(state.grains);
+  std::vector<double> velocities;
+  for (std::size_t row = first; row < time.size(); ++row)
+    velocities.push_back(state.gravity.y * time[row] + impulse[row] / mass);
+  return velocities;
+}
+
 /// Walls take the momentum that gravity gives, except for the difference between the grains'
 /// momentum at the end and at the beginning. So the error of the mean braking is the scatter of
 /// that difference over the time between. This is less than the increments by themselves suggest,
-/// as much of what is taken in one is missing in the next. `mean_vy`: m/s, after the transient,
-/// `interval` (s) apart; `error`: m/s, of its mean.
-io::Measured balanced(const io::Measured& braking, std::span<const double> mean_vy, double error,
+/// as much of what is taken in one is missing in the next. `velocities`: by mass, `interval` (s)
+/// apart.
+io::Measured balanced(const io::Measured& braking, const std::vector<double>& velocities,
                       double interval) {
-  if (mean_vy.size() < 2) return braking;
-  // The scatter about the true mean: that of a short series is off by `error`.
-  const double deviation = std::hypot(standard_deviation(mean_vy), error);
+  if (velocities.size() < 2) return braking;
+  // The scatter about the true mean: that of a short series is off by its error.
+  const double deviation =
+      std::hypot(standard_deviation(velocities), mean_with_error(velocities).error);
   const double of_difference = std::numbers::sqrt2 * deviation;
-  const double seconds = interval * static_cast<double>(mean_vy.size() - 1);
+  const double seconds = interval * static_cast<double>(velocities.size() - 1);
   return {.value = braking.value, .error = std::min(braking.error, of_difference / seconds)};
 }
 
 /// Eq. (9)
 io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& state,
-                                 std::span<const double> mean_vy, double error, double interval) {
+                                 const std::vector<double>& velocities, double interval) {
   const auto n = static_cast<double>(state.grains.size());
   const double mass = total_mass(state.grains);
   return {.n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
           .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
-          .n_dot_dv_y = balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), mean_vy, error,
-                                 interval),
+          .n_dot_dv_y =
+              balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), velocities, interval),
           .gravity = state.gravity.y};
 }
 
@@ -190,8 +203,10 @@ double steps_per_contact(const State& state) {
 }
 
 Judged judged_by(const State& state, double interval) {
-  if (state.gravity.y == 0.0) return {.series = "granular_temperature", .free_fall_gain = {}};
-  return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
+  constexpr auto velocity = "mean_vy", temperature = "granular_temperature";
+  if (state.gravity.y == 0.0)
+    return {.series = temperature, .other = velocity, .free_fall_gain = {}};
+  return {.series = velocity, .other = temperature, .free_fall_gain = state.gravity.y * interval};
 }
 
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
@@ -199,7 +214,6 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   const auto& [file, steady, strips, profiles, interval, warnings] = records;
   const std::size_t first = steady.transient_end;
   const CumulativeSeries series(file, first, interval);
-  const std::vector<double> mean_vy = file.series("mean_vy");
 
   io::FlowSummary s;
   s.time = state.time();
@@ -213,8 +227,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.structure_factor = structure_factors_of(file, first);
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(first));
-  s.balance = balance(series, state, std::span(mean_vy).subspan(first), s.mean_axial_velocity.error,
-                      interval);
+  s.balance = balance(series, state, velocities_by_mass(file, state, first), interval);
   // Each contact counts for both of its grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
@@ -222,9 +235,8 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.energy = energy_of(state, last.energies);
   const double across = speed_across(file, s.fluctuations, state.grains.size(), first);
-  s.validity =
-      validity_of(series, state, last.energies, typical_contacts(state, model.normal, across),
-                  s.grain_contact_rate.value, warnings);
+  s.validity = validity_of(series, state, last.energies, typical_contacts(state, model, across),
+                           s.grain_contact_rate.value, warnings);
   if (steady.verdict == SteadyVerdict::accelerating) take_error_bars_off(s);
   return s;
 }

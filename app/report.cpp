@@ -160,8 +160,7 @@ void write(const Report& report, const fs::path& directory) {
   if (fs::is_symlink(figures, error))
     throw io::FileError(figures, "is a link to another place", "remove it");
   reject_files_of_others(report, directory);
-  fs::create_directories(figures, error);
-  if (error) throw io::system_failure(figures, "cannot be made", error.value());
+  io::make_directories(figures);
   for (const ReportFigure& figure : report.figures)
     io::write_durably(file_of(figure, figures), figure.svg.file());
   remove_other_figures(report, figures);

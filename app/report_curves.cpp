@@ -56,7 +56,8 @@ std::vector<double> extent_of(std::span<const FlowCurve> curves, bool with_ends_
   std::vector<double> values;
   for (const FlowCurve& curve : curves)
     for (const FlowLine& line : curve.lines)
-      for (const auto& [x, mean, state, verdict, directory, tip] : line.points) {
+      for (const FlowPoint& point : line.points) {
+        const io::Measured& mean = point.mean;
         values.push_back(mean.value);
         if (!std::isfinite(mean.error)) continue;
         values.push_back(mean.value + mean.error);

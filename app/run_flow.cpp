@@ -157,14 +157,22 @@ private:
     return simulation_.state().step >= schedule_.last_step || is_precise_enough();
   }
 
+  /// Calls `by` with the series of the flow so far.
+  template <class By>
+  auto judge(By by) const {
+    const Judged names = judged_by(simulation_.state(), interval());
+    const std::vector<double> judged = files_.record().series(names.series),
+                              other = files_.record().series(names.other);
+    return by(FlowSeries{judged, names.free_fall_gain, other});
+  }
+
   /// Judged with each new row. A run that is resumed is judged at once, as it may be at its end.
   bool is_precise_enough() const {
     const State& state = simulation_.state();
     const bool asked = schedule_.relative_error && schedule_.is_row(state.step);
     if (!asked || !is_time_to_look(static_cast<std::size_t>(files_.rows()))) return false;
-    const Judged judged = judged_by(state, interval());
-    return is_precise(files_.record().series(judged.series), *schedule_.relative_error,
-                      judged.free_fall_gain);
+    return judge(
+        [&](const FlowSeries& flow) { return is_precise(flow, *schedule_.relative_error); });
   }
 
   /// Notes the error bar so far, for the line of progress.
@@ -178,10 +186,7 @@ private:
     tell_more("t = {:.6g} s:{}", simulation_.state().time(), precision_so_far_);
   }
 
-  SteadyState assess() const {
-    const Judged judged = judged_by(simulation_.state(), interval());
-    return assess_steady_state(files_.record().series(judged.series), judged.free_fall_gain);
-  }
+  SteadyState assess() const { return judge(assess_flow); }
 
   /// s, between two rows.
   double interval() const {

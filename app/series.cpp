@@ -1,5 +1,9 @@
 #include "app/series.hpp"
 
+#include "engine/brake.hpp"
+
+#include <fmt/format.h>
+
 namespace riesel::app {
 
 namespace {
@@ -17,7 +21,8 @@ const std::vector<Entry>& entries_of_walls() {
       {{"wall_contacts_ended", "1", "Contacts with walls ended so far."},
        [](auto&, auto& t) { return number(t.brakes.contacts); }},
       {{"wall_contacts_cut_short", "1",
-        "Contacts with walls that ended within 0.639 t_col, as the grain had passed."},
+        fmt::format("Contacts with walls that ended within {:.3g} t_col, as the grain had passed.",
+                    cut_short_below)},
        [](auto&, auto& t) { return number(t.brakes.cut_short); }},
       {{"wall_braking", "kg m/s", "Axial impulse taken by wall contacts that brake."},
        [](auto&, auto& t) { return t.brakes.braking.value(); }},

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace riesel::app {
@@ -96,7 +97,9 @@ std::optional<std::size_t> most_tasks_of_slurm() {
   const std::size_t digits = said->output.find_first_of("0123456789", place);
   if (digits == std::string::npos) return {};
   std::size_t size = 0;
-  std::from_chars(said->output.data() + digits, said->output.data() + said->output.size(), size);
+  const auto [end, error] = std::from_chars(said->output.data() + digits,
+                                            said->output.data() + said->output.size(), size);
+  if (error != std::errc()) return {};
   return std::max<std::size_t>(size, 2) - 1;  // the largest index is smaller than the size
 }
 

@@ -14,6 +14,7 @@
 #include "io/sweep_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 #include <utility>
@@ -24,21 +25,29 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether any point has this text, which may be empty; otherwise its column is left out.
-template <class Text>
-bool any_has(const io::Manifest& manifest, Text text) {
-  return std::any_of(manifest.points.begin(), manifest.points.end(),
-                     [&](const auto& point) { return !(point.*text).empty(); });
+/// The texts that a sweep may have at its points; those that it has nowhere get no column.
+constexpr std::array<std::pair<const char*, std::string io::ManifestPoint::*>, 3> texts = {
+    {{"branch", &io::ManifestPoint::branch},
+     {"leg", &io::ManifestPoint::leg},
+     {"parent", &io::ManifestPoint::parent}}};
+
+/// For each of `texts`, whether any point has it.
+std::array<bool, texts.size()> texts_of(const io::Manifest& manifest) {
+  std::array<bool, texts.size()> any{};
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    any[i] = std::ranges::any_of(
+        manifest.points, [&](const auto& point) { return !(point.*texts[i].second).empty(); });
+  return any;
 }
 
-void add_plan(const io::Manifest& manifest, std::size_t row, io::SweepTable& table) {
+void add_plan(const io::Manifest& manifest, const std::array<bool, texts.size()>& has_text,
+              std::size_t row, io::SweepTable& table) {
   const io::ManifestPoint& point = manifest.points[row];
   table.set(row, "point", point.name);
   for (std::size_t i = 0; i < manifest.varied.size(); ++i)
     table.set(row, manifest.varied[i].key, point.values[i], manifest.varied[i].unit);
-  if (any_has(manifest, &io::ManifestPoint::branch)) table.set(row, "branch", point.branch);
-  if (any_has(manifest, &io::ManifestPoint::leg)) table.set(row, "leg", point.leg);
-  if (any_has(manifest, &io::ManifestPoint::parent)) table.set(row, "parent", point.parent);
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    if (has_text[i]) table.set(row, texts[i].first, point.*texts[i].second);
   table.set(row, "status", point.status);
   table.set(row, "attempts", static_cast<double>(point.attempts));
   table.set(row, "reason", point.reason);
@@ -61,7 +70,8 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
   const std::set<std::string> misplaced = note_misplaced(manifest, sweep);
   bool all_taken = misplaced.empty();
   io::SweepTable table(manifest.points.size());
-  for (std::size_t row = 0; row < table.rows(); ++row) add_plan(manifest, row, table);
+  const auto has_text = texts_of(manifest);
+  for (std::size_t row = 0; row < table.rows(); ++row) add_plan(manifest, has_text, row, table);
   const std::size_t columns_of_plan = table.columns().size();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const io::ManifestPoint& point = manifest.points[row];

@@ -25,7 +25,8 @@ void print(const Json& json) { fmt::print("{}\n", json.dump(2)); }
 Json memory_since(const Memory& before, std::size_t grains) {
   const Memory now = memory_of_this_process();
   const auto per_grain = [&](std::size_t bytes) {
-    return static_cast<double>(bytes - before.resident) / static_cast<double>(grains);
+    return (static_cast<double>(bytes) - static_cast<double>(before.resident))
+           / static_cast<double>(grains);
   };
   return {{"bytes_per_grain", per_grain(now.resident)},
           {"peak_bytes_per_grain", per_grain(now.peak)}};

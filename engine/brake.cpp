@@ -11,11 +11,11 @@ namespace {
 
 /// s, duration of a head-on contact. An overdamped one has none, as it creeps apart: then that
 /// without damping.
-double undisturbed_time(const NormalLaw& normal, double mass, double speed) {
-  const auto linear = linear_contact(normal, mass);
+double undisturbed_time(const ContactModel& model, double mass, double speed) {
+  const auto linear = linear_contact(model.normal, mass);
   if (linear && !linear->rebounds())
-    return elastic_collision_time(elastic_line(normal), mass, speed);
-  return collision_time(normal, mass, speed);
+    return elastic_collision_time(elastic_line(model.normal), mass, speed);
+  return collision_time(model.normal, mass, speed, model.attraction);
 }
 
 /// The s at which F_N changes its sign in the second half of overlap = 4 depth s (1 - s), 0 < s <
@@ -37,10 +37,10 @@ double sign_change(const Normal& normal, double mass, double depth, double durat
 
 }  // namespace
 
-bool is_cut_short(const Contact& contact, const NormalLaw& normal, double mass) {
+bool is_cut_short(const Contact& contact, const ContactModel& model, double mass) {
   // A contact of one or two steps may be separating already when it is first seen: hence the size.
   const double speed = std::max(std::abs(contact.entry_rate), 1e-9);  // m/s
-  return contact.duration() < cut_short_below * undisturbed_time(normal, mass, speed);
+  return contact.duration() < cut_short_below * undisturbed_time(model, mass, speed);
 }
 
 double pulling_time(const Contact& contact, const ContactModel& model, double mass) {
@@ -62,7 +62,7 @@ void BrakeTally::add(const Contact& contact, const ContactModel& model, double m
   entry_slip.add(std::abs(contact.entry_slip));
   duration.add(contact.duration());
   pulling.add(pulling_time(contact, model, mass));
-  if (!is_cut_short(contact, model.normal, mass)) return;
+  if (!is_cut_short(contact, model, mass)) return;
   ++cut_short;
   braking_cut_short.add(braking_impulse);
   friction_loss_cut_short.add(contact.friction_loss);

@@ -22,7 +22,7 @@ namespace riesel {
 inline constexpr double cut_short_below = 0.6390;
 
 /// Whether an ended contact of a grain of mass `mass` (kg) with a wall was cut short.
-bool is_cut_short(const Contact& contact, const NormalLaw& normal, double mass);
+bool is_cut_short(const Contact& contact, const ContactModel& model, double mass);
 
 /// s, for how long an ended contact of a grain of mass `mass` (kg) with a wall pulled: F_N < 0. An
 /// estimate, for an overlap that is a parabola with the duration and the largest overlap of the

@@ -17,8 +17,14 @@ double frequency_squared(const LinearContact& c) {
   return c.k_n / c.reduced_mass - 0.25 * c.gamma_n * c.gamma_n;
 }
 
-/// -ln e_N of a contact that may not pull, as a function of decay = gamma_N t_col / 2: its force
-/// vanishes after the part 2/pi arctan(pi / decay) of t_col.
+/// 1/s
+double frequency(const LinearContact& c) {
+  if (!c.rebounds()) throw std::domain_error("an overdamped contact does not end");
+  return std::sqrt(frequency_squared(c));
+}
+
+/// -ln e_N of a contact that may not pull, as a function of decay = gamma_N / 2 times half a
+/// period: its force vanishes after the part 2/pi arctan(pi / decay) of that.
 double pushed_decay(double decay) { return 2.0 / pi * decay * std::atan2(pi, decay); }
 
 double slope_of_pushed_decay(double decay) {
@@ -41,12 +47,15 @@ double decay_by_pushed(double pushed) {
 bool LinearContact::rebounds() const { return frequency_squared(*this) > 0.0; }
 
 double LinearContact::collision_time() const {
-  if (!rebounds()) throw std::domain_error("an overdamped contact does not end");
-  return pi / std::sqrt(frequency_squared(*this));
+  const double omega = frequency(*this);
+  if (attraction == Attraction::keep) return pi / omega;
+  const double pushes = 2.0 / omega * std::atan2(omega, 0.5 * gamma_n);
+  const double separates = gamma_n * reduced_mass / k_n;  // overlap over speed, where F_N = 0
+  return pushes + separates;
 }
 
 double LinearContact::restitution() const {
-  const double decay = 0.5 * gamma_n * collision_time();
+  const double decay = 0.5 * gamma_n * pi / frequency(*this);
   return std::exp(-(attraction == Attraction::clip ? pushed_decay(decay) : decay));
 }
 
@@ -86,8 +95,10 @@ double elastic_collision_time(const ElasticLine& line, double reduced_mass, doub
   return integral * elastic_max_overlap(line, reduced_mass, speed) / speed;
 }
 
-double collision_time(const NormalLaw& normal, double reduced_mass, double speed) {
-  if (const auto linear = linear_contact(normal, reduced_mass)) return linear->collision_time();
+double collision_time(const NormalLaw& normal, double reduced_mass, double speed,
+                      Attraction attraction) {
+  if (const auto linear = linear_contact(normal, reduced_mass, attraction))
+    return linear->collision_time();
   return elastic_collision_time(elastic_line(normal), reduced_mass, speed);
 }
 

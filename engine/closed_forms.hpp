@@ -22,11 +22,12 @@ struct LinearContact {
   /// least_restitution_without_pull; as eq. (4) does not hold for them, that does not count as a
   /// rebound here.)
   bool rebounds() const;
-  /// s, eq. (4). Throws std::domain_error, as restitution() does, for a contact that does not
-  /// rebound.
+  /// s: eq. (4), pi / omega, if the contact may pull. If not, it pushes for (2 / omega)
+  /// arctan(2 omega / gamma_N), and the bodies separate in another gamma_N m_red / k_N. Throws
+  /// std::domain_error, as restitution() does, for a contact that does not rebound.
   double collision_time() const;
-  /// e_N = exp(-gamma_N t_col / 2) if the contact may pull. Larger if not, as then the damping ends
-  /// when the force has come down to zero.
+  /// e_N = exp(-pi gamma_N / (2 omega)) if the contact may pull. Larger if not, as then the damping
+  /// ends when the force has come down to zero.
   double restitution() const;
 };
 
@@ -54,9 +55,11 @@ double elastic_collision_time(const ElasticLine& line, double reduced_mass, doub
 /// m, largest overlap of the same contact: an upper bound for a damped one.
 double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed);
 
-/// s, duration of a head-on contact under `normal`: eq. (4) for the linear law, else that without
-/// damping. Throws std::domain_error for a linear contact that does not rebound.
-double collision_time(const NormalLaw& normal, double reduced_mass, double speed);
+/// s, duration of a head-on contact under `normal`: LinearContact::collision_time() for the linear
+/// law, else that without damping. Throws std::domain_error for a linear contact that does not
+/// rebound.
+double collision_time(const NormalLaw& normal, double reduced_mass, double speed,
+                      Attraction attraction = Attraction::keep);
 
 /// The factor by which a tangential force changes the slip of two bodies more than if they did not
 /// rotate. Their moment of inertia is `inertia` m r^2 (0: they do not rotate).

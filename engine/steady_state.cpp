@@ -68,6 +68,19 @@ SteadyState assess_steady_state(std::span<const double> velocities,
           .trend_error = trend.error};
 }
 
+SteadyState assess_flow(const FlowSeries& flow) {
+  SteadyState state = assess_steady_state(flow.judged, flow.free_fall_gain);
+  if (state.verdict != SteadyVerdict::steady) return state;
+  const SteadyState other = assess_steady_state(flow.other);
+  const bool is_constant = other.error == 0.0 && other.trend == 0.0;
+  if (is_constant || other.verdict == SteadyVerdict::steady) return state;
+  state.verdict = other.verdict == SteadyVerdict::too_short ? SteadyVerdict::too_short
+                                                            : SteadyVerdict::drifting;
+  state.independent_samples = other.independent_samples;
+  state.is_held_back = true;
+  return state;
+}
+
 std::string_view name(SteadyVerdict verdict) {
   switch (verdict) {
   case SteadyVerdict::steady:

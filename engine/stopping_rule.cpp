@@ -1,7 +1,5 @@
 #include "engine/stopping_rule.hpp"
 
-#include "engine/steady_state.hpp"
-
 #include <cmath>
 #include <cstddef>
 
@@ -24,15 +22,14 @@ Looks looks_around(std::size_t samples) {
 
 bool is_time_to_look(std::size_t samples) { return looks_around(samples).next == samples; }
 
-bool is_precise(std::span<const double> velocities, double relative_error,
-                std::optional<double> free_fall_gain) {
-  const auto pleases = [&](std::span<const double> series) {
-    const SteadyState state = assess_steady_state(series, free_fall_gain);
+bool is_precise(const FlowSeries& flow, double relative_error) {
+  const auto pleases = [&](const FlowSeries& series) {
+    const SteadyState state = assess_flow(series);
     return state.verdict == SteadyVerdict::steady
            && state.error <= relative_error * std::abs(state.mean);
   };
-  const auto [before, next] = looks_around(velocities.size());
-  return next == velocities.size() && pleases(velocities) && pleases(velocities.first(before));
+  const auto [before, next] = looks_around(flow.judged.size());
+  return next == flow.judged.size() && pleases(flow) && pleases(flow.first(before));
 }
 
 }  // namespace riesel

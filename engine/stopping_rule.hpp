@@ -7,9 +7,9 @@
 // The rule depends on the series only: an interrupted run stops where an uninterrupted one does.
 #pragma once
 
+#include "engine/steady_state.hpp"
+
 #include <cstddef>
-#include <optional>
-#include <span>
 
 namespace riesel {
 
@@ -20,10 +20,9 @@ inline constexpr std::size_t fewest_samples_to_stop = 125;
 /// Whether a series with this number of samples is checked: first when there are 100.
 bool is_time_to_look(std::size_t samples);
 
-/// Whether a series of velocities is to be checked now, and is found steady, with an error bar of
-/// at most `relative_error` of the mean, both now and at the check before. `free_fall_gain` as in
-/// assess_steady_state(). Throws std::invalid_argument for a sample that is not finite.
-bool is_precise(std::span<const double> velocities, double relative_error,
-                std::optional<double> free_fall_gain = std::nullopt);
+/// Whether a flow is to be checked now, and is found steady (assess_flow), with an error bar of at
+/// most `relative_error` of the mean, both now and at the check before. Throws
+/// std::invalid_argument for a sample that is not finite.
+bool is_precise(const FlowSeries& flow, double relative_error);
 
 }  // namespace riesel

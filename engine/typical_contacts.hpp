@@ -23,6 +23,6 @@ struct TypicalContacts {
 /// For grains of the mean mass and size that meet each other and the first wall head-on with the
 /// speed `across` (m/s), or with slowest_across if that is larger. The state must have a wall.
 /// Throws std::domain_error if the grains do not rebound.
-TypicalContacts typical_contacts(const State& state, const NormalLaw& normal, double across);
+TypicalContacts typical_contacts(const State& state, const ContactModel& model, double across);
 
 }  // namespace riesel

@@ -17,11 +17,11 @@
 namespace riesel::io {
 namespace {
 
-constexpr auto unknown = "unknown";
+constexpr auto not_known = "unknown";
 
 std::string hdf5_version() {
   unsigned major = 0, minor = 0, release = 0;
-  if (H5get_libversion(&major, &minor, &release) < 0) return unknown;
+  if (H5get_libversion(&major, &minor, &release) < 0) return not_known;
   return fmt::format("{}.{}.{}", major, minor, release);
 }
 
@@ -30,14 +30,14 @@ std::string cpu_model() {
   for (std::string line; std::getline(file, line);) {
     if (!line.starts_with("model name")) continue;
     const auto value = line.find(": ");
-    return value == std::string::npos ? unknown : line.substr(value + 2);
+    return value == std::string::npos ? not_known : line.substr(value + 2);
   }
-  return unknown;
+  return not_known;
 }
 
 std::string host_name() {
   std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : unknown;
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : not_known;
 }
 
 std::string date() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }

@@ -68,25 +68,26 @@ std::vector<Grain> read_grains(const StoredGroup& group) {
   return grains;
 }
 
-bool is_sound(const Grain& grain) {
-  return std::isfinite(grain.x) && std::isfinite(grain.y) && std::isfinite(grain.vx)
-         && std::isfinite(grain.vy) && is_positive(grain.radius);
+bool is_sound(const Grain& grain, const Box& box) {
+  return std::isfinite(grain.x) && 0.0 <= grain.y && grain.y <= box.length
+         && std::isfinite(grain.vx) && std::isfinite(grain.vy) && is_positive(grain.radius);
 }
 
-bool is_sound(const WallLattice& wall) {
-  const WallMotion& m = wall.motion;
-  return std::isfinite(wall.line) && wall.sound() && std::isfinite(m.velocity)
-         && std::isfinite(m.amplitude_x) && std::isfinite(m.amplitude_y)
-         && std::isfinite(m.frequency) && std::isfinite(m.phase);
+bool is_sound(const WallLattice& wall, const Box& box, double time) {
+  const WallWay way = wall.motion.way(box, time);
+  return std::isfinite(wall.line) && wall.sound() && std::isfinite(way.x) && std::isfinite(way.y);
 }
 
 void check(const FinalState& state) {
   require(is_positive(state.box.width) && is_positive(state.box.length), "the box has no size");
   require(!state.grains.empty(), "there are no grains");
-  require(std::ranges::all_of(state.grains, [](const Grain& g) { return is_sound(g); }),
+  require(std::isfinite(state.time), "its time is not finite");
+  require(std::ranges::all_of(state.grains, [&](const Grain& g) { return is_sound(g, state.box); }),
           "a grain has impossible values");
   require(state.walls.size() <= WallImpulses::most_walls
-              && std::ranges::all_of(state.walls, [](const WallLattice& w) { return is_sound(w); }),
+              && std::ranges::all_of(
+                  state.walls,
+                  [&](const WallLattice& w) { return is_sound(w, state.box, state.time); }),
           "a wall has impossible values");
   require(std::ranges::all_of(state.contacts,
                               [&](const Contact& c) {

@@ -100,12 +100,12 @@ double inertia(const io::Settings& settings) {
 
 double collision_time(const io::Settings& settings, const ContactModel& model,
                       double reduced_mass) {
-  if (const auto linear = linear_contact(model.normal, reduced_mass)) {
+  if (const auto linear = linear_contact(model.normal, reduced_mass, model.attraction)) {
     if (!linear->rebounds()) reject_overdamped(settings, *linear);
     return linear->collision_time();
   }
-  return riesel::collision_time(model.normal, reduced_mass,
-                                settings.number("contact.impact_speed"));
+  return riesel::collision_time(model.normal, reduced_mass, settings.number("contact.impact_speed"),
+                                model.attraction);
 }
 
 double time_step(const io::Settings& settings, const ContactModel& model, double collision_time,

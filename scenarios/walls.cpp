@@ -12,6 +12,8 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace riesel::scenarios {
 
@@ -207,34 +209,59 @@ std::optional<int> phases_seen(double periods_per_row, double rows) {
   return {};
 }
 
+/// What walls do again and again.
+struct Rhythm {
+  double frequency;       ///< 1/s
+  std::string_view name;  ///< for messages
+};
+
+/// Two corrugated walls that move past each other stand as before after each spacing; in narrow
+/// cells stresses and temperature follow that (measured: docs/physics.md).
+std::vector<Rhythm> rhythms(const State& state) {
+  const WallLattice &first = state.walls.front(), &last = state.walls.back();
+  std::vector<Rhythm> rhythms;
+  if (first.motion.oscillates()) rhythms.push_back({first.motion.frequency, "an oscillation"});
+  const double passing = std::abs(last.motion.velocity - first.motion.velocity);
+  if (passing > 0.0 && !first.smooth() && !last.smooth())
+    rhythms.push_back({passing / first.spacing(state.box), "the wall grains that pass each other"});
+  return rhythms;
+}
+
+/// A rhythm of the walls of which rows see only these phases.
+struct InStep {
+  Rhythm rhythm;
+  int phases;
+};
+
+std::optional<InStep> in_step(const State& state, const RunLength& length, double interval) {
+  const double row =
+      static_cast<double>(steps_between(interval, state.time_step)) * state.time_step;
+  double rows = length.at_most / row;
+  if (length.relative_error) rows = std::min(rows, double{fewest_samples_to_stop});
+  for (const Rhythm& rhythm : rhythms(state))
+    if (const auto phases = phases_seen(rhythm.frequency * row, rows))
+      return InStep{rhythm, *phases};
+  return {};
+}
+
 }  // namespace
 
 void reject_rows_in_step(const io::Settings& settings, const State& state) {
-  const WallMotion& motion = state.walls.front().motion;
-  if (!motion.oscillates()) return;
   constexpr auto key = "output.interval";
   const RunLength length = run_length(settings);
   const double asked = settings.number(key);
-  const auto phases = [&](double interval) {
-    const double row =
-        static_cast<double>(steps_between(interval, state.time_step)) * state.time_step;
-    double rows = length.at_most / row;
-    if (length.relative_error) rows = std::min(rows, double{fewest_samples_to_stop});
-    return phases_seen(motion.frequency * row, rows);
-  };
-  const auto seen = phases(asked);
-  if (!seen) return;
+  const auto found = in_step(state, length, asked);
+  if (!found) return;
   std::string other;  // as it is printed: the rounded value must be good, too
-  for (double interval = 0.93 * asked; other.empty() || phases(io::decimal_value(other).value());
-       interval *= 0.93)
+  for (double interval = 0.93 * asked;
+       other.empty() || in_step(state, length, io::decimal_value(other).value()); interval *= 0.93)
     other = fmt::format("{:.3g}", interval);
   settings.reject(
       key,
-      fmt::format("in step with the walls: rows {:.4g} s apart sample only {} phase{} of "
-                  "an oscillation at {:.4g} 1/s, so that means over rows would describe "
-                  "only {}",
-                  asked, *seen, *seen == 1 ? "" : "s", motion.frequency,
-                  *seen == 1 ? "that one" : "these"),
+      fmt::format("in step with the walls: rows {:.4g} s apart sample only {} phase{} of {} at "
+                  "{:.4g} 1/s, so that means over rows would describe only {}",
+                  asked, found->phases, found->phases == 1 ? "" : "s", found->rhythm.name,
+                  found->rhythm.frequency, found->phases == 1 ? "that one" : "these"),
       fmt::format("choose {} s, for example{}", other,
                   state.step > 0 ? ", in a new run: this one has its rows" : ""));
 }

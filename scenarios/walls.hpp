@@ -39,9 +39,9 @@ void reject_crowded_wall(const io::Settings& settings, double reach, double spac
 /// do not resolve.
 void reject_fast_walls(const io::Settings& settings, const State& state);
 
-/// Rejects an output.interval in step with walls that are shaken: rows would see the walls in a few
-/// phases only, and means over rows would miss what grains do in the others. To be called again
-/// when a run is given another length.
+/// Rejects an output.interval in step with walls that are shaken, or that pass each other: rows
+/// would see the walls in a few phases only, and means over rows would miss what grains do in the
+/// others. To be called again when a run is given another length.
 void reject_rows_in_step(const io::Settings& settings, const State& state);
 
 }  // namespace riesel::scenarios

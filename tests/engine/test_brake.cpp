@@ -15,6 +15,8 @@ namespace {
 
 const LinearLaw linear{stiffness, damping};
 
+ContactModel with(const NormalLaw& normal) { return {normal, CappedSlip{}, 0.5, Attraction::keep}; }
+
 double t_col() { return collision_time(linear, mass, 1.0); }
 
 Contact lasting_for(double duration, double entry_rate = 0.1) {
@@ -33,35 +35,45 @@ Contact lasting_for(double duration, double entry_rate = 0.1) {
 TEST_CASE("cut short is what lasts less than a passage of t_col") {
   CHECK(std::abs(cut_short_below - 2.0 / std::numbers::pi * std::atan(std::numbers::pi / 2.0))
         < 1e-4);
-  CHECK_FALSE(is_cut_short(lasting_for(t_col()), linear, mass));
-  CHECK_FALSE(is_cut_short(lasting_for(0.65 * t_col()), linear, mass));
-  CHECK(is_cut_short(lasting_for(0.63 * t_col()), linear, mass));
-  CHECK(is_cut_short(lasting_for(0.01 * t_col()), linear, mass));
+  CHECK_FALSE(is_cut_short(lasting_for(t_col()), with(linear), mass));
+  CHECK_FALSE(is_cut_short(lasting_for(0.65 * t_col()), with(linear), mass));
+  CHECK(is_cut_short(lasting_for(0.63 * t_col()), with(linear), mass));
+  CHECK(is_cut_short(lasting_for(0.01 * t_col()), with(linear), mass));
 }
 
 TEST_CASE("t_col is that of the grain's own mass") {
   const Contact contact = lasting_for(0.7 * t_col());
-  CHECK_FALSE(is_cut_short(contact, linear, mass));
-  CHECK(is_cut_short(contact, linear, 2.0 * mass));
+  CHECK_FALSE(is_cut_short(contact, with(linear), mass));
+  CHECK(is_cut_short(contact, with(linear), 2.0 * mass));
 }
 
 TEST_CASE("where t_col depends on the speed it is that of the entry") {
   const HertzKuwabaraKonoLaw hertz{5e5, 3.3};
   const double fast = collision_time(hertz, mass, 1.0);
-  CHECK_FALSE(is_cut_short(lasting_for(0.7 * fast, 1.0), hertz, mass));
-  CHECK(is_cut_short(lasting_for(0.7 * fast, 0.1), hertz, mass));
+  CHECK_FALSE(is_cut_short(lasting_for(0.7 * fast, 1.0), with(hertz), mass));
+  CHECK(is_cut_short(lasting_for(0.7 * fast, 0.1), with(hertz), mass));
 }
 
 TEST_CASE("a passage that is first seen on its way out is cut short too") {
-  CHECK(is_cut_short(lasting_for(0.02 * t_col(), -0.3), linear, mass));
-  CHECK(is_cut_short(lasting_for(0.02 * t_col(), 0.0), linear, mass));
+  CHECK(is_cut_short(lasting_for(0.02 * t_col(), -0.3), with(linear), mass));
+  CHECK(is_cut_short(lasting_for(0.02 * t_col(), 0.0), with(linear), mass));
+}
+
+TEST_CASE("a contact that may not pull ends earlier, which does not cut it short") {
+  const double strong = damping_for_restitution(0.15, stiffness, mass, Attraction::clip);
+  const ContactModel clipped{LinearLaw{stiffness, strong}, CappedSlip{}, 0.5, Attraction::clip};
+  const ContactModel kept{LinearLaw{stiffness, strong}, CappedSlip{}, 0.5, Attraction::keep};
+  const double duration = collision_time(clipped.normal, mass, 1.0, Attraction::clip);
+  CHECK_FALSE(is_cut_short(lasting_for(0.65 * duration), clipped, mass));
+  CHECK(is_cut_short(lasting_for(0.63 * duration), clipped, mass));
+  CHECK(is_cut_short(lasting_for(duration), kept, mass));
 }
 
 TEST_CASE("an overdamped contact is measured by its elastic time") {
   const LinearLaw overdamped{stiffness, 1e6};
   const double elastic = elastic_collision_time(overdamped.elastic_line(), mass, 1.0);
-  CHECK_FALSE(is_cut_short(lasting_for(elastic), overdamped, mass));
-  CHECK(is_cut_short(lasting_for(0.5 * elastic), overdamped, mass));
+  CHECK_FALSE(is_cut_short(lasting_for(elastic), with(overdamped), mass));
+  CHECK(is_cut_short(lasting_for(0.5 * elastic), with(overdamped), mass));
 }
 
 TEST_CASE("a head-on contact pulls for as long as eq. (1) says") {

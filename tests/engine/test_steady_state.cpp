@@ -221,3 +221,44 @@ TEST_CASE("a random walk is not steady", "[steady_state]") {
   }
   CHECK(steady <= 3);
 }
+
+TEST_CASE("a flow is as steady as the worse of its two series", "[steady_state]") {
+  const Series good = noisy(2000, 0.05, 0.9, 1, constant);
+  const auto beside = [&](const Series& other) { return riesel::assess_flow({good, {}, other}); };
+  REQUIRE(beside(good).verdict == SteadyVerdict::steady);
+  CHECK_FALSE(beside(good).is_held_back);
+
+  const SteadyState cooling = beside(noisy(2000, 0.05, 0.9, 2, [](double s) { return 2.0 - s; }));
+  CHECK(cooling.verdict == SteadyVerdict::drifting);
+  CHECK(cooling.is_held_back);
+  CHECK(cooling.mean == riesel::assess_steady_state(good).mean);
+
+  const Series slow = noisy(2000, 0.05, 0.995, 3, constant);  // five independent samples
+  CHECK(beside(slow).verdict == SteadyVerdict::too_short);
+  CHECK(beside(slow).is_held_back);
+  CHECK(beside(slow).independent_samples == riesel::assess_steady_state(slow).independent_samples);
+}
+
+TEST_CASE("growth of the other series makes a flow drift, not run away", "[steady_state]") {
+  const Series good = noisy(2000, 0.05, 0.9, 1, constant);
+  const Series heating = noisy(2000, 0.05, 0.9, 2, free_fall);
+  REQUIRE(riesel::assess_steady_state(heating).verdict == SteadyVerdict::accelerating);
+  CHECK(riesel::assess_flow({good, {}, heating}).verdict == SteadyVerdict::drifting);
+}
+
+TEST_CASE("a constant series, such as the temperature of one grain, holds nothing back",
+          "[steady_state]") {
+  const Series good = noisy(2000, 0.05, 0.9, 1, constant);
+  for (const double value : {0.0, 3.0}) {
+    const Series same(2000, value);
+    CHECK(riesel::assess_flow({good, {}, same}).verdict == SteadyVerdict::steady);
+  }
+}
+
+TEST_CASE("a flow whose judged series is not steady is judged by it alone", "[steady_state]") {
+  const Series good = noisy(2000, 0.05, 0.9, 1, constant);
+  const Series falling = noisy(2000, 0.05, 0.9, 2, free_fall);
+  const SteadyState state = riesel::assess_flow({falling, {}, good});
+  CHECK(state.verdict == SteadyVerdict::accelerating);
+  CHECK_FALSE(state.is_held_back);
+}

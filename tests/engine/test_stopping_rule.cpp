@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -15,8 +16,14 @@
 
 namespace {
 
-using riesel::is_precise;
 using Series = std::vector<double>;
+
+/// Of a flow whose other series is the same.
+bool is_precise(std::span<const double> series, double relative_error,
+                std::optional<double> free_fall_gain = {}) {
+  return riesel::is_precise({.judged = series, .free_fall_gain = free_fall_gain, .other = series},
+                            relative_error);
+}
 
 /// 1 with white noise of standard deviation `noise`.
 Series steady(std::size_t n, double noise, unsigned seed) {
@@ -118,4 +125,12 @@ TEST_CASE("a sample that is not finite is refused by the rule", "[stopping_rule]
   Series series(125, 1.0);
   series[7] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(is_precise(series, 0.1), std::invalid_argument);
+}
+
+TEST_CASE("a flow whose other series drifts is never precise", "[stopping_rule]") {
+  const Series series = steady(590, 0.3, 3);
+  Series cooling = steady(590, 0.03, 4);
+  CHECK(riesel::is_precise({series, {}, cooling}, 1.0));
+  for (std::size_t i = 0; i < cooling.size(); ++i) cooling[i] -= 1e-3 * static_cast<double>(i);
+  CHECK_FALSE(riesel::is_precise({series, {}, cooling}, 1.0));
 }

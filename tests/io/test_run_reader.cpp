@@ -163,6 +163,26 @@ TEST_CASE("One wrong bit in a run file is told") {
   CHECK(complaint(path).find("(its length or checksum is wrong)") != std::string::npos);
 }
 
+TEST_CASE("A final state that cannot be drawn is refused") {
+  const ScratchDirectory directory;
+  const auto complaint_about = [&](const char* name, auto spoil) {
+    State state = special_state();
+    spoil(state);
+    write_run(directory / name, state);
+    return complaint(directory / name);
+  };
+  REQUIRE(special_state().step > 0);
+  CHECK(complaint_about("a.h5", [](State&) {}).empty());
+  const std::string timeless = complaint_about(
+      "b.h5", [](State& s) { s.time_step = std::numeric_limits<double>::infinity(); });
+  CHECK(timeless.find("its time is not finite") != std::string::npos);
+  const std::string gone = complaint_about("c.h5", [](State& s) {
+    s.walls[0].motion.velocity = 1e308;
+    s.time_step = 1e3;
+  });
+  CHECK(gone.find("a wall has impossible values") != std::string::npos);
+}
+
 TEST_CASE("Histograms that cannot be are refused") {
   const ScratchDirectory directory;
   const auto refused = [&](const char* name, auto spoil) {

@@ -92,6 +92,9 @@ TEST_CASE("the closed forms agree with integrated head-on contacts") {
       if (row.text("law") != "linear") continue;
       const LinearContact contact{k, gamma, m, Attraction::clip};
       CHECK_THAT(contact.restitution(), WithinRel(row("restitution"), 1e-10));
+      CHECK_THAT(contact.collision_time(), WithinRel(row("contact_time"), 1e-10));
+      CHECK_THAT(collision_time(LinearLaw{k, gamma}, m, v, Attraction::clip),
+                 WithinRel(row("contact_time"), 1e-10));
       ++clipped;
       continue;
     }

@@ -192,3 +192,14 @@ TEST_CASE("a sheared cell goes on where it was, with walls that have moved") {
   CHECK(next.state.contacts.size() == earlier.contacts.size());
   CHECK_NOTHROW(after_a_while(next));
 }
+
+TEST_CASE("rows in step with wall grains that pass each other are refused") {
+  const auto with = [](const Overrides& overrides) { return complaint(cell_yaml, overrides); };
+  const std::string every = "output.interval=";
+  // A wall grain passes the next one 1.4 ms after the last.
+  check_mentions(with({every + "1.4 ms"}), {"output.interval:", "only 1 phase of the wall grains"});
+  check_mentions(with({every + "0.7 ms"}), {"only 2 phases"});
+  CHECK(with({every + "1 ms"}) == "accepted");
+  CHECK(with({every + "1.4 ms", "wall.surface=smooth"}) == "accepted");
+  CHECK(with({every + "1.4 ms", "cell.velocity=0"}) == "accepted");
+}
