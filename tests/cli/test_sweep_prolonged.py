@@ -210,21 +210,25 @@ class Prolonged(SweepTest):
         self.assertEqual(bytes_of_files(self.directory_of("0.7")), before)
 
     def test_a_crash_between_any_two_files_costs_nothing(self):
-        """What a run leaves that is killed while it begins to go on: the summary has gone, and the
-        settings are the new ones or not; the checkpoint is the old one."""
+        """What a run leaves that is killed while it begins to go on: the summary has been set aside, and
+        the settings are the new ones or not; the checkpoint is the old one."""
         changes = ["run.duration=", "run.until.relative_error=0.01 %", "run.until.at_most=6 ms"]
         self.sweep_to_end(TWO)
         whole = self.sweep_whole(changes)
         for settings_too in (False, True):
-            for summary in self.home.glob("out/points/*/summary.json"):
-                summary.unlink()
-                if settings_too:
-                    shutil.copy(whole / summary.parent.name / "effective.yaml", summary.parent)
-            shutil.copytree(self.home / "out", self.home / f"crashed_{settings_too}")
-        for settings_too in (False, True):
             out = f"crashed_{settings_too}"
+            shutil.copytree(self.home / "out", self.home / out)
+            points = list((self.home / out / "points").iterdir())
+            self.assertEqual(len(points), 2)
+            for point in points:
+                (point / "summary.json").rename(point / "summary.json.previous")
+                new_settings = whole / point.name / "effective.yaml"
+                if settings_too:
+                    shutil.copy(new_settings, point)
+                has_new_settings = (point / "effective.yaml").read_bytes() == new_settings.read_bytes()
+                self.assertEqual(has_new_settings, settings_too)
             self.assert_done(self.go_on(*changes, out=out))
-            for point in (self.home / out / "points").iterdir():
+            for point in points:
                 self.assert_same_result(point, whole / point.name)
 
     def sweep_whole(self, changes):
