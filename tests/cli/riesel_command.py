@@ -121,6 +121,12 @@ class CommandTest(unittest.TestCase):
         process.kill()
         process.communicate()
 
+    def subcommands(self):
+        """Their names, as the command lists them."""
+        result = self.riesel("--help")
+        self.assert_done(result)
+        return re.findall(r"^  ([a-z-]+) ", result.stdout.split("Subcommands:")[1], re.MULTILINE)
+
     def write(self, name, text):
         path = self.home / name
         path.write_text(text, encoding="utf-8")
