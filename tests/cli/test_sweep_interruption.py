@@ -50,12 +50,6 @@ class Interruption(SweepTest):
         super().setUp()
         self.moments = random.Random(1)
 
-    def wait_until(self, happened, what):
-        deadline = time.monotonic() + PATIENCE
-        while not happened():
-            self.assertLess(time.monotonic(), deadline, f"{what} has not happened")
-            time.sleep(0.005)
-
     def start_sweep(self, text, *options):
         """Returns the process, which has children that have checkpoints."""
         self.write("sweep.yaml", text)

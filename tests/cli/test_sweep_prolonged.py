@@ -7,7 +7,7 @@ import signal
 import time
 import unittest
 
-from riesel_command import DONE, FAILED, bytes_of_files
+from riesel_command import DONE, FAILED, PATIENCE, bytes_of_files
 from test_sweep import CHAIN, ONE_FAILS, SweepTest
 
 TWO = """\
@@ -240,12 +240,9 @@ class Prolonged(SweepTest):
     def test_a_length_given_by_mistake_can_be_taken_back(self):
         self.sweep_to_end(TWO)
         process = self.start("sweep", "out", "--set", "run.duration=1000 s")
-        deadline = time.monotonic() + 100.0
-        while list(self.home.glob("out/points/*/summary.json")):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.005)
+        self.wait_until(lambda: not list(self.home.glob("out/points/*/summary.json")), "the start of both runs")
         process.kill()  # before anything is saved, or after
-        process.communicate(timeout=100.0)
+        process.communicate(timeout=PATIENCE)
         result = self.go_on("run.duration=5 ms")
         if result.returncode == DONE:
             self.assert_is_whole("0.9", "5 ms")
@@ -266,13 +263,10 @@ class Prolonged(SweepTest):
         self.sweep_to_end(TWO)
         change = f"run.duration={LONG_ENOUGH_TO_INTERRUPT}"
         process = self.start("sweep", "out", "--set", change, "--jobs", 1)
-        deadline = time.monotonic() + 100.0
-        while len(list(self.home.glob("out/points/*/summary.json"))) > 1:
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.005)
+        self.wait_until(lambda: len(list(self.home.glob("out/points/*/summary.json"))) < 2, "the start of a run")
         time.sleep(0.3)  # which is no matter: the runs catch signals from their beginning
         process.send_signal(signal.SIGTERM)
-        output, _ = process.communicate(timeout=100.0)
+        output, _ = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 128 + signal.SIGTERM)
         self.assertIn("2 points: 1 done, 1 interrupted", output)
         self.assertEqual(sorted(row["mean_axial_velocity.value"] == "" for row in self.rows()), [False, True])
