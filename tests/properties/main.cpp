@@ -140,7 +140,9 @@ int answer(const std::vector<std::string_view>& words) {
   if (words.size() == 3) {
     const auto* const task = std::ranges::find(tasks, words[0], &Task::word);
     const auto first = number(words[1]), count = number(words[2]);
-    if (task != tasks.end() && first && count.value_or(0) > 0) return task->act(*first, *count);
+    // Of seeds there is one at least, and none beyond the largest number.
+    if (task != tasks.end() && first && count && *first + *count > *first)
+      return task->act(*first, *count);
   }
   std::fputs("usage: properties (set-ups | flows | impacts | hashes) FIRST COUNT\n", stderr);
   return 2;
