@@ -2,12 +2,12 @@
 
 #include "engine/histogram_blocks.hpp"
 #include "engine/simulation.hpp"
-#include "engine/tube_profiles.hpp"
 #include "io/checkpoint.hpp"
 #include "io/settings.hpp"
 #include "io/trajectory_file.hpp"
 #include "scenarios/scenario.hpp"
 #include "tests/scratch_directory.hpp"
+#include "tests/tables_of_a_flow.hpp"
 
 #include <cstdint>
 #include <fstream>
@@ -67,21 +67,16 @@ void write_small_run_file(const fs::path& path) {
                                   small_columns);
   for (int i = 0; i < small_rows; ++i) file.append(std::vector{0.1 * i, -1.0});
   file.write_final_state(state_of_a_small_tube());
-  std::vector<TubeProfile> profiles;
-  for (const char* name : {"area_fraction", "mean_axial_velocity", "temperature_x", "temperature_y",
-                           "stress_xx", "stress_xy", "stress_yy"})
-    profiles.push_back({.name = name, .unit = "1", .meaning = "m", .zones = {{}, {}}});
-  file.write_profiles({.width = 1e-3, .length = 0.1, .count = 2}, profiles, 0.1);
-  std::vector<HistogramTable> histograms;
-  for (const char* name : {"grain_contact_duration", "wall_contact_duration",
-                           "grain_contact_overlap", "wall_contact_overlap"})
-    histograms.push_back({.name = name,
-                          .unit = "1",
-                          .meaning = "m",
-                          .lower_edges = {1.0, 2.0},
-                          .counts = {1, 0},
-                          .rates = {{}, {}}});
-  file.write_histograms(histograms, 0.1);
+  file.write_profiles({.width = 1e-3, .length = 0.1, .count = 2},
+                      profiles_like({.name = {}, .unit = "1", .meaning = "m", .zones = {{}, {}}}),
+                      0.1);
+  file.write_histograms(histograms_like({.name = {},
+                                         .unit = "1",
+                                         .meaning = "m",
+                                         .lower_edges = {1.0, 2.0},
+                                         .counts = {1, 0},
+                                         .rates = {{}, {}}}),
+                        0.1);
   file.flush();
 }
 

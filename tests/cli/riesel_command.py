@@ -9,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import tempfile
+import time
 import unittest
 from decimal import Decimal
 
@@ -28,7 +29,14 @@ start: {random_velocity: 2 m/s}
 run: {duration: 5 ms}
 """
 
-DONE, FAILED, BAD_INPUT = 0, 1, 2
+# Of one grain, which is over at once.
+IMPACT = """\
+scenario: single_wall_grain
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+impact: {axial_velocity: [1 m/s]}
+"""
+
+DONE, FAILED, BAD_INPUT, OUT_OF_TIME = 0, 1, 2, 3
 # A line of it comes every ten seconds: never here, but on a busy machine.
 PROGRESS = re.compile(r" *[0-9.]+ %  .*  [-0-9:]+ left|.*: goes on from t = \S+ s, step \d+ of \d+")
 
@@ -116,10 +124,23 @@ class CommandTest(unittest.TestCase):
         self.addCleanup(self._end, process)
         return process
 
+    def wait_until(self, happened, what):
+        """Looks again and again; that `what` never happens is a failure."""
+        deadline = time.monotonic() + PATIENCE
+        while not happened():
+            self.assertLess(time.monotonic(), deadline, f"{what} has not happened")
+            time.sleep(0.002)
+
     @staticmethod
     def _end(process):
         process.kill()
         process.communicate()
+
+    def subcommands(self):
+        """Their names, as the command lists them."""
+        result = self.riesel("--help")
+        self.assert_done(result)
+        return re.findall(r"^  ([a-z-]+) ", result.stdout.split("Subcommands:")[1], re.MULTILINE)
 
     def write(self, name, text):
         path = self.home / name

@@ -84,10 +84,10 @@ class Cluster:
         self._start("munged", "--foreground", f"--socket={munge}/socket", f"--key-file={munge}/key",
                     f"--pid-file={munge}/pid", f"--log-file={munge}/log",
                     f"--seed-file={munge}/seed", user=user.pw_uid, group=user.pw_gid)
-        self._wait_until((munge / "socket").exists, "munged")
+        self.wait_until((munge / "socket").exists, "munged")
         self._start("slurmctld", "-D", "-c")
         self._start("slurmd", "-D", "-N", socket.gethostname().partition(".")[0])
-        self._wait_until(lambda: "idle" in self.ask("sinfo", "--noheader", "--format=%T"), "slurmd")
+        self.wait_until(lambda: "idle" in self.ask("sinfo", "--noheader", "--format=%T"), "slurmd")
 
     def stop(self):
         for daemon in reversed(self.daemons):
@@ -122,7 +122,15 @@ class Cluster:
             empty.append(self.jobs() == [])
             return all(empty[-looks:])
 
-        self._wait_until(all_empty, "the end of all jobs", patience)
+        self.wait_until(all_empty, "the end of all jobs", patience)
+
+    def wait_until(self, happened, what, patience=PATIENCE, more_logs=str):
+        """With the logs and the jobs if it never happens: they tell why. `more_logs` returns more text for it."""
+        deadline = time.monotonic() + patience
+        while not happened():
+            if time.monotonic() > deadline:
+                raise AssertionError(f"{what}: not within {patience} s\n{self.logs()}\n{self.jobs()}\n{more_logs()}")
+            time.sleep(0.1)
 
     def logs(self):
         return "\n".join(path.read_text(errors="replace")[-3000:]
@@ -132,10 +140,3 @@ class Cluster:
         with open(self.home / f"{command[0]}.out", "wb") as log:
             self.daemons.append(subprocess.Popen(command, env=self.environment, stdout=log,
                                                  stderr=log, stdin=subprocess.DEVNULL, **user))
-
-    def _wait_until(self, happened, what, patience=PATIENCE):
-        deadline = time.monotonic() + patience
-        while not happened():
-            if time.monotonic() > deadline:
-                raise AssertionError(f"{what}: not within {patience} s\n{self.logs()}\n{self.jobs()}")
-            time.sleep(0.1)

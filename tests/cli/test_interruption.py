@@ -12,20 +12,14 @@ import time
 
 import h5py
 
-from riesel_command import (COMMAND, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files, data_of,
-                            final_time, saved_step)
+from riesel_command import (COMMAND, IMPACT, OUT_OF_TIME, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files,
+                            data_of, final_time, saved_step)
 
 # Rows of 1 ms hold about 1000 steps; the run ends long after the tests. After its first checkpoint none is due:
 # what is saved later has been saved because the run was told to stop.
 LONG_TUBE = SMALL_TUBE.replace("5 ms", "1000 s") + (
     "output: {checkpoint_interval: 1 h, trajectory_interval: 10 ms}\n")
 SAVE_OFTEN = ["--set", "output.checkpoint_interval=0.02 s"]
-IMPACT = """\
-scenario: single_wall_grain
-contact: {stiffness: 2000 N/m, restitution: 0.9}
-impact: {axial_velocity: [1 m/s]}
-"""
-OUT_OF_TIME = 3
 LIMIT = 6.0  # s, on the clock
 
 
@@ -43,12 +37,6 @@ class Interruption(CommandTest):
         self.out = self.home / "out"
         self.moments = random.Random(1)
         self.write("long.yaml", LONG_TUBE)
-
-    def wait_until(self, happened, what):
-        deadline = time.monotonic() + PATIENCE
-        while not happened():
-            self.assertLess(time.monotonic(), deadline, f"{what} has not happened")
-            time.sleep(0.002)
 
     def holds_the_directory(self, process):
         lock = self.out / ".lock"

@@ -163,6 +163,3 @@ class Journeys(CommandTest):
         hashes = [self.summary(path.parent)["state_hash"] for path in (self.home / out).rglob("summary.json")]
         self.assertIn(self.state_hash(whole), hashes)
         self.assertEqual(len(set(hashes)), len(seeds))
-
-
-del CommandTest

@@ -215,6 +215,3 @@ class Limits(CommandTest):
                           f"start.from={self.home / 'speed' / 'post_mortem.h5'}",
                           "run.duration=1 ms")
         self.assertEqual(later.returncode, DONE, later)
-
-
-del CommandTest

@@ -9,17 +9,12 @@ import h5py
 import numpy as np
 
 from report_files import SVG, Report
-from riesel_command import SHIPPED, SMALL_TUBE, bytes_of_files, with_error
+from riesel_command import IMPACT, SHIPPED, SMALL_TUBE, bytes_of_files, with_error
 
 FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits",
            "area_fraction", "velocity", "temperature", "stress", "braking",
            "grain_contact_duration", "grain_contact_overlap", "wall_contact_duration",
            "wall_contact_overlap"}
-IMPACT = """\
-scenario: single_wall_grain
-contact: {stiffness: 2000 N/m, restitution: 0.9}
-impact: {axial_velocity: [1 m/s]}
-"""
 
 
 class FinishedRun(Report):

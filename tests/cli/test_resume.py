@@ -5,7 +5,6 @@ import functools
 import resource
 import shutil
 import subprocess
-import time
 
 import h5py
 
@@ -59,16 +58,12 @@ class Resume(CommandTest):
         checkpoints = [short / "checkpoint.h5", short / "checkpoint.h5.previous"]
         process = self.start("resume", short, "--set", "run.duration=1000 s", "--set",
                              "output.checkpoint_interval=1 h")
-        deadline = time.monotonic() + 30.0
-        while time.monotonic() < deadline:
-            time.sleep(0.01)
-            settings = [settings_of(checkpoint) for checkpoint in checkpoints]
-            if all("duration: 1000" in text for text in settings):
-                break
+        self.wait_until(lambda: all("duration: 1000" in settings_of(checkpoint) for checkpoint in checkpoints),
+                        "the longer duration in both checkpoints")
         process.kill()
         process.communicate()
         _, _, effective = (short / "effective.yaml").read_text(encoding="utf-8").partition("\n")
-        self.assertEqual(settings, [effective] * 2)
+        self.assertEqual([settings_of(checkpoint) for checkpoint in checkpoints], [effective] * 2)
         self.resume_to_end(short, "--set", "run.duration=5 ms", "--set",
                            "output.checkpoint_interval=60 s")
         self.assert_same_result(self.run_small_tube("long"), short)

@@ -32,8 +32,7 @@ class Shell(CommandTest):
     def setUpClass(cls):
         maker = cls.maker()
         cls.scripts = {shell: maker.riesel("completion", shell).stdout for shell in ("bash", "zsh")}
-        text = maker.riesel("--help").stdout
-        cls.commands = re.findall(r"^  ([a-z-]+) ", text.split("Subcommands:")[1], re.MULTILINE)
+        cls.commands = maker.subcommands()
         cls.options = {name: set(re.findall(r"(?:^  |,)(--?[a-z-]+)", maker.riesel(name, "--help").stdout,
                                             re.MULTILINE)) for name in cls.commands}
 

@@ -12,9 +12,9 @@ import time
 import unittest
 
 import slurm_cluster
-from riesel_command import BAD_INPUT, DONE, FAILED, PATIENCE, bytes_of_files, saved_step
+from riesel_command import BAD_INPUT, DONE, FAILED, OUT_OF_TIME, PATIENCE, bytes_of_files, saved_step
 from test_sweep import ONE_FAILS, SweepTest
-from test_sweep_tasks import ENDLESS, OUT_OF_TIME
+from test_sweep_tasks import ENDLESS
 
 FOUR = """\
 base: tube.yaml
@@ -212,10 +212,7 @@ class Submitted(StandIns):
         return [line for line in self.asked("scontrol") if line != "show config"]
 
     def signal_within_run(self, task, number):
-        deadline = time.monotonic() + PATIENCE
-        while not list(self.home.glob("out/points/*/checkpoint.h5")):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.01)
+        self.wait_until(lambda: list(self.home.glob("out/points/*/checkpoint.h5")), "the first checkpoint")
         task.send_signal(number)
 
     def test_what_has_ended_is_not_queued_again(self):
@@ -343,14 +340,12 @@ class OnACluster(SweepTest):
         self.assert_ends_as_locally(LONG)
 
     def wait_for_checkpoints(self, count):
-        self.wait_until(lambda: len(list(self.home.glob("out/points/*/checkpoint.h5"))) >= count)
+        self.wait_for_slurm(lambda: len(list(self.home.glob("out/points/*/checkpoint.h5"))) >= count,
+                            f"checkpoints of {count} points")
 
     def wait_for_requeue(self):
-        self.wait_until(lambda: any(job[2] != "0" for job in self.cluster.jobs() or []))
+        self.wait_for_slurm(lambda: any(job[2] != "0" for job in self.cluster.jobs() or []), "a job queued again")
 
-    def wait_until(self, happened):
-        """Slurm may need minutes to queue a job again."""
-        deadline = time.monotonic() + 4.0 * slurm_cluster.PATIENCE
-        while not happened():
-            self.assertLess(time.monotonic(), deadline, self.logs() + self.cluster.logs())
-            time.sleep(0.2)
+    def wait_for_slurm(self, happened, what):
+        """It may need minutes to queue a job again."""
+        self.cluster.wait_until(happened, what, 240.0, self.logs)

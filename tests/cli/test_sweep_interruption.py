@@ -3,6 +3,7 @@
 import os
 import pathlib
 import random
+import shutil
 import signal
 import time
 
@@ -48,12 +49,6 @@ class Interruption(SweepTest):
     def setUp(self):
         super().setUp()
         self.moments = random.Random(1)
-
-    def wait_until(self, happened, what):
-        deadline = time.monotonic() + PATIENCE
-        while not happened():
-            self.assertLess(time.monotonic(), deadline, f"{what} has not happened")
-            time.sleep(0.005)
 
     def start_sweep(self, text, *options):
         """Returns the process, which has children that have checkpoints."""
@@ -111,11 +106,15 @@ class Interruption(SweepTest):
                                     self.home / "whole/points" / row["point"])
 
     def interrupt(self, text, signals):
+        """Returns how many of the signals met the sweep at work: it may have come to its end before."""
+        met = 0
         for number, status in signals:
             process = self.start_sweep(text)
             time.sleep(self.moments.uniform(0.0, 0.2))
-            if process.poll() is None:
-                self.assertEqual(self.stop(process, number), status)
+            ended_with = self.stop(process, number)
+            self.assertIn(ended_with, (status, DONE))
+            met += ended_with == status
+        return met
 
     def test_by_polite_signals(self):
         text = saved_by_its_end(LONG)
@@ -173,8 +172,15 @@ axes: {contact.restitution: [0.8]}
         self.assertEqual(self.state_hash(point), whole)
 
     def test_by_kills(self):
-        self.interrupt(LONG_CHAIN, [(signal.SIGKILL, -signal.SIGKILL)] * 3)
-        self.assert_goes_on_as_uninterrupted(LONG_CHAIN)
+        """Where the machine is so fast or the test is held up so long that the sweep ends before all of them, it is
+        tried anew."""
+        met = tries = 0
+        while met == 0 and tries < 5:
+            tries += 1
+            shutil.rmtree(self.home / "out", ignore_errors=True)
+            met = self.interrupt(LONG_CHAIN, [(signal.SIGKILL, -signal.SIGKILL)] * 3)
+            self.assert_goes_on_as_uninterrupted(LONG_CHAIN)
+        self.assertGreater(met, 0, "no kill met the sweep at work")
 
     def test_a_killed_run_is_gone_on_with_in_the_same_sweep(self):
         process = self.start_sweep(LONG)

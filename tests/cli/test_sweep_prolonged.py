@@ -7,7 +7,7 @@ import signal
 import time
 import unittest
 
-from riesel_command import DONE, FAILED, bytes_of_files
+from riesel_command import DONE, FAILED, PATIENCE, bytes_of_files
 from test_sweep import CHAIN, ONE_FAILS, SweepTest
 
 TWO = """\
@@ -210,21 +210,25 @@ class Prolonged(SweepTest):
         self.assertEqual(bytes_of_files(self.directory_of("0.7")), before)
 
     def test_a_crash_between_any_two_files_costs_nothing(self):
-        """What a run leaves that is killed while it begins to go on: the summary has gone, and the
-        settings are the new ones or not; the checkpoint is the old one."""
+        """What a run leaves that is killed while it begins to go on: the summary has been set aside, and
+        the settings are the new ones or not; the checkpoint is the old one."""
         changes = ["run.duration=", "run.until.relative_error=0.01 %", "run.until.at_most=6 ms"]
         self.sweep_to_end(TWO)
         whole = self.sweep_whole(changes)
         for settings_too in (False, True):
-            for summary in self.home.glob("out/points/*/summary.json"):
-                summary.unlink()
-                if settings_too:
-                    shutil.copy(whole / summary.parent.name / "effective.yaml", summary.parent)
-            shutil.copytree(self.home / "out", self.home / f"crashed_{settings_too}")
-        for settings_too in (False, True):
             out = f"crashed_{settings_too}"
+            shutil.copytree(self.home / "out", self.home / out)
+            points = list((self.home / out / "points").iterdir())
+            self.assertEqual(len(points), 2)
+            for point in points:
+                (point / "summary.json").rename(point / "summary.json.previous")
+                new_settings = whole / point.name / "effective.yaml"
+                if settings_too:
+                    shutil.copy(new_settings, point)
+                has_new_settings = (point / "effective.yaml").read_bytes() == new_settings.read_bytes()
+                self.assertEqual(has_new_settings, settings_too)
             self.assert_done(self.go_on(*changes, out=out))
-            for point in (self.home / out / "points").iterdir():
+            for point in points:
                 self.assert_same_result(point, whole / point.name)
 
     def sweep_whole(self, changes):
@@ -236,12 +240,9 @@ class Prolonged(SweepTest):
     def test_a_length_given_by_mistake_can_be_taken_back(self):
         self.sweep_to_end(TWO)
         process = self.start("sweep", "out", "--set", "run.duration=1000 s")
-        deadline = time.monotonic() + 100.0
-        while list(self.home.glob("out/points/*/summary.json")):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.005)
+        self.wait_until(lambda: not list(self.home.glob("out/points/*/summary.json")), "the start of both runs")
         process.kill()  # before anything is saved, or after
-        process.communicate(timeout=100.0)
+        process.communicate(timeout=PATIENCE)
         result = self.go_on("run.duration=5 ms")
         if result.returncode == DONE:
             self.assert_is_whole("0.9", "5 ms")
@@ -262,13 +263,10 @@ class Prolonged(SweepTest):
         self.sweep_to_end(TWO)
         change = f"run.duration={LONG_ENOUGH_TO_INTERRUPT}"
         process = self.start("sweep", "out", "--set", change, "--jobs", 1)
-        deadline = time.monotonic() + 100.0
-        while len(list(self.home.glob("out/points/*/summary.json"))) > 1:
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.005)
+        self.wait_until(lambda: len(list(self.home.glob("out/points/*/summary.json"))) < 2, "the start of a run")
         time.sleep(0.3)  # which is no matter: the runs catch signals from their beginning
         process.send_signal(signal.SIGTERM)
-        output, _ = process.communicate(timeout=100.0)
+        output, _ = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 128 + signal.SIGTERM)
         self.assertIn("2 points: 1 done, 1 interrupted", output)
         self.assertEqual(sorted(row["mean_axial_velocity.value"] == "" for row in self.rows()), [False, True])

@@ -6,10 +6,9 @@ import shutil
 import subprocess
 import unittest
 
-from riesel_command import BAD_INPUT, COMMAND, DONE, FAILED
+from riesel_command import BAD_INPUT, COMMAND, DONE, FAILED, OUT_OF_TIME
 from test_sweep import CHAIN, GRID, ONE_FAILS, SweepTest
 
-OUT_OF_TIME = 3
 ENDLESS = """\
 base: tube.yaml
 set: {run.duration: 1000 s}

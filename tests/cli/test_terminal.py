@@ -10,14 +10,9 @@ import struct
 import termios
 import time
 
-from riesel_command import PATIENCE, SMALL_TUBE, CommandTest
+from riesel_command import IMPACT, PATIENCE, SMALL_TUBE, CommandTest
 
 LONG_TUBE = SMALL_TUBE.replace("5 ms", "1000 s")
-IMPACT = """\
-scenario: single_wall_grain
-contact: {stiffness: 2000 N/m, restitution: 0.9}
-impact: {axial_velocity: [1 m/s]}
-"""
 
 
 class Terminal(CommandTest):
@@ -151,7 +146,7 @@ class Terminal(CommandTest):
         self.assertRegex(shown, rb"\d left")
 
     def read_until(self, terminal, enough):
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + PATIENCE
         text = b""
         while not enough(text):
             self.assertLess(time.monotonic(), deadline, text)

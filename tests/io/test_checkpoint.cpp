@@ -50,7 +50,7 @@ std::string error_of_reading(const fs::path& path) {
   return message_of<FileError>([&] { read_checkpoint(path); });
 }
 
-/// The problem of writing or, if that is refused, of reading a changed checkpoint.
+/// Why a changed checkpoint is not written; no file is left of it.
 std::string refusal(const std::function<void(Checkpoint&)>& change) {
   const ScratchDirectory directory;
   auto checkpoint = special_checkpoint();

@@ -3,6 +3,7 @@
 
 #include "io/file_error.hpp"
 #include "tests/io/file_fixture.hpp"
+#include "tests/tables_of_a_flow.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -18,31 +19,23 @@ const Strips strips{.width = 1e-3, .length = 0.1, .count = 2};
 
 /// Of each the value 1 in the first strip, and in the second nothing that is known.
 std::vector<TubeProfile> profiles() {
-  std::vector<TubeProfile> all;
-  for (const char* name : {"area_fraction", "mean_axial_velocity", "temperature_x", "temperature_y",
-                           "stress_xx", "stress_xy", "stress_yy"})
-    all.push_back(
-        {.name = name,
-         .unit = "unit",
-         .meaning = "Meaning.",
-         .zones = {{.value = 1.0, .error = 0.1}, {.value = std::nan(""), .error = std::nan("")}}});
-  return all;
+  return profiles_like(
+      {.name = {},
+       .unit = "unit",
+       .meaning = "Meaning.",
+       .zones = {{.value = 1.0, .error = 0.1}, {.value = std::nan(""), .error = std::nan("")}}});
 }
 
 /// Of each two bins: one contact in two seconds in the first, and nothing that is known of the
 /// second.
 std::vector<HistogramTable> histograms() {
-  std::vector<HistogramTable> all;
-  for (const char* name : {"grain_contact_duration", "wall_contact_duration",
-                           "grain_contact_overlap", "wall_contact_overlap"})
-    all.push_back(
-        {.name = name,
-         .unit = "unit",
-         .meaning = "Meaning.",
-         .lower_edges = {1.0, 2.0},
-         .counts = {1, 0},
-         .rates = {{.value = 0.5, .error = 0.1}, {.value = std::nan(""), .error = std::nan("")}}});
-  return all;
+  return histograms_like(
+      {.name = {},
+       .unit = "unit",
+       .meaning = "Meaning.",
+       .lower_edges = {1.0, 2.0},
+       .counts = {1, 0},
+       .rates = {{.value = 0.5, .error = 0.1}, {.value = std::nan(""), .error = std::nan("")}}});
 }
 
 RunFile write_run(const fs::path& path, const State& state) {

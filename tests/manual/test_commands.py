@@ -8,7 +8,8 @@ OWN_TESTS = {"first_run.md"}
 KEPT = "bench/results/intel-xeon-2-cores-4bc4f3a.json"
 
 # (what stands in the manual, what is run instead): hours are made seconds, and what would install packages is asked
-# for its help. The first one that fits.
+# for its help. The first one that fits. What is left of a command is as it stands, so that its options are tried:
+# `speed` looks at them, and at a case and a size, before it lists its cases or shows its help.
 SHORTER = [
     (r"\./setup\.sh (\w+)", r"./setup.sh help | grep '^  \1 '"),
     (r"docs/paper/reproduce\.sh (\w+)", r"docs/paper/reproduce.sh --help 2>&1 | grep '^  \1 '"),
@@ -23,7 +24,8 @@ SHORTER = [
     (r"tests/package/clean_debian\.sh .*", "bash -n tests/package/clean_debian.sh"),
     (r"cmake -S (examples/\w+) .*|cmake --build build/cooling|build/cooling/cooling run .*", "test -f tests/package/test_example.py"),
     (r"cmake --preset (\w+) && cmake --build --preset .*", r"cmake --list-presets | grep '\"\1\"'"),
-    (r"build/bench/bench/speed( .*)?", "build/bench/bench/speed list"),
+    (r"(build/bench/bench/speed(?: --.*)?)", r"\1 list"),
+    (r"(build/bench/bench/speed state \w+ \w+)", r"\1 --help"),
     (r"build/bench/bench/rigid/rigid speed STATE\.h5", "test -x build/bench/bench/rigid/rigid"),
     (r"build/bench/bench/simd/simd STATE\.h5", "test -x build/bench/bench/simd/simd"),
     (r"bench/compare\.py \w+\.json", f"bench/compare.py {KEPT}"),

@@ -72,7 +72,7 @@ State encounters(double dt, std::uint64_t seed, double inertia = 0.0) {
   return state;
 }
 
-/// kg m/s, as above.
+/// kg m/s, with the kicks that the next step takes up, as integer_momentum().
 std::array<double, 2> momentum(const State& state) {
   const Grains& g = state.grains;
   const double to_vx = state.box.quantum_x() / state.time_step;

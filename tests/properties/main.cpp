@@ -12,11 +12,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace {
 
@@ -116,25 +120,39 @@ int print_hashes(std::uint64_t first, std::uint64_t count) {
   return 0;
 }
 
+struct Task {
+  std::string_view word;
+  int (*act)(std::uint64_t first, std::uint64_t count);
+};
+constexpr std::array tasks{Task{"set-ups", check_set_ups}, Task{"flows", check_flows},
+                           Task{"impacts", print_gains}, Task{"hashes", print_hashes}};
+
+/// Nothing if it is anything but digits, or too large.
+std::optional<std::uint64_t> number(std::string_view text) {
+  std::uint64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && last == end ? std::optional(value) : std::nullopt;
+}
+
 /// The exit status.
-int answer(int argc, char** argv) {
-  if (argc != 4) {
-    std::fputs("usage: properties (set-ups | flows | impacts | hashes) FIRST COUNT\n", stderr);
-    return 2;
+int answer(const std::vector<std::string_view>& words) {
+  if (words.size() == 3) {
+    const auto* const task = std::ranges::find(tasks, words[0], &Task::word);
+    const auto first = number(words[1]), count = number(words[2]);
+    // Of seeds there is one at least, and none beyond the largest number.
+    if (task != tasks.end() && first && count && *first + *count > *first)
+      return task->act(*first, *count);
   }
-  const std::string_view what = argv[1];
-  const std::uint64_t first = std::strtoull(argv[2], nullptr, 10);
-  const std::uint64_t count = std::strtoull(argv[3], nullptr, 10);
-  if (what == "set-ups") return check_set_ups(first, count);
-  if (what == "flows") return check_flows(first, count);
-  return what == "impacts" ? print_gains(first, count) : print_hashes(first, count);
+  std::fputs("usage: properties (set-ups | flows | impacts | hashes) FIRST COUNT\n", stderr);
+  return 2;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return answer(argc, argv);
+    return answer({argv + 1, argv + argc});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -4,13 +4,11 @@ with a message and status 1, and goes on from its last checkpoint when the direc
 import os
 import shutil
 import subprocess
-import time
 import unittest
 
-from riesel_command import COMMAND, CommandTest, SMALL_TUBE, bytes_of_files, final_time
+from riesel_command import COMMAND, PATIENCE, CommandTest, SMALL_TUBE, bytes_of_files, final_time
 
 LONG_TUBE = SMALL_TUBE.replace("5 ms", "1000 s") + "output: {checkpoint_interval: 0.02 s}\n"
-PATIENCE = 60.0  # s
 NOBODY = 65534
 
 
@@ -41,10 +39,7 @@ class Disks(CommandTest):
 
     def start_long_run(self):
         process = self.start("run", "long.yaml", "--out", "out", "--threads", 1)
-        deadline = time.monotonic() + PATIENCE
-        while not (self.out / "checkpoint.h5.previous").exists():
-            self.assertLess(time.monotonic(), deadline, "no checkpoint comes")
-            time.sleep(0.002)
+        self.wait_until((self.out / "checkpoint.h5.previous").exists, "the second checkpoint")
         return process
 
     def assert_ends_with_word(self, process, *mentions):
