@@ -127,7 +127,8 @@ io::FlowSummary::Energy energy_of(const State& state, const Energies& e) {
 /// nothing. Likewise for the temperature, if the flow is judged by it.
 void take_error_bars_off(io::FlowSummary& s) {
   s.mean_axial_velocity.error = unknown;
-  if (s.judged_by == "granular_temperature") s.fluctuations.granular_temperature.error = unknown;
+  if (s.judged_by == io::JudgedBy::granular_temperature)
+    s.fluctuations.granular_temperature.error = unknown;
 }
 
 /// m/s, with which grains meet walls. A single grain has no fluctuations: that is its own velocity.
@@ -190,8 +191,9 @@ double steps_per_contact(const State& state) {
 }
 
 Judged judged_by(const State& state, double interval) {
-  if (state.gravity.y == 0.0) return {.series = "granular_temperature", .free_fall_gain = {}};
-  return {.series = "mean_vy", .free_fall_gain = state.gravity.y * interval};
+  if (state.gravity.y == 0.0)
+    return {.series = io::JudgedBy::granular_temperature, .free_fall_gain = {}};
+  return {.series = io::JudgedBy::mean_vy, .free_fall_gain = state.gravity.y * interval};
 }
 
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,
@@ -204,7 +206,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   io::FlowSummary s;
   s.time = state.time();
   s.transient_end = file.series("time")[first];
-  s.state = std::string(name(steady.verdict));
+  s.state = steady.verdict;
   s.judged_by = judged_by(state, interval).series;
   s.mean_axial_velocity = mean_of(file, "mean_vy", first);
   s.independent_samples = steady.independent_samples;

@@ -27,7 +27,7 @@ struct FlowRecords {
 /// The series by which a flow is judged steady: its mean axial velocity or, if gravity does not
 /// drive it along the walls, its granular temperature.
 struct Judged {
-  const char* series;
+  io::JudgedBy series;
   std::optional<double> free_fall_gain;  ///< m/s per row, of free fall; see assess_steady_state()
 };
 Judged judged_by(const State& state, double interval);

@@ -163,7 +163,7 @@ private:
     const bool asked = schedule_.relative_error && schedule_.is_row(state.step);
     if (!asked || !is_time_to_look(static_cast<std::size_t>(files_.rows()))) return false;
     const Judged judged = judged_by(state, interval());
-    return is_precise(files_.record().series(judged.series), *schedule_.relative_error,
+    return is_precise(files_.record().series(name(judged.series)), *schedule_.relative_error,
                       judged.free_fall_gain);
   }
 
@@ -180,7 +180,7 @@ private:
 
   SteadyState assess() const {
     const Judged judged = judged_by(simulation_.state(), interval());
-    return assess_steady_state(files_.record().series(judged.series), judged.free_fall_gain);
+    return assess_steady_state(files_.record().series(name(judged.series)), judged.free_fall_gain);
   }
 
   /// s, between two rows.
@@ -190,9 +190,9 @@ private:
 
   bool is_interrupted() const { return interrupting_signal() != 0 || time_limit_.is_reached(); }
 
-  std::string ended_by() const {
-    if (!schedule_.relative_error) return "duration";
-    return is_precise_enough() ? "precision" : "at_most";
+  io::EndedBy ended_by() const {
+    if (!schedule_.relative_error) return io::EndedBy::duration;
+    return is_precise_enough() ? io::EndedBy::precision : io::EndedBy::at_most;
   }
 
   /// Steps to the next row, frame or look, or part of the way there, so that signals and the clock
