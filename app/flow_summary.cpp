@@ -140,7 +140,8 @@ io::FlowSummary::Energy energy_of(const State& state, const Energies& e) {
 /// nothing. Likewise for the temperature, if the flow is judged by it.
 void take_error_bars_off(io::FlowSummary& s) {
   s.mean_axial_velocity.error = unknown;
-  if (s.judged_by == "granular_temperature") s.fluctuations.granular_temperature.error = unknown;
+  if (s.judged_by == io::JudgedBy::granular_temperature)
+    s.fluctuations.granular_temperature.error = unknown;
 }
 
 /// m/s, with which grains meet walls. A single grain has no fluctuations: that is its own velocity.
@@ -203,7 +204,7 @@ double steps_per_contact(const State& state) {
 }
 
 Judged judged_by(const State& state, double interval) {
-  constexpr auto velocity = "mean_vy", temperature = "granular_temperature";
+  constexpr auto velocity = io::JudgedBy::mean_vy, temperature = io::JudgedBy::granular_temperature;
   if (state.gravity.y == 0.0)
     return {.series = temperature, .other = velocity, .free_fall_gain = {}};
   return {.series = velocity, .other = temperature, .free_fall_gain = state.gravity.y * interval};
@@ -218,8 +219,10 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   io::FlowSummary s;
   s.time = state.time();
   s.transient_end = file.series("time")[first];
-  s.state = std::string(name(steady.verdict));
-  s.judged_by = judged_by(state, interval).series;
+  s.state = steady.verdict;
+  const Judged judged = judged_by(state, interval);
+  s.judged_by = judged.series;
+  if (steady.is_held_back) s.held_back_by = judged.other;
   s.mean_axial_velocity = mean_of(file, "mean_vy", first);
   s.independent_samples = steady.independent_samples;
   s.fluctuations = fluctuations_of(file, first);

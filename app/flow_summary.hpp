@@ -27,8 +27,7 @@ struct FlowRecords {
 /// The names of the series by which a flow is judged steady (FlowSeries): its mean axial velocity
 /// and its granular temperature, the latter first if gravity does not drive it along the walls.
 struct Judged {
-  const char* series;
-  const char* other;
+  io::JudgedBy series, other;
   std::optional<double> free_fall_gain;  ///< m/s per row, of free fall; see assess_steady_state()
 };
 Judged judged_by(const State& state, double interval);

@@ -23,38 +23,52 @@ std::string call_of(std::string_view subcommand) {
 }
 
 std::string explanation_of_state(const io::FlowSummary& s) {
-  const bool by_temperature = s.judged_by == "granular_temperature";
-  const char* of_what = by_temperature ? " of the granular temperature" : "";
-  if (s.state == "steady") return fmt::format("no trend{} after the transient", of_what);
-  if (s.state == "accelerating")
+  const bool by_temperature =
+      s.held_back_by.value_or(s.judged_by) == io::JudgedBy::granular_temperature;
+  const char* of_what = by_temperature   ? " of the granular temperature"
+                        : s.held_back_by ? " of the mean velocity"
+                                         : "";
+  if (s.state == SteadyVerdict::steady)
+    return fmt::format("no trend{} after the transient", of_what);
+  if (s.state == SteadyVerdict::accelerating)
     return by_temperature ? "the granular temperature still grows: its mean is not a steady one"
                           : "the grains still gain speed: the mean is not a steady velocity";
-  if (s.state == "drifting")
+  if (s.state == SteadyVerdict::drifting)
     return fmt::format("there is still a trend{}: the mean is not a steady one", of_what);
   if (s.independent_samples < min_independent_samples)
     return fmt::format("only {:.2g} of the {:.0f} independent samples{} needed for a steady mean",
                        s.independent_samples, min_independent_samples, of_what);
+  if (s.held_back_by)
+    return fmt::format("the transient{} takes most of the time: too much for a steady mean",
+                       of_what);
   return fmt::format("the transient takes {:.3g} of {:.3g} s, too much for a steady mean",
                      s.transient_end, s.time);
 }
 
 bool asks_for_more(const io::FlowSummary& s) {
-  return s.state == "too_short" || s.state == "drifting"
-         || (s.state == "steady" && s.ended_by == "at_most");
+  return s.state == SteadyVerdict::too_short || s.state == SteadyVerdict::drifting
+         || (s.state == SteadyVerdict::steady && s.ended_by == io::EndedBy::at_most);
 }
 
 double sufficient_duration(const io::FlowSummary& s) {
-  if (s.state != "too_short") return 2.0 * s.time;
+  if (s.state != SteadyVerdict::too_short) return 2.0 * s.time;
   const double after_transient = s.time - s.transient_end;
   const double wanted = 1.5 * min_independent_samples / std::max(s.independent_samples, 1.0);
   const double seconds = 3.0 * s.transient_end + std::max(wanted - 1.0, 0.0) * after_transient;
   return std::max(seconds, 1.5 * s.time);
 }
 
-std::string explanation_of_end(const std::string& ended_by) {
-  if (ended_by == "duration") return "its duration was over";
-  if (ended_by == "precision") return "the mean is known as well as was asked for";
-  return "the time was up before the mean reached the requested precision in two successive checks";
+std::string_view explanation_of_end(io::EndedBy ended_by) {
+  switch (ended_by) {
+  case io::EndedBy::duration:
+    return "its duration was over";
+  case io::EndedBy::precision:
+    return "the mean is known as well as was asked for";
+  case io::EndedBy::at_most:
+    return "the time was up before the mean reached the requested precision in two successive "
+           "checks";
+  }
+  return "";
 }
 
 namespace {

@@ -27,8 +27,8 @@ bool asks_for_more(const io::FlowSummary& summary);
 /// s, an estimate of the simulated time that a longer run needs.
 double sufficient_duration(const io::FlowSummary& summary);
 
-/// Why a run came to its end. `ended_by`: "duration", "precision" or "at_most".
-std::string explanation_of_end(const std::string& ended_by);
+/// Why a run came to its end.
+std::string_view explanation_of_end(io::EndedBy ended_by);
 
 /// "1.534 ± 0.050 m/s": the error with `error_digits` significant digits, and the value rounded to
 /// the same place. If the error is not known (NaN) or 0, the value has `digits` significant digits.

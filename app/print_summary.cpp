@@ -43,12 +43,13 @@ void print_visits(const io::FlowSummary::WallVisits& v) {
 
 /// Whether the mean is that of a steady flow, and how to go on if the run was too short.
 void print_state(const io::FlowSummary& s, const std::filesystem::path& directory) {
-  fmt::print("  {:<22}{}: {}\n", "state",
-             coloured(s.state, s.state == "steady" ? Colour::green : Colour::yellow),
-             explanation_of_state(s));
+  fmt::print(
+      "  {:<22}{}: {}\n", "state",
+      coloured(name(s.state), s.state == SteadyVerdict::steady ? Colour::green : Colour::yellow),
+      explanation_of_state(s));
   if (asks_for_more(s))
     fmt::print("  {:<22}{} --set {}='{:.2g} s'\n", "go on by", call_of("resume", directory),
-               s.ended_by == "duration" ? "run.duration" : "run.until.at_most",
+               s.ended_by == io::EndedBy::duration ? "run.duration" : "run.until.at_most",
                sufficient_duration(s));
 }
 
@@ -82,7 +83,8 @@ void print_summary(const io::FlowSummary& s, const std::filesystem::path& direct
   fmt::print("  {:<22}{} (after {:.3g} s)\n", "mean axial velocity",
              text_of(s.mean_axial_velocity, "m/s", 5), s.transient_end);
   print_state(s, directory);
-  if (s.ended_by != "duration") fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
+  if (s.ended_by != io::EndedBy::duration)
+    fmt::print("  {:<22}{}\n", "ended", explanation_of_end(s.ended_by));
   fmt::print("  {:<22}{}\n", "granular temperature",
              text_of(s.fluctuations.granular_temperature, "m^2/s^2"));
   print_balance(s.balance);

@@ -60,8 +60,9 @@ void print_verdicts(const io::Manifest& manifest, const std::filesystem::path& s
       const io::Summary any =
           io::read_summary(point_directory(sweep, point.name) / io::summary_name);
       if (const auto* flow = std::get_if<io::FlowSummary>(&any))
-        ++verdicts[fmt::format("{} and {}{}", flow->state, name(flow->validity.verdict.verdict),
-                               flow->ended_by == "at_most" ? " (ended at run.until.at_most)" : "")];
+        ++verdicts[fmt::format(
+            "{} and {}{}", name(flow->state), name(flow->validity.verdict.verdict),
+            flow->ended_by == io::EndedBy::at_most ? " (ended at run.until.at_most)" : "")];
     } catch (const io::FileError&) {
       ++verdicts["unreadable"];
     }

@@ -73,7 +73,7 @@ bool has_reached(const scenarios::RunLength& wanted, const fs::path& point,
                  const io::FlowSummary& summary) {
   const double step = summary.time / static_cast<double>(summary.run.steps);
   if (wanted.at_most < summary.time + 0.5 * step) return true;  // runs end with a whole step
-  if (!wanted.relative_error || summary.ended_by != "precision") return false;
+  if (!wanted.relative_error || summary.ended_by != io::EndedBy::precision) return false;
   const auto had = length_of(point);
   return had && had->relative_error && *had->relative_error <= *wanted.relative_error;
 }

@@ -43,8 +43,9 @@ void draw_line(const FlowLine& line, const io::Look& look, io::Plot& plot) {
 void draw_point(const FlowPoint& point, const io::Look& look, const std::string& up,
                 io::Plot& plot) {
   plot.svg().begin_link(up + point.directory, point.tip);
-  plot.measured(point.x, point.mean.value, point.mean.error, look, point.state == "steady");
-  if (point.state == "accelerating") plot.arrow_up(point.x, point.mean.value, look);
+  plot.measured(point.x, point.mean.value, point.mean.error, look,
+                point.state == SteadyVerdict::steady);
+  if (point.state == SteadyVerdict::accelerating) plot.arrow_up(point.x, point.mean.value, look);
   if (point.verdict == Validity::unphysical)
     plot.cross(point.x, point.mean.value, {.colour = ink::red});
   plot.svg().end_link();

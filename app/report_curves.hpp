@@ -2,6 +2,7 @@
 // results of impacts against their velocity, as in Figs. 3 to 5.
 #pragma once
 
+#include "engine/steady_state.hpp"
 #include "engine/validity.hpp"
 #include "io/plot.hpp"
 #include "io/summary.hpp"
@@ -28,9 +29,9 @@ const FlowQuantity& judged_quantity(bool by_temperature);
 
 /// The result of a run that is part of a curve.
 struct FlowPoint {
-  double x = 0.0;     ///< value of the setting
-  io::Measured mean;  ///< of the quantity
-  std::string state;  ///< of the flow: "steady", ...
+  double x = 0.0;         ///< value of the setting
+  io::Measured mean;      ///< of the quantity
+  SteadyVerdict state{};  ///< of the flow
   Validity verdict{};
   std::string directory;  ///< target of its link, relative to the page
   std::string tip;        ///< text shown when the mouse is over it

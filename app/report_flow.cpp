@@ -50,15 +50,15 @@ private:
     const auto& s = summary();
     page().paragraph(fmt::format(
         "{}, {:.6g} s in {}. The run ended ({}): {}.", so_many(s.run.grains, "grain"), s.time,
-        so_many(s.run.steps, "step"), s.ended_by, explanation_of_end(s.ended_by)));
-    const bool is_steady = s.state == "steady";
-    const bool by_temperature = s.judged_by == "granular_temperature";
+        so_many(s.run.steps, "step"), name(s.ended_by), explanation_of_end(s.ended_by)));
+    const bool is_steady = s.state == SteadyVerdict::steady;
+    const bool by_temperature = s.judged_by == io::JudgedBy::granular_temperature;
     page().paragraph(
         fmt::format(
             "{}. {}. State, by {} independent samples: {}: {}.{}",
             told(judged_quantity(by_temperature), fmt::format(" after {:.3g} s", s.transient_end)),
             told(judged_quantity(!by_temperature), ""), number(s.independent_samples, "{:.3g}"),
-            s.state, explanation_of_state(s),
+            name(s.state), explanation_of_state(s),
             is_steady ? "" : " The mean is not to be used as a property of the flow."),
         is_steady ? "good" : "doubtful");
     tell_validity();

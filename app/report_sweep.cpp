@@ -76,19 +76,20 @@ private:
   void tell_result() {
     std::map<std::string, int> statuses, states, verdicts;
     int ended_at_most = 0;
+    bool is_good = true;
     for (std::size_t i = 0; i < record_->results.size(); ++i) {
       ++statuses[manifest().points[i].status];
       const auto* summary = flow(i);
       if (summary == nullptr) continue;
-      ++states[summary->state];
-      if (summary->ended_by == "at_most") ++ended_at_most;
-      ++verdicts[std::string(name(summary->validity.verdict.verdict))];
+      const Validity validity = summary->validity.verdict.verdict;
+      ++states[std::string(name(summary->state))];
+      ++verdicts[std::string(name(validity))];
+      if (summary->state != SteadyVerdict::steady || validity != Validity::valid) is_good = false;
+      if (summary->ended_by == io::EndedBy::at_most) ++ended_at_most;
     }
     page().paragraph(
         fmt::format("{}: {}.", so_many(std::ssize(manifest().points), "point"), counted(statuses)));
     if (states.empty()) return;
-    const bool is_good = states.size() == 1 && states.contains("steady") && verdicts.size() == 1
-                         && verdicts.contains("valid");
     page().paragraph(fmt::format("State of the flows: {}. Validity: {}.{}", counted(states),
                                  counted(verdicts),
                                  is_good ? ""
@@ -113,7 +114,8 @@ private:
     bool any = false;
     for (std::size_t i = 0; i < record_->results.size(); ++i) {
       const auto* summary = flow(i);
-      if (summary != nullptr && summary->judged_by != "granular_temperature") return false;
+      if (summary != nullptr && summary->judged_by != io::JudgedBy::granular_temperature)
+        return false;
       any = any || summary != nullptr;
     }
     return any;
@@ -210,7 +212,7 @@ private:
   void add_flow(const io::FlowSummary& s, std::vector<io::HtmlCell>& row) const {
     const io::Measured& carried = s.balance.n_dot_dv_y;
     row.emplace_back(with_error(quantity_->of(s), ""));
-    row.emplace_back(s.state);
+    row.emplace_back(std::string(name(s.state)));
     row.emplace_back(std::string(name(s.validity.verdict.verdict)));
     row.emplace_back(number(s.validity.verdict.value_of("brake_failure_fraction"), "{:.2g}"));
     // If gravity does not pull along the walls, there is nothing to compare with.

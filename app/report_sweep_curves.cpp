@@ -102,9 +102,9 @@ FlowPoint flow_point(const SweepRecord& record, std::size_t index, std::size_t a
           .state = flow.state,
           .verdict = verdict,
           .directory = result.directory + "/" + (result.has_report ? report_name : ""),
-          .tip =
-              fmt::format("{}: {}, {}, {}", description_of(record.manifest, point),
-                          with_error(quantity.of(flow), quantity.unit), flow.state, name(verdict))};
+          .tip = fmt::format("{}: {}, {}, {}", description_of(record.manifest, point),
+                             with_error(quantity.of(flow), quantity.unit), name(flow.state),
+                             name(verdict))};
 }
 
 /// What distinguishes the lines of a curve: leg and seed.

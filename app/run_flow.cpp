@@ -161,8 +161,8 @@ private:
   template <class By>
   auto judge(By by) const {
     const Judged names = judged_by(simulation_.state(), interval());
-    const std::vector<double> judged = files_.record().series(names.series),
-                              other = files_.record().series(names.other);
+    const std::vector<double> judged = files_.record().series(name(names.series)),
+                              other = files_.record().series(name(names.other));
     return by(FlowSeries{judged, names.free_fall_gain, other});
   }
 
@@ -195,9 +195,9 @@ private:
 
   bool is_interrupted() const { return interrupting_signal() != 0 || time_limit_.is_reached(); }
 
-  std::string ended_by() const {
-    if (!schedule_.relative_error) return "duration";
-    return is_precise_enough() ? "precision" : "at_most";
+  io::EndedBy ended_by() const {
+    if (!schedule_.relative_error) return io::EndedBy::duration;
+    return is_precise_enough() ? io::EndedBy::precision : io::EndedBy::at_most;
   }
 
   /// Steps to the next row, frame or look, or part of the way there, so that signals and the clock

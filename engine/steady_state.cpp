@@ -95,4 +95,11 @@ std::string_view name(SteadyVerdict verdict) {
   return "unknown";
 }
 
+std::optional<SteadyVerdict> steady_verdict_named(std::string_view text) {
+  for (const auto verdict : {SteadyVerdict::steady, SteadyVerdict::accelerating,
+                             SteadyVerdict::drifting, SteadyVerdict::too_short})
+    if (name(verdict) == text) return verdict;
+  return std::nullopt;
+}
+
 }  // namespace riesel

@@ -73,4 +73,7 @@ SteadyState assess_flow(const FlowSeries& flow);
 /// The verdict as it is written to files: "steady", "accelerating", "drifting", "too_short".
 std::string_view name(SteadyVerdict verdict);
 
+/// The inverse of name(SteadyVerdict); nothing for any other text.
+std::optional<SteadyVerdict> steady_verdict_named(std::string_view text);
+
 }  // namespace riesel

@@ -185,9 +185,9 @@ public:
     if (!buffers_.empty() && buffers_.front().size() == buffered_rows) empty_buffers();
   }
 
-  std::vector<double> series(const std::string& name) {
+  std::vector<double> series(std::string_view name) {
     empty_buffers();
-    return values_of(root().group("series").data(name));
+    return values_of(root().group("series").data(std::string(name)));
   }
 
   void flush() {
@@ -259,9 +259,7 @@ void RunFile::append(std::span<const double> row) { contents_->append(row); }
 
 std::int64_t RunFile::rows() const { return contents_->rows(); }
 
-std::vector<double> RunFile::series(const std::string& name) const {
-  return contents_->series(name);
-}
+std::vector<double> RunFile::series(std::string_view name) const { return contents_->series(name); }
 
 void RunFile::write_final_state(const State& state) {
   auto group = replace_group(contents_->root(), "final");

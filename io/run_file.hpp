@@ -20,6 +20,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace riesel::io {
@@ -65,7 +66,7 @@ public:
   std::int64_t rows() const;
 
   /// All rows of the column `name` so far, flushed or not.
-  std::vector<double> series(const std::string& name) const;
+  std::vector<double> series(std::string_view name) const;
 
   /// Replaces the final state in /final: grains and contacts in SI units, grains in the order of
   /// their ids, walls.

@@ -104,12 +104,47 @@ Json validity(const FlowSummary& s) {
 
 }  // namespace
 
+std::string_view name(EndedBy ended_by) {
+  switch (ended_by) {
+  case EndedBy::duration:
+    return "duration";
+  case EndedBy::precision:
+    return "precision";
+  case EndedBy::at_most:
+    return "at_most";
+  }
+  return "unknown";
+}
+
+std::string_view name(JudgedBy judged_by) {
+  switch (judged_by) {
+  case JudgedBy::mean_vy:
+    return "mean_vy";
+  case JudgedBy::granular_temperature:
+    return "granular_temperature";
+  }
+  return "unknown";
+}
+
+std::optional<EndedBy> ended_by_named(std::string_view text) {
+  for (const auto ended_by : {EndedBy::duration, EndedBy::precision, EndedBy::at_most})
+    if (name(ended_by) == text) return ended_by;
+  return std::nullopt;
+}
+
+std::optional<JudgedBy> judged_by_named(std::string_view text) {
+  for (const auto judged_by : {JudgedBy::mean_vy, JudgedBy::granular_temperature})
+    if (name(judged_by) == text) return judged_by;
+  return std::nullopt;
+}
+
 std::string to_json(const FlowSummary& s) {
   Json json = common_part(s.run);
   json["time"] = s.time;
-  json["ended_by"] = s.ended_by;
-  json["state"] = s.state;
-  json["judged_by"] = s.judged_by;
+  json["ended_by"] = name(s.ended_by);
+  json["state"] = name(s.state);
+  json["judged_by"] = name(s.judged_by);
+  json["held_back_by"] = s.held_back_by ? Json(name(*s.held_back_by)) : Json();
   json["mean_axial_velocity"] = measured(s.mean_axial_velocity);
   json["transient_end"] = s.transient_end;
   json["independent_samples"] = s.independent_samples;

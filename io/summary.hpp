@@ -7,6 +7,7 @@
 #include "engine/estimate.hpp"
 #include "engine/observables.hpp"
 #include "engine/rigid_column.hpp"
+#include "engine/steady_state.hpp"
 #include "engine/validity.hpp"
 #include "engine/wall_visits.hpp"
 
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace riesel::io {
@@ -37,19 +39,36 @@ struct RunSummary {
 /// A mean with its error. NaN is null in the file.
 using Measured = Estimate;
 
+/// Why a run ended.
+enum class EndedBy {
+  duration,   ///< its duration was over
+  precision,  ///< its mean has the precision that was asked for
+  at_most     ///< it has not, but the time was up
+};
+
+/// The series by which a flow is judged steady.
+enum class JudgedBy { mean_vy, granular_temperature };
+
+/// The word that stands in the file, for JudgedBy also the name of the series.
+std::string_view name(EndedBy ended_by);
+std::string_view name(JudgedBy judged_by);
+
+/// The inverse of name(); nothing for any other text.
+std::optional<EndedBy> ended_by_named(std::string_view text);
+std::optional<JudgedBy> judged_by_named(std::string_view text);
+
 /// Means are over the samples after the transient.
 struct FlowSummary {
   RunSummary run;
   double time = 0.0;           ///< s, simulated
   double transient_end = 0.0;  ///< s
-  /// Why the run ended: `duration`, `precision` (its mean has the precision that was asked for) or
-  /// `at_most` (it has not, but the time was up).
-  std::string ended_by = "duration";
-  std::string state;                  ///< steady, accelerating, drifting or too_short
-  std::string judged_by = "mean_vy";  ///< the series that `state` was judged by
-  Measured mean_axial_velocity;       ///< m/s; while a flow accelerates its error is unknown
-  double independent_samples = 0.0;
-  double granular_temperature = 0.0;  ///< (m/s)^2
+  EndedBy ended_by = EndedBy::duration;
+  SteadyVerdict state = SteadyVerdict::too_short;
+  JudgedBy judged_by = JudgedBy::mean_vy;
+  std::optional<JudgedBy> held_back_by;  ///< the other series, if it alone is not steady
+  Measured mean_axial_velocity;          ///< m/s; while a flow accelerates its error is unknown
+  double independent_samples = 0.0;      ///< of the series that holds back, else of the judged one
+  double granular_temperature = 0.0;     ///< (m/s)^2
 
   /// The scatter of the grains' velocities over the whole tube at one moment.
   struct Fluctuations {

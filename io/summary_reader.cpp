@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace riesel::io {
 namespace {
@@ -102,11 +104,15 @@ FlowSummary::Zone read_zone(const Json& json) {
           .stress_yy = measured(json.at("stress_yy"))};
 }
 
-Validity validity(const Json& json) {
+/// What `named` finds for the text. Throws std::runtime_error if there is no such `what`.
+template <class Word>
+Word word(const Json& json, std::optional<Word> (*named)(std::string_view), const char* what) {
   const auto text = json.get<std::string>();
-  if (const auto found = validity_named(text)) return *found;
-  throw std::runtime_error("there is no verdict " + text);
+  if (const auto found = named(text)) return *found;
+  throw std::runtime_error(fmt::format("there is no {} {}", what, text));
 }
+
+Validity validity(const Json& json) { return word(json, validity_named, "verdict"); }
 
 /// Its value, thresholds and verdict come from the file, its wording from this program.
 Finding read_finding(const Json& json) {
@@ -168,14 +174,22 @@ ColumnSummary read_column(const Json& json) {
   return summary;
 }
 
+/// Flows of riesel 0.10 and before were judged by one series alone.
+std::optional<JudgedBy> read_held_back_by(const Json& json) {
+  const Json series = json.value("held_back_by", Json());
+  if (series.is_null()) return std::nullopt;
+  return word(series, judged_by_named, "held_back_by");
+}
+
 FlowSummary read_flow(const Json& json) {
   const auto& validity = json.at("validity");
   return {.run = read_run(json),
           .time = number(json, "time"),
           .transient_end = number(json, "transient_end"),
-          .ended_by = json.at("ended_by"),
-          .state = json.at("state"),
-          .judged_by = json.at("judged_by"),
+          .ended_by = word(json.at("ended_by"), ended_by_named, "ended_by"),
+          .state = word(json.at("state"), steady_verdict_named, "state"),
+          .judged_by = word(json.at("judged_by"), judged_by_named, "judged_by"),
+          .held_back_by = read_held_back_by(json),
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
           .independent_samples = number(json, "independent_samples"),
           .granular_temperature = number(json, "granular_temperature"),

@@ -61,6 +61,10 @@ TEST_CASE("verdicts are written by name", "[steady_state]") {
   CHECK(riesel::name(SteadyVerdict::accelerating) == "accelerating");
   CHECK(riesel::name(SteadyVerdict::drifting) == "drifting");
   CHECK(riesel::name(SteadyVerdict::too_short) == "too_short");
+  for (const auto verdict : {SteadyVerdict::steady, SteadyVerdict::accelerating,
+                             SteadyVerdict::drifting, SteadyVerdict::too_short})
+    CHECK(riesel::steady_verdict_named(riesel::name(verdict)) == verdict);
+  CHECK_FALSE(riesel::steady_verdict_named("valid"));
 }
 
 TEST_CASE("a constant velocity is steady without error", "[steady_state]") {

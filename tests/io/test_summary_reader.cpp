@@ -30,8 +30,10 @@ FlowSummary special_summary() {
            .threads = 3};
   s.time = 0.1;
   s.transient_end = 0.02;
-  s.state = "drifting";
-  s.ended_by = "at_most";
+  s.state = SteadyVerdict::drifting;
+  s.ended_by = EndedBy::at_most;
+  s.judged_by = JudgedBy::granular_temperature;
+  s.held_back_by = JudgedBy::mean_vy;
   s.mean_axial_velocity = {.value = 10.0 / 7.0, .error = std::nan("")};
   s.independent_samples = 11.5;
   s.granular_temperature = 1e-300;
@@ -116,11 +118,35 @@ TEST_CASE("A summary that does not fit is refused with a reason") {
        {std::string("[]"), with(text, "\"gravity_work\"", "\"work\""),
         with(text, "\"grains\": 1403", "\"grains\": \"many\""),
         with(text, "\"verdict\": \"unphysical\"", "\"verdict\": \"good\""),
+        with(text, "\"state\": \"drifting\"", "\"state\": 3"),
         with(text, "\"name\": \"max_overlap_ratio\"", "\"name\": \"overlap\"")}) {
     overwrite(path, damaged);
     INFO(damaged.substr(0, 200));
     CHECK(complaint(path).find("is damaged") != std::string::npos);
   }
+}
+
+TEST_CASE("A word that this program does not know is named") {
+  const ScratchDirectory directory;
+  const auto path = directory / summary_name;
+  const auto text = to_json(special_summary());
+  for (const auto& [word, told] : std::vector<std::pair<std::string, std::string>>{
+           {"\"state\": \"drifting\"", "there is no state odd"},
+           {"\"ended_by\": \"at_most\"", "there is no ended_by odd"},
+           {"\"judged_by\": \"granular_temperature\"", "there is no judged_by odd"},
+           {"\"verdict\": \"unphysical\"", "there is no verdict odd"}}) {
+    overwrite(path, with(text, word, word.substr(0, word.find(' ')) + " \"odd\""));
+    CHECK(complaint(path).find("is damaged (" + told + ")") != std::string::npos);
+  }
+}
+
+TEST_CASE("Ends of runs and series that judge them have one name each") {
+  for (const auto ended_by : {EndedBy::duration, EndedBy::precision, EndedBy::at_most})
+    CHECK(ended_by_named(name(ended_by)) == ended_by);
+  for (const auto judged_by : {JudgedBy::mean_vy, JudgedBy::granular_temperature})
+    CHECK(judged_by_named(name(judged_by)) == judged_by);
+  CHECK_FALSE(ended_by_named("mean_vy"));
+  CHECK_FALSE(judged_by_named("duration"));
 }
 
 TEST_CASE("A summary of another format is refused, and told which riesel wrote it") {
