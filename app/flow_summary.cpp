@@ -65,15 +65,16 @@ io::Measured scaled(const io::Measured& m, double factor) {
   return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
 }
 
-/// m/s, from row `first` on: the mean velocity, each grain weighed by its mass, but for a constant.
-/// Walls and gravity alone change it.
+/// m/s, from row `first` on: the mean axial velocity, each grain weighed by its mass. Walls and
+/// gravity alone change it.
 std::vector<double> velocities_by_mass(const io::RunFile& file, const State& state,
                                        std::size_t first) {
   const std::vector<double> time = file.series("time"), impulse = file.series("wall_impulse_y");
   const double mass = total_mass(state.grains);
   std::vector<double> velocities;
   for (std::size_t row = first; row < time.size(); ++row)
-    velocities.push_back(state.gravity.y * time[row] + impulse[row] / mass);
+    velocities.push_back((state.origin.momentum_y + impulse[row]) / mass
+                         + state.gravity.y * time[row]);
   return velocities;
 }
 
@@ -140,6 +141,7 @@ io::FlowSummary::Energy energy_of(const State& state, const Energies& e) {
 /// nothing. Likewise for the temperature, if the flow is judged by it.
 void take_error_bars_off(io::FlowSummary& s) {
   s.mean_axial_velocity.error = unknown;
+  s.mass_flow_rate.error = unknown;
   if (s.judged_by == io::JudgedBy::granular_temperature)
     s.fluctuations.granular_temperature.error = unknown;
 }
@@ -230,7 +232,10 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.structure_factor = structure_factors_of(file, first);
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(first));
-  s.balance = balance(series, state, velocities_by_mass(file, state, first), interval);
+  const std::vector<double> velocities = velocities_by_mass(file, state, first);
+  s.mass_flow_rate =
+      scaled(mean_with_error(velocities), total_mass(state.grains) / state.box.length);
+  s.balance = balance(series, state, velocities, interval);
   // Each contact counts for both of its grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));

@@ -146,6 +146,7 @@ std::string to_json(const FlowSummary& s) {
   json["judged_by"] = name(s.judged_by);
   json["held_back_by"] = s.held_back_by ? Json(name(*s.held_back_by)) : Json();
   json["mean_axial_velocity"] = measured(s.mean_axial_velocity);
+  json["mass_flow_rate"] = measured(s.mass_flow_rate);
   json["transient_end"] = s.transient_end;
   json["independent_samples"] = s.independent_samples;
   json["granular_temperature"] = s.granular_temperature;

@@ -67,8 +67,9 @@ struct FlowSummary {
   JudgedBy judged_by = JudgedBy::mean_vy;
   std::optional<JudgedBy> held_back_by;  ///< the other series, if it alone is not steady
   Measured mean_axial_velocity;          ///< m/s; while a flow accelerates its error is unknown
-  double independent_samples = 0.0;      ///< of the series that holds back, else of the judged one
-  double granular_temperature = 0.0;     ///< (m/s)^2
+  Measured mass_flow_rate{unknown, unknown};  ///< kg/s, through a section of the tube; likewise
+  double independent_samples = 0.0;   ///< of the series that holds back, else of the judged one
+  double granular_temperature = 0.0;  ///< (m/s)^2
 
   /// The scatter of the grains' velocities over the whole tube at one moment.
   struct Fluctuations {

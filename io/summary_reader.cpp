@@ -174,6 +174,12 @@ ColumnSummary read_column(const Json& json) {
   return summary;
 }
 
+/// Not known of flows of riesel 0.10 and before.
+Measured read_mass_flow_rate(const Json& json) {
+  return json.contains("mass_flow_rate") ? measured(json.at("mass_flow_rate"))
+                                         : Measured{unknown, unknown};
+}
+
 /// Flows of riesel 0.10 and before were judged by one series alone.
 std::optional<JudgedBy> read_held_back_by(const Json& json) {
   const Json series = json.value("held_back_by", Json());
@@ -191,6 +197,7 @@ FlowSummary read_flow(const Json& json) {
           .judged_by = word(json.at("judged_by"), judged_by_named, "judged_by"),
           .held_back_by = read_held_back_by(json),
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
+          .mass_flow_rate = read_mass_flow_rate(json),
           .independent_samples = number(json, "independent_samples"),
           .granular_temperature = number(json, "granular_temperature"),
           .fluctuations = read_fluctuations(json.at("fluctuations")),

@@ -22,6 +22,7 @@ constexpr auto of_values = std::to_array<Unit>({
     {"wall_seconds", "s"},
     {"t_col", "s"},
     {"particle_steps_per_second", "1/s"},
+    {"mass_flow_rate", "kg/s"},
     {"n_dot", "1/s"},
     {"grain_contact_rate", "1/s"},
     {"mean_axial_velocity", "m/s"},

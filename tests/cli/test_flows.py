@@ -1,11 +1,13 @@
 """Flows beside the tube, through the command: smooth walls, slopes, walls that move."""
 
 import json
+import math
 import re
 import xml.etree.ElementTree
 
 import h5py
 import numpy as np
+import riesel
 
 from report_files import SVG
 from riesel_command import BAD_INPUT, CommandTest, with_error
@@ -78,6 +80,28 @@ class Flows(CommandTest):
         page = (self.home / "upwards/report.html").read_text(encoding="utf-8")
         self.assertIn("of what was turned over", page)
         self.assertIn(f"{100.0 * part:.3g} %", page)
+
+    def test_the_flow_of_mass_weighs_grains(self):
+        self.write("two.csv", "x (mm),y (mm),vx (m/s),vy (m/s),diameter (mm),mass (mg)\n"
+                              "2, 2, 0, 1, 1, 1\n6, 2, 0, 2, 1, 9\n")
+        self.write("two.yaml", SMOOTH.replace(", tilt: 30 degrees", "")
+                   + "gravity: 0\nstart: {kind: file, from: two.csv}\n")
+        summary = self.summary(self.run_to_end("two.yaml", "two"))
+        self.assertAlmostEqual(summary["mean_axial_velocity"]["value"], 1.5, places=6)
+        momentum, length = 1e-6 * 1.0 + 9e-6 * 2.0, 0.01
+        self.assertAlmostEqual(summary["mass_flow_rate"]["value"] / (momentum / length), 1.0, places=6)
+
+    def test_the_balance_is_as_sure_as_the_momentum(self):
+        out = self.run_of("chute", CHUTE)
+        run = riesel.Run(out)
+        after = run.series["time"] >= run.summary["transient_end"] * (1 - 1e-9)
+        time, impulse = run.series["time"][after], run.series["wall_impulse_y"][after]
+        velocity = run.summary["balance.gravity"] * time + impulse / np.sum(run.final.grains["mass"])
+        # The error of the mean is added to the scatter.
+        least = math.sqrt(2.0) * np.std(velocity, ddof=1) / (time[-1] - time[0])
+        error = run.summary["balance.errors.n_dot_dv_y"]
+        self.assertGreater(error, least)
+        self.assertLess(error, 2.0 * least)
 
     def test_a_chute_has_one_wall(self):
         self.write("chute.yaml", CHUTE)

@@ -8,7 +8,7 @@ from riesel_command import FAILED, SHIPPED, SMALL_TUBE, CommandTest, data_of
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
                  "wall_visits", "validity", "fluctuations", "structure_factor", "profiles",
-                 "braking_force", "grain_contact_rate"}
+                 "braking_force", "grain_contact_rate", "mass_flow_rate", "held_back_by"}
 NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
                 "mean_axial_velocity": {"value", "error"},
                 "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},

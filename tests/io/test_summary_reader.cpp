@@ -34,6 +34,7 @@ FlowSummary special_summary() {
   s.ended_by = EndedBy::at_most;
   s.judged_by = JudgedBy::granular_temperature;
   s.held_back_by = JudgedBy::mean_vy;
+  s.mass_flow_rate = {0.0123, 0.0004};
   s.mean_axial_velocity = {.value = 10.0 / 7.0, .error = std::nan("")};
   s.independent_samples = 11.5;
   s.granular_temperature = 1e-300;
