@@ -1,6 +1,7 @@
 #include "app/flow_summary.hpp"
 
 #include "app/cumulative.hpp"
+#include "app/steadiness.hpp"
 #include "engine/time_series.hpp"
 #include "engine/typical_contacts.hpp"
 
@@ -203,13 +204,6 @@ double steps_per_contact(const State& state) {
     if (static_cast<double>(kind->durations.total()) >= enough_contacts)
       fewest = std::min(fewest, kind->durations.quantile(0.05) / state.time_step);
   return std::isfinite(fewest) ? fewest : unknown;
-}
-
-Judged judged_by(const State& state, double interval) {
-  constexpr auto velocity = io::JudgedBy::mean_vy, temperature = io::JudgedBy::granular_temperature;
-  if (state.gravity.y == 0.0)
-    return {.series = temperature, .other = velocity, .free_fall_gain = {}};
-  return {.series = velocity, .other = temperature, .free_fall_gain = state.gravity.y * interval};
 }
 
 io::FlowSummary summarise(const FlowRecords& records, const State& state, const ContactModel& model,

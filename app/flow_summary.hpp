@@ -24,14 +24,6 @@ struct FlowRecords {
   const std::vector<std::string>& warnings;  ///< given because limits were exceeded
 };
 
-/// The names of the series by which a flow is judged steady (FlowSeries): its mean axial velocity
-/// and its granular temperature, the latter first if gravity does not drive it along the walls.
-struct Judged {
-  io::JudgedBy series, other;
-  std::optional<double> free_fall_gain;  ///< m/s per row, of free fall; see assess_steady_state()
-};
-Judged judged_by(const State& state, double interval);
-
 /// The 5 % quantile of the durations of contacts since the start, in time steps: of those between
 /// grains or with walls, whichever is less. NaN while there are too few contacts.
 double steps_per_contact(const State& state);

@@ -16,13 +16,12 @@
 #include "app/run_files.hpp"
 #include "app/schedule.hpp"
 #include "app/series.hpp"
+#include "app/steadiness.hpp"
 #include "app/stepping.hpp"
 #include "app/terminal.hpp"
 #include "app/time_limit.hpp"
 #include "engine/hash.hpp"
 #include "engine/simulation.hpp"
-#include "engine/steady_state.hpp"
-#include "engine/stopping_rule.hpp"
 #include "engine/time_blocks.hpp"
 #include "io/file_error.hpp"
 #include "io/provenance.hpp"
@@ -157,36 +156,24 @@ private:
     return simulation_.state().step >= schedule_.last_step || is_precise_enough();
   }
 
-  /// Calls `by` with the series of the flow so far.
-  template <class By>
-  auto judge(By by) const {
-    const Judged names = judged_by(simulation_.state(), interval());
-    const std::vector<double> judged = files_.record().series(name(names.series)),
-                              other = files_.record().series(name(names.other));
-    return by(FlowSeries{judged, names.free_fall_gain, other});
-  }
-
   /// Judged with each new row. A run that is resumed is judged at once, as it may be at its end.
   bool is_precise_enough() const {
-    const State& state = simulation_.state();
-    const bool asked = schedule_.relative_error && schedule_.is_row(state.step);
-    if (!asked || !is_time_to_look(static_cast<std::size_t>(files_.rows()))) return false;
-    return judge(
-        [&](const FlowSeries& flow) { return is_precise(flow, *schedule_.relative_error); });
+    return schedule_.is_row(simulation_.state().step) && steadiness().is_precise_enough();
+  }
+
+  Steadiness steadiness() const {
+    return {files_.record(), judged_by(simulation_.state(), interval()), schedule_.relative_error};
   }
 
   /// Notes the error bar so far, for the line of progress.
   void note_precision() {
-    if (!schedule_.relative_error || !is_time_to_look(static_cast<std::size_t>(files_.rows())))
-      return;
-    const SteadyState so_far = assess();
+    if (!steadiness().is_looked_at()) return;
+    const SteadyState so_far = steadiness().state();
     precision_so_far_ =
         fmt::format("  error {:.2g} % of {:.2g} %", 100.0 * so_far.error / std::abs(so_far.mean),
                     100.0 * *schedule_.relative_error);
     tell_more("t = {:.6g} s:{}", simulation_.state().time(), precision_so_far_);
   }
-
-  SteadyState assess() const { return judge(assess_flow); }
 
   /// s, between two rows.
   double interval() const {
@@ -325,7 +312,7 @@ private:
     files_.directory().require_in_place();
     const io::RunSummary run = run_summary();  // first: its time is to exclude the assessment below
     const State& state = simulation_.state();
-    const SteadyState steady = assess();
+    const SteadyState steady = steadiness().state();
     io::FlowSummary s = summarise({.file = files_.record(),
                                    .steady = steady,
                                    .strips = measurements_.strips(),

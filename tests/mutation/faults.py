@@ -399,7 +399,7 @@ FAULTS = [
      "if (u < 0.0 && a > 0.0) return (std::sqrt(root2) - u) / a;", "static_cast<void>(a);"),
     ("a core that reaches to the walls", "engine/tube_profiles.cpp",
      "const std::size_t left_out = (strips.count + 1) / 4;", "const std::size_t left_out = strips.count / 4;"),
-    ("flows without gravity along the walls judged by their mean velocity", "app/flow_summary.cpp",
+    ("flows without gravity along the walls judged by their mean velocity", "app/steadiness.cpp",
      '.series = temperature, .other = velocity, .free_fall_gain = {}',
      '.series = velocity, .other = temperature, .free_fall_gain = {}'),
     ("rows in step with walls that are shaken", "scenarios/walls.cpp", "if (!found) return;", "if (!found || found->phases) return;"),
