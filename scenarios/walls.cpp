@@ -193,38 +193,39 @@ void reject_fast_walls(const io::Settings& settings, const State& state) {
 
 namespace {
 
-/// The number of phases of an oscillation that rows see if they are this many periods apart.
-/// Nothing if the phases are more than a few, or drift enough during the run to cover others. As
-/// measured in a shaken bed, the mean temperature is off by a half with one phase, by a seventh
-/// with two, by a hundredth with four, and not measurably with more.
-std::optional<int> phases_seen(double periods_per_row, double rows) {
-  constexpr int most = 4;
-  constexpr double too_few_rows = 20.0;  // for a mean, whatever they see
-  constexpr double wandering = 2.0;      // drift in the whole run, in distances between phases
-  if (rows < too_few_rows) return {};
-  for (int phases = 1; phases <= most; ++phases) {
-    const double periods = phases * periods_per_row, whole = std::nearbyint(periods);
-    if (whole >= 1.0 && std::abs(periods - whole) * rows < wandering) return phases;
-  }
-  return {};
-}
-
 /// What walls do again and again.
 struct Rhythm {
   double frequency;       ///< 1/s
+  int most_refused;       ///< so many of its phases are too few
   std::string_view name;  ///< for messages
 };
 
-/// Two corrugated walls that move past each other stand as before after each spacing; in narrow
-/// cells stresses and temperature follow that (measured: docs/physics.md).
+/// As measured (docs/physics.md), the mean temperature of a shaken bed is off by a half with one
+/// phase, by a seventh with two, by a hundredth with four, and not measurably with more. Two
+/// corrugated walls that move past each other stand as before after each spacing: in a narrow cell
+/// the temperature is off by a half with one phase, by an eighth with two, and hardly with three.
 std::vector<Rhythm> rhythms(const State& state) {
   const WallLattice &first = state.walls.front(), &last = state.walls.back();
   std::vector<Rhythm> rhythms;
-  if (first.motion.oscillates()) rhythms.push_back({first.motion.frequency, "an oscillation"});
+  if (first.motion.oscillates()) rhythms.push_back({first.motion.frequency, 4, "an oscillation"});
   const double passing = std::abs(last.motion.velocity - first.motion.velocity);
   if (passing > 0.0 && !first.smooth() && !last.smooth())
-    rhythms.push_back({passing / first.spacing(state.box), "the wall grains that pass each other"});
+    rhythms.push_back(
+        {passing / first.spacing(state.box), 2, "the wall grains that pass each other"});
   return rhythms;
+}
+
+/// The number of phases of a rhythm that rows see if they are this long (s) apart. Nothing if these
+/// are enough, or drift enough during the run to cover others.
+std::optional<int> phases_seen(const Rhythm& rhythm, double row, double rows) {
+  constexpr double too_few_rows = 20.0;  // for a mean, whatever they see
+  constexpr double wandering = 2.0;      // drift in the whole run, in distances between phases
+  if (rows < too_few_rows) return {};
+  for (int phases = 1; phases <= rhythm.most_refused; ++phases) {
+    const double periods = phases * rhythm.frequency * row, whole = std::nearbyint(periods);
+    if (whole >= 1.0 && std::abs(periods - whole) * rows < wandering) return phases;
+  }
+  return {};
 }
 
 /// A rhythm of the walls of which rows see only these phases.
@@ -239,8 +240,7 @@ std::optional<InStep> in_step(const State& state, const RunLength& length, doubl
   double rows = length.at_most / row;
   if (length.relative_error) rows = std::min(rows, double{fewest_samples_to_stop});
   for (const Rhythm& rhythm : rhythms(state))
-    if (const auto phases = phases_seen(rhythm.frequency * row, rows))
-      return InStep{rhythm, *phases};
+    if (const auto phases = phases_seen(rhythm, row, rows)) return InStep{rhythm, *phases};
   return {};
 }
 

@@ -200,6 +200,7 @@ TEST_CASE("rows in step with wall grains that pass each other are refused") {
   check_mentions(with({every + "1.4 ms"}), {"output.interval:", "only 1 phase of the wall grains"});
   check_mentions(with({every + "0.7 ms"}), {"only 2 phases"});
   CHECK(with({every + "1 ms"}) == "accepted");
+  CHECK(with({every + "0.35 ms"}) == "accepted");  // four phases
   CHECK(with({every + "1.4 ms", "wall=", "wall.surface=smooth"}) == "accepted");
   CHECK(with({every + "1.4 ms", "cell.velocity=0"}) == "accepted");
 }
