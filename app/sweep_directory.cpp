@@ -12,6 +12,7 @@
 #include "io/settings_table.hpp"
 #include "io/settings_text.hpp"
 #include "io/summary.hpp"
+#include "io/sweep_points.hpp"
 #include "io/trajectory_file.hpp"
 #include "io/whole_file.hpp"
 #include "scenarios/scenario.hpp"
@@ -46,7 +47,8 @@ std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
 
 /// "seed is 2 in its effective.yaml, not 1": a setting in which the run in the directory of the
 /// point is not what was planned; "" if there is none, or if its settings cannot be read. What a
-/// run that goes on may change does not count, nor do paths, which count by what they lead to.
+/// run that goes on may change does not count, nor do paths, which count by what they lead to, nor
+/// the start of a chain where it is not at its first point.
 std::string difference_from_plan(const io::ManifestPoint& point,
                                  const std::vector<io::VariedSetting>& varied,
                                  const fs::path& sweep) {
@@ -60,6 +62,7 @@ std::string difference_from_plan(const io::ManifestPoint& point,
       const std::string& key = varied[i].key;
       const auto row = std::ranges::find(table, key, &io::Setting::key);
       if (row == table.end() || row->names_content || may_change(key)) continue;
+      if (!point.parent.empty() && io::is_of_start(key)) continue;
       const io::Cell found = io::cell_of(settings, key);
       if (found != point.values[i])
         return fmt::format("{} is {} in its {}, not {}", key, text_of(found),

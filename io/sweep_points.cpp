@@ -57,8 +57,6 @@ std::string hash_content(const std::string& path) {
   }
 }
 
-bool is_of_start(const Setting& row) { return section_of(row.key) == start_section; }
-
 class Expansion {
 public:
   Expansion(const SweepFile& sweep, const SettingsTables& tables) : sweep_(sweep), tables_(tables) {
@@ -154,8 +152,8 @@ private:
     const auto parent = points_.size() - 1;
     const auto& parents_name = points_[parent].name;
     const auto identity =
-        identity_of(settings, [](const Setting& row) { return !is_of_start(row); });
-    auto yaml = settings.effective_yaml([](const Setting& row) { return !is_of_start(row); });
+        identity_of(settings, [](const Setting& row) { return !is_of_start(row.key); });
+    auto yaml = settings.effective_yaml([](const Setting& row) { return !is_of_start(row.key); });
     yaml += fmt::format("\n{}:\n  kind: continued\n  from: ../{}\n", start_section, parents_name);
     points_.push_back({.settings = std::move(settings),
                        .yaml = std::move(yaml),
@@ -187,6 +185,8 @@ private:
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables) {
   return Expansion(sweep, tables).points();
 }
+
+bool is_of_start(const std::string& key) { return section_of(key) == start_section; }
 
 std::vector<std::string> varied_keys(const SweepFile& sweep) {
   std::vector<std::string> keys;

@@ -36,6 +36,9 @@ constexpr std::size_t most_sweep_points = 10'000;
 /// no run can have, and for a continuation if the scenario has none.
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables);
 
+/// Whether the setting concerns only the first point of a chain: the others start from neighbours.
+bool is_of_start(const std::string& key);
+
 /// The keys whose values tell the points apart, in the order of the file; `seed` comes last.
 std::vector<std::string> varied_keys(const SweepFile& sweep);
 

@@ -366,6 +366,12 @@ class Chain(SweepTest):
         self.assert_refused(result, "start.from", "nowhere")
         self.assertEqual(bytes_of_files(self.home), before)
 
+    def test_the_start_may_differ_between_chains(self):
+        self.sweep_to_end(CHAIN + "branches: {slow: {start.axial_velocity: 1 m/s}, fast: {start.axial_velocity: 3 m/s}}\n"
+                                  "seeds: 2\n")
+        self.assertEqual(len(set(self.hashes().values())), 20)
+        self.assertEqual([row["status"] for row in self.rows()], ["done"] * 20)
+
 
 class Failures(SweepTest):
 
