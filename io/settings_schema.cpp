@@ -243,6 +243,7 @@ std::string sweep_schema(const SettingsTables& tables) {
         {"branches",
          {{"type", "object"},
           {"minProperties", 1},
+          {"propertyNames", {{"minLength", 1}}},
           {"additionalProperties", set},
           {"description", "Named sets of overrides."}}},
         {"continue_along",

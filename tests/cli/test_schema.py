@@ -138,7 +138,8 @@ class Schema(CommandTest):
         right = {"base": "tube.yaml", "axes": {"contact.friction": [0.1, 0.3]}, "seeds": 3}
         self.assertTrue(self.of_sweeps.is_valid(right))
         for change in ({"axis": {}}, {"axes": {"contact.fiction": [1]}}, {"axes": {"contact.friction": 1}},
-                       {"seeds": 0}, {"seeds": 10_001}, {"set": {"tube.width": "1 kg"}}, {"base": None}):
+                       {"seeds": 0}, {"seeds": 10_001}, {"set": {"tube.width": "1 kg"}}, {"base": None},
+                       {"branches": {"": {}}}):
             with self.subTest(change):
                 self.assertFalse(self.of_sweeps.is_valid({**right, **change}))
 

@@ -595,6 +595,7 @@ class Mistakes(SweepTest):
         "base: tube.yaml\nseeds: []": [":2:8: seeds: the list is empty"],
         "base: tube.yaml\nseeds: [1, x]": [":2:12: seed: expected an integer"],
         "base: tube.yaml\nbranches: {slow: 1}": [":2:18: branches.slow: expected keys"],
+        'base: tube.yaml\nbranches: {"": {}}': [":2:12: branches: a branch has no name"],
         "base: tube.yaml\nbranches: {slow: {start.axial: 1}}": [
             ":2:19: start.axial: unknown key"],
         "base: tube.yaml\nset: {contact: 1}": [":2:7: contact: is a section"],
