@@ -36,16 +36,31 @@ bool holds(const fs::path& file, const std::string& content) {
   return io::beginning_of(file, content.size() + 1) == content;
 }
 
-/// Writes the directory and the settings of each point, the sweep file and the manifest.
-void write_plan(const SweepPlan& plan, const fs::path& sweep) {
+/// Writes the directory and the settings of a point.
+void write_point(const fs::path& point, const std::string& settings) {
+  io::make_directories(point);
+  const fs::path file = point / point_settings_name;
+  if (!holds(file, settings)) io::write_durably(file, settings);
+}
+
+/// Writes all points, the sweep file and the manifest. Returns whether that was possible for all
+/// points: one that was there before and cannot be written any more is told, and fails later.
+bool write_plan(const SweepPlan& plan, const fs::path& sweep) {
+  bool all_written = true;
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const fs::path point = point_directory(sweep, plan.manifest.points[i].name);
-    io::make_directories(point);
-    const fs::path file = point / point_settings_name;
-    if (!holds(file, plan.settings[i])) io::write_durably(file, plan.settings[i]);
+    const bool was_there = fs::exists(fs::symlink_status(point));
+    try {
+      write_point(point, plan.settings[i]);
+    } catch (const io::FileError& error) {
+      if (!was_there) throw;
+      tell("riesel: {}\n", error.what());
+      all_written = false;
+    }
   }
   io::write_durably(sweep / sweep_file_name, plan.sweep_file);
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
+  return all_written;
 }
 
 /// The points of the sweep that was here before; none if its manifest cannot be read, as that is
@@ -129,8 +144,9 @@ Records records_of_failed(const io::Manifest& manifest, const fs::path& sweep,
   Records records;
   for (const io::ManifestPoint& point : manifest.points) {
     const fs::path directory = point_directory(sweep, point.name);
-    if (prolongation.standing_of(directory).status == RunStatus::failed)
-      records.emplace(directory, io::read_run_record(directory));
+    const io::RunRecord record = io::read_run_record(directory);
+    if (!record.failure.empty() && prolongation.standing_of(directory).status == RunStatus::failed)
+      records.emplace(directory, record);
   }
   return records;
 }
@@ -222,13 +238,15 @@ int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryL
   return status;
 }
 
-/// The plan of a sweep that was begun, with its manifest only, as all files of it must be there.
-/// Throws UnusableInput if one is missing.
+/// The plan of a sweep that was begun, with its manifest only, as all files of it must be there,
+/// except those of points out of reach, which fail. Throws UnusableInput if one is missing.
 SweepPlan plan_in(const fs::path& sweep) {
   SweepPlan plan{.manifest = manifest_in(sweep), .settings = {}, .sweep_file = {}};
   std::vector<fs::path> files = {sweep / sweep_file_name};
-  for (const io::ManifestPoint& point : plan.manifest.points)
-    files.push_back(point_directory(sweep, point.name) / point_settings_name);
+  for (const io::ManifestPoint& point : plan.manifest.points) {
+    const fs::path directory = point_directory(sweep, point.name);
+    if (obstacle_at(directory).empty()) files.push_back(directory / point_settings_name);
+  }
   for (const fs::path& file : files) {
     if (fs::exists(file) && !fs::is_regular_file(file))
       throw UnusableInput(file.string() + ": is no regular file; remove it");
@@ -278,11 +296,10 @@ int sweep(const SweepOptions& options) {
   // Asked before anything is written.
   const std::size_t most_tasks = options.to_slurm ? required_most_tasks() : 0;
   const io::DirectoryLock locked = lock(directory);
-  if (!begun) {
-    heed_earlier_sweep(plan, directory);
-    write_plan(plan, directory);
-  }
+  if (!begun) heed_earlier_sweep(plan, directory);
+  const bool all_written = begun || write_plan(plan, directory);
   if (options.prepare_only) {
+    if (!all_written) return exit_failed;
     fmt::print("{}: {} points are ready for '{}'\n", directory.string(),
                plan.manifest.points.size(), call_of("sweep-task"));
     return exit_done;

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace riesel::app {
@@ -67,7 +68,8 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
     const io::ManifestPoint& point = manifest.points[row];
     // Whatever the status: a point that has failed to go on keeps its earlier result.
     const fs::path summary = point_directory(sweep, point.name) / io::summary_name;
-    if (!fs::exists(summary) || misplaced.contains(point.name)) continue;
+    std::error_code out_of_reach;
+    if (!fs::exists(summary, out_of_reach) || misplaced.contains(point.name)) continue;
     try {
       add_results(summary, row, columns_of_plan, table);
     } catch (const io::FileError& error) {  // go on with the other points

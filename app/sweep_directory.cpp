@@ -7,6 +7,7 @@
 #include "io/checkpoint.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
+#include "io/file_error.hpp"
 #include "io/run_file.hpp"
 #include "io/run_record.hpp"
 #include "io/settings_table.hpp"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <system_error>
 #include <vector>
 
 namespace riesel::app {
@@ -117,7 +119,15 @@ io::Manifest manifest_in(const fs::path& sweep) {
   return as_input([&] { return io::read_manifest(sweep); });
 }
 
+std::string obstacle_at(const fs::path& point) {
+  std::error_code error;
+  if (fs::status(point / point_settings_name, error).type() != fs::file_type::none) return "";
+  return io::system_failure(point, "cannot be reached", error.value()).what();
+}
+
 RunStanding standing_of(const fs::path& point) {
+  if (const std::string obstacle = obstacle_at(point); !obstacle.empty())
+    return {.status = RunStatus::failed, .attempts = 0, .reason = obstacle};
   const io::RunRecord record = io::read_run_record(point);
   const auto with = [&](RunStatus status, const std::string& reason = "") {
     return RunStanding{.status = status, .attempts = record.attempts, .reason = reason};

@@ -40,7 +40,11 @@ inline constexpr auto point_settings_name = "point.yaml";
 /// The manifest of the sweep in this directory. Throws UnusableInput if it cannot be read.
 io::Manifest manifest_in(const std::filesystem::path& sweep);
 
-/// How far the point in this directory has come.
+/// Why the files of a point cannot be reached, as for want of permission; "" if they can, or if
+/// there are none.
+std::string obstacle_at(const std::filesystem::path& point);
+
+/// How far the point in this directory has come. One that cannot be reached counts as failed.
 RunStanding standing_of(const std::filesystem::path& point);
 
 /// Brings status, attempts and reason of each point of the manifest up to date from the

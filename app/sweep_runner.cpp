@@ -25,6 +25,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -87,6 +89,13 @@ public:
     order_by_urgency();
   }
 
+  /// If this does not end by itself, all runs are to stop, and none is to wait for the others.
+  ~Runner() { send_to_all(SIGTERM); }
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+  Runner(Runner&&) = delete;
+  Runner& operator=(Runner&&) = delete;
+
   int run() {
     catch_interrupts();
     while (true) {
@@ -129,9 +138,11 @@ private:
     job.reason = standing.reason;
   }
 
-  /// A point that has a result, but no checkpoint to go on from, must not be started again.
+  /// Not if it is out of reach; and if it has a result, but no checkpoint to go on from, it must
+  /// not be started again.
   static bool can_begin(const Job& job) {
-    return can_resume(job.directory) || !fs::exists(job.directory / io::summary_name);
+    return obstacle_at(job.directory).empty()
+           && (can_resume(job.directory) || !fs::exists(job.directory / io::summary_name));
   }
 
   void order_by_urgency() {
@@ -178,7 +189,18 @@ private:
     return std::clamp(options_.cores / std::max(1, side_by_side), 1, job.most_threads);
   }
 
+  /// A point that cannot be started fails alone, but not for want of processes, which all need.
   void start(Job& job) {
+    try {
+      start_process(job);
+    } catch (const NoProcess&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      fail(job, error.what());
+    }
+  }
+
+  void start_process(Job& job) {
     const int threads = threads_for(job);
     look_at(job);
     const bool in_vain = job.status == RunStatus::failed && !options_.retry_failed;
@@ -200,7 +222,9 @@ private:
     for (const std::string& setting : options_.prolongation.overrides_for(job.directory))
       arguments.insert(arguments.end(), {"--set", setting});
     const auto log = job.directory / log_name;
-    job.log_begin = fs::exists(log) ? fs::file_size(log) : 0;
+    std::error_code no_log;
+    const std::uintmax_t log_size = fs::file_size(log, no_log);
+    job.log_begin = no_log ? 0 : log_size;
     job.process = std::make_unique<ChildProcess>(arguments, log);
     ++running_;
     job.started = Clock::now();
@@ -244,12 +268,15 @@ private:
   }
 
   void fail(Job& job, const std::string& reason) {
-    io::RunRecord record = io::read_run_record(job.directory);
-    record.failure = reason;
-    io::write_run_record(job.directory, record);
     job.status = RunStatus::failed;
     job.reason = reason;
     tell_of("point {} failed: {}", job, reason);
+    try {
+      io::RunRecord record = io::read_run_record(job.directory);
+      record.failure = reason;
+      io::write_run_record(job.directory, record);
+    } catch (const io::FileError&) {  // the next sweep has to try again
+    }
   }
 
   template <class... Parts>
@@ -273,6 +300,10 @@ private:
     const int signal = ending_signal();
     if (signal == 0 || passed_on_) return;
     passed_on_ = true;
+    send_to_all(signal);
+  }
+
+  void send_to_all(int signal) const {
     for (const auto& job : jobs_)
       if (job->process) job->process->send(signal);
   }

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -40,6 +41,15 @@ std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Ma
   return {point.name};
 }
 
+/// `manifest`: as run_points() has left it, which knows failures that could not be recorded.
+RunStanding standing_after(const std::string& name, const io::Manifest& manifest,
+                           const fs::path& sweep, const Prolongation& prolongation) {
+  const auto point = std::ranges::find(manifest.points, name, &io::ManifestPoint::name);
+  if (has_status(*point, RunStatus::failed))
+    return {.status = RunStatus::failed, .attempts = point->attempts, .reason = point->reason};
+  return prolongation.standing_of(point_directory(sweep, name));
+}
+
 }  // namespace
 
 int sweep_task(const SweepTaskOptions& options) {
@@ -54,7 +64,7 @@ int sweep_task(const SweepTaskOptions& options) {
                                  .max_walltime = options.max_walltime,
                                  .prolongation = prolongation});
   for (const std::string& name : names) {
-    const RunStanding standing = prolongation.standing_of(point_directory(options.directory, name));
+    const RunStanding standing = standing_after(name, manifest, options.directory, prolongation);
     fmt::print("point {}: {}{}{}\n", name, to_string(standing.status),
                standing.reason.empty() ? "" : ": ", standing.reason);
   }

@@ -476,6 +476,48 @@ class Failures(SweepTest):
         self.assertIn("to run the failed points again: '", told)
         self.assertNotIn("--set", told)
 
+    def prepare_three(self):
+        """Returns their directories."""
+        self.assert_done(self.sweep(CHAIN.replace("continue_along: contact.restitution\n", ""), "out", "--prepare"))
+        return [self.home / "out/points" / point["name"] for point in self.points()]
+
+    def assert_the_others_are_done(self, result, reason):
+        """Than the second of three."""
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assertEqual([row["status"] for row in self.rows()], ["done", "failed", "done"])
+        self.assertIn(reason, self.rows()[1]["reason"])
+        self.assertIn(reason, result.stderr + result.stdout)
+
+    def test_a_point_that_cannot_be_written_fails_alone(self):
+        for name, reason in (("log.txt", "log.txt: cannot be written: Is a directory"),
+                             ("attempts.json", "attempts.json: "), (".lock", "cannot be locked: Is a directory")):
+            with self.subTest(name):
+                shutil.rmtree(self.home / "out", ignore_errors=True)
+                obstacle = self.prepare_three()[1] / name
+                obstacle.mkdir()
+                self.assertIn(f"failed: {obstacle.parent}".replace(f"{self.home}/", ""),
+                              self.riesel("sweep-task", "out", 1).stdout)
+                for options in ([], ["--retry-failed"]):
+                    self.assert_the_others_are_done(self.riesel("sweep", "out", *options), reason)
+                obstacle.rmdir()
+                self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
+
+    def test_a_point_out_of_reach_fails_alone(self):
+        point = self.prepare_three()[1]
+        aside = point.with_name("aside")
+        point.rename(aside)
+        point.symlink_to(point.name)  # to itself: as without permission, but for root, too
+        for command in (["out"], ["out", "--retry-failed"], ["sweep.yaml", "--out", "out"]):
+            self.assert_the_others_are_done(self.riesel("sweep", *command), "cannot be reached")
+        for command in ("status", "report"):
+            self.assert_done(self.riesel(command, "out"))
+        self.assertIn("2 done, 1 failed", self.riesel("collect", "out").stdout)
+        self.assertEqual(self.sweep(CHAIN.replace("continue_along: contact.restitution\n", ""), "out",
+                                    "--prepare").returncode, FAILED)
+        point.unlink()
+        aside.rename(point)
+        self.assert_done(self.riesel("sweep", "out"))
+
     def test_status_tells_why(self):
         self.sweep(ONE_FAILS)
         result = self.riesel("status", "out")

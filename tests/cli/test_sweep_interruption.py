@@ -220,3 +220,18 @@ axes: {contact.restitution: [0.8]}
         task.communicate(timeout=PATIENCE)
         self.assertEqual(task.returncode, DONE)
         self.assertEqual({point["attempts"] for point in self.points()}, {1})
+
+    def test_a_sweep_that_ends_stops_all_its_runs_at_once(self):
+        """Also if one of them takes its time."""
+        process = self.start_sweep(ENDLESS)
+        names = [point["name"] for point in self.points()]
+        slow, other = sorted(children_of(process.pid), key=lambda child: next(
+            i for i, name in enumerate(names) if name in pathlib.Path(f"/proc/{child}/cmdline").read_text("ascii")))
+        os.kill(slow, signal.SIGSTOP)
+        try:
+            (self.home / "out/.lock").unlink()
+            self.wait_until(lambda: not is_alive(other), "the end of the other run")
+        finally:
+            os.kill(slow, signal.SIGCONT)
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, FAILED)
