@@ -75,8 +75,15 @@ std::vector<io::ManifestPoint> points_before(const fs::path& sweep) {
   }
 }
 
+/// Whether a run of the point is going on or has come to anything.
+bool has_begun(const io::ManifestPoint& point, const fs::path& sweep) {
+  if (!has_status(point, RunStatus::failed)) return !has_status(point, RunStatus::waiting);
+  const fs::path directory = point_directory(sweep, point.name);
+  return !obstacle_at(directory).empty() || has_checkpoint(directory);
+}
+
 /// Tells of points that were here and are not in this sweep: their runs stay, but no table lists
-/// them any more. Throws UnusableInput if that holds for all points and some are done.
+/// them any more. Throws UnusableInput if that holds for all points and some have begun.
 void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
   const std::vector<io::ManifestPoint> earlier = points_before(sweep);
   const auto is_gone = [&](const io::ManifestPoint& point) {
@@ -84,9 +91,9 @@ void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
            == plan.manifest.points.end();
   };
   const auto gone = std::ranges::count_if(earlier, is_gone);
-  const bool any_done = std::ranges::any_of(
-      earlier, [](const auto& point) { return has_status(point, RunStatus::done); });
-  if (gone > 0 && gone == std::ssize(earlier) && any_done)
+  const bool any_begun =
+      std::ranges::any_of(earlier, [&](const auto& point) { return has_begun(point, sweep); });
+  if (gone > 0 && gone == std::ssize(earlier) && any_begun)
     throw UnusableInput(sweep.string()
                         + ": holds another sweep that has no point in common with this one; choose "
                           "another directory with --out");

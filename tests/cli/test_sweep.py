@@ -596,6 +596,13 @@ class Tasks(SweepTest):
             del manifest["points"][0]["expected_seconds"]
             self.assertEqual(manifest["points"][0]["status"], "done")
 
+    def test_a_sweep_of_which_nothing_has_come_may_be_replaced(self):
+        self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
+        point = self.home / "out/points" / self.points()[0]["name"]
+        (point / "attempts.json").write_text(json.dumps({"attempts": 1, "failure": "bad luck"}), encoding="utf-8")
+        other = self.sweep(ONE_POINT.replace("2000", "3000"))
+        self.assertEqual((other.returncode, len(self.rows())), (0, 1), other)
+
     def test_the_directory_of_a_sweep_is_no_place_for_a_run(self):
         self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
         before = bytes_of_files(self.home / "out")

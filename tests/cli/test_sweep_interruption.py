@@ -235,3 +235,12 @@ axes: {contact.restitution: [0.8]}
             os.kill(slow, signal.SIGCONT)
         process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, FAILED)
+
+    def test_a_sweep_that_has_begun_is_not_put_aside_by_another(self):
+        process = self.start_sweep(ENDLESS)
+        self.assertEqual(self.stop(process, signal.SIGTERM), 143)
+        plan = [(self.home / "out" / name).read_bytes() for name in ("sweep.yaml", "manifest.json")]
+        other = ENDLESS.replace("[0.7, 0.8, 0.9]", "[0.6]")
+        for options in ([], ["--dry-run"], ["--prepare"]):
+            self.assert_refused(self.sweep(other, "out", *options), "holds another sweep", "--out")
+        self.assertEqual([(self.home / "out" / name).read_bytes() for name in ("sweep.yaml", "manifest.json")], plan)
