@@ -274,6 +274,24 @@ class Grid(SweepTest):
                               "validity.contacts_per_wall_visit",
                               *[name for name in unit if name.startswith("validity.findings.")]})
 
+    def test_the_unit_of_a_setting_is_that_of_its_points(self):
+        """It may depend on the contact law."""
+        hertz = "contact.law: hertz, contact.damping: 4.1, contact.impact_speed: 1 m/s"
+        base = "base: {scenario: periodic_tube, grains: {area_fraction: 0.1}, tube: {width: 5 mm, length: 5 mm}}"
+        axis = "axes: {contact.stiffness: [5e5, 6e5]}\n"
+        for number, (text, unit) in enumerate({
+                f"set: {{run.duration: 1 us, {hertz}}}\n": "",
+                "set: {run.duration: 1 us, contact.damping: 4.1}\n": "N/m",
+                f"set: {{run.duration: 1 us}}\nbranches: {{hard: {{contact.damping: 4.1}}, round: {{{hertz}}}}}\n":
+                ""}.items()):
+            with self.subTest(unit):
+                out = self.sweep_to_end(f"{base}\n{text}{axis}", f"out{number}")
+                varied = {each["key"]: each["unit"] for each in self.manifest(out.name)["varied"]}
+                self.assertEqual(varied["contact.stiffness"], unit)
+                with h5py.File(out / "sweep.h5") as file:
+                    stated = file["points/contact.stiffness"].attrs.get("unit", b"").decode()
+                self.assertEqual(stated, unit)
+
     def test_impacts_are_swept_too_and_share_the_cores(self):
         for points, threads in ((1, "4"), (2, "2"), (4, "1")):
             out = f"sweeps/{points}"
