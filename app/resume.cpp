@@ -12,9 +12,6 @@
 #include "io/run_file.hpp"
 #include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
-#include "scenarios/run_length.hpp"
-#include "scenarios/scenario.hpp"
-#include "scenarios/walls.hpp"
 
 #include <fmt/core.h>
 
@@ -97,13 +94,11 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
 
   const io::Settings settings =
       resumed_settings(found.checkpoint.settings, found.path.string(), options.overrides);
-  const scenarios::RunLength length = scenarios::run_length(settings);
   const State& state = found.checkpoint.state;
+  const scenarios::RunLength length = resumed_length(settings, state);
   if (length.at_most < state.time() - state.time_step)
     settings.reject(length.key, fmt::format("the run has come to {:.6g} s already", state.time()),
                     "choose a longer time");
-  scenarios::reject_too_many_steps(settings, length, state.time_step);
-  scenarios::reject_rows_in_step(settings, state);
   const auto damaged = [&](const std::string& flaw) {
     return UnusableInput(found.path.string() + ": is damaged (" + flaw + "); start the run again");
   };

@@ -9,7 +9,6 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
-#include "io/run_record.hpp"
 #include "io/settings_table.hpp"
 #include "io/settings_text.hpp"
 #include "io/summary.hpp"
@@ -126,9 +125,12 @@ std::string obstacle_at(const fs::path& point) {
 }
 
 RunStanding standing_of(const fs::path& point) {
+  return standing_of(point, io::read_run_record(point));
+}
+
+RunStanding standing_of(const fs::path& point, const io::RunRecord& record) {
   if (const std::string obstacle = obstacle_at(point); !obstacle.empty())
     return {.status = RunStatus::failed, .attempts = 0, .reason = obstacle};
-  const io::RunRecord record = io::read_run_record(point);
   const auto with = [&](RunStatus status, const std::string& reason = "") {
     return RunStanding{.status = status, .attempts = record.attempts, .reason = reason};
   };

@@ -2,6 +2,7 @@
 // directory of its own below points/, which says how far the point has come.
 #pragma once
 
+#include "io/run_record.hpp"
 #include "io/sweep_manifest.hpp"
 
 #include <filesystem>
@@ -46,6 +47,8 @@ std::string obstacle_at(const std::filesystem::path& point);
 
 /// How far the point in this directory has come. One that cannot be reached counts as failed.
 RunStanding standing_of(const std::filesystem::path& point);
+/// The same, with another record than that in the directory.
+RunStanding standing_of(const std::filesystem::path& point, const io::RunRecord& record);
 
 /// Brings status, attempts and reason of each point of the manifest up to date from the
 /// directories.

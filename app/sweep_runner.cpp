@@ -212,14 +212,16 @@ private:
     if (!goes_on && fs::exists(settings) && !fs::is_regular_file(settings))
       return fail(job, settings.string() + ": is no regular file; remove it");
     if (!goes_on && !cleared(job)) return;
-    io::RunRecord record = io::read_run_record(job.directory);
-    io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});
+    const std::vector<std::string> changes = options_.prolongation.overrides_for(job.directory);
+    const io::RunRecord record = io::read_run_record(job.directory);
+    io::write_run_record(job.directory,
+                         {.attempts = record.attempts + 1, .failure = "", .changes = changes});
 
     const std::string directory = job.directory.string();
     std::vector<std::string> arguments = {"resume", directory};
     if (!goes_on) arguments = {"run", settings.string(), "--out", directory};
     arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
-    for (const std::string& setting : options_.prolongation.overrides_for(job.directory))
+    for (const std::string& setting : changes)
       arguments.insert(arguments.end(), {"--set", setting});
     const auto log = job.directory / log_name;
     std::error_code no_log;
