@@ -295,6 +295,7 @@ int sweep(const SweepOptions& options) {
   const Prolongation prolongation(plan.manifest, directory, {}, options.overrides);
   const int jobs = options.jobs.value_or(cores());
   reject_directory_of_run(directory);
+  if (begun) reject_changed_inputs(plan.manifest, directory, {});
   if (!begun) reject_files_of_others(plan, directory);
   if (options.dry_run) {
     if (!begun) heed_earlier_sweep(plan, directory);

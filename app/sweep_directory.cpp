@@ -2,6 +2,7 @@
 
 #include "app/cell_text.hpp"
 #include "app/commands.hpp"
+#include "app/plain_words.hpp"
 #include "app/resumed_settings.hpp"
 #include "app/run_directory.hpp"
 #include "io/checkpoint.hpp"
@@ -173,6 +174,30 @@ std::set<std::string> note_misplaced(io::Manifest& manifest, const fs::path& swe
                                point_directory(sweep, point.name).string(), difference);
   }
   return misplaced;
+}
+
+std::string changed_input(const io::ManifestPoint& point) {
+  for (const auto& [file, content] : point.inputs)
+    if (io::hash_of_content(file) != content)
+      return file + ": is not as it was when the sweep was planned; restore it, or call '"
+             + call_of("sweep") + "' with the sweep file and another --out";
+  return "";
+}
+
+void reject_changed_inputs(const io::Manifest& manifest, const fs::path& sweep,
+                           const std::vector<std::string>& names) {
+  std::set<std::map<std::string, std::string>> unchanged;  // each is read once
+  for (const io::ManifestPoint& point : manifest.points) {
+    if (!names.empty() && std::ranges::find(names, point.name) == names.end()) continue;
+    const fs::path directory = point_directory(sweep, point.name);
+    if (point.inputs.empty() || unchanged.contains(point.inputs)) continue;
+    const RunStatus status = standing_of(directory).status;
+    const bool is_open = status == RunStatus::waiting || status == RunStatus::interrupted;
+    if (!is_open || can_resume(directory)) continue;
+    const std::string change = changed_input(point);
+    if (!change.empty()) throw UnusableInput(change);
+    unchanged.insert(point.inputs);
+  }
 }
 
 bool can_resume(const fs::path& point) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace riesel::app {
 
@@ -60,6 +61,15 @@ bool has_chains(const io::Manifest& manifest);
 /// Marks points as failed whose directories hold the results of other settings than theirs, as
 /// after a mistake in moving directories. Returns their names.
 std::set<std::string> note_misplaced(io::Manifest& manifest, const std::filesystem::path& sweep);
+
+/// Why a run of the point that begins now would not be the planned one, as a file that it reads has
+/// changed; "" if none has.
+std::string changed_input(const io::ManifestPoint& point);
+
+/// Throws UnusableInput if that holds for any point, among those with these `names` (all if empty),
+/// that has yet to begin.
+void reject_changed_inputs(const io::Manifest& manifest, const std::filesystem::path& sweep,
+                           const std::vector<std::string>& names);
 
 /// Whether a run of the point can go on from a checkpoint.
 bool can_resume(const std::filesystem::path& point);

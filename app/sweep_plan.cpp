@@ -123,6 +123,7 @@ io::ManifestPoint row_of(const io::SweepPoint& point, const std::vector<io::Swee
                            .branch = point.branch,
                            .leg = point.leg,
                            .values = {},
+                           .inputs = point.inputs,
                            .expected_seconds = cost.seconds,
                            .most_threads = cost.most_threads,
                            .status = to_string(RunStatus::waiting),

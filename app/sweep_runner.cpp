@@ -45,6 +45,7 @@ constexpr auto log_name = "log.txt";
 
 /// The run of one directory; equal points share it.
 struct Job {
+  const io::ManifestPoint* point = nullptr;
   std::string name;
   fs::path directory;
   Job* parent = nullptr;
@@ -119,6 +120,7 @@ private:
   void add(const io::ManifestPoint& point) {
     if (by_name_.contains(point.name)) return;
     auto job = std::make_unique<Job>();
+    job->point = &point;
     job->name = point.name;
     job->directory = point_directory(sweep_, point.name);
     if (const auto parent = by_name_.find(point.parent); parent != by_name_.end())
@@ -211,6 +213,8 @@ private:
     // A run takes its settings from a pipe, too, and would wait for its writer.
     if (!goes_on && fs::exists(settings) && !fs::is_regular_file(settings))
       return fail(job, settings.string() + ": is no regular file; remove it");
+    if (const std::string change = goes_on ? "" : changed_input(*job.point); !change.empty())
+      return fail(job, change);
     if (!goes_on && !cleared(job)) return;
     const std::vector<std::string> changes = options_.prolongation.overrides_for(job.directory);
     const io::RunRecord record = io::read_run_record(job.directory);

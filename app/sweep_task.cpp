@@ -57,6 +57,7 @@ int sweep_task(const SweepTaskOptions& options) {
   const std::vector<std::string> names = names_for(options, manifest);
   if (names.empty()) return exit_done;  // there are more parts than chains of points
   const Prolongation prolongation(manifest, options.directory, names, options.overrides);
+  reject_changed_inputs(manifest, options.directory, names);
   const int status = run_points(manifest, options.directory, names,
                                 {.jobs = 1,
                                  .cores = options.threads.value_or(cores()),

@@ -14,6 +14,7 @@
 #include "io/sweep_file.hpp"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,13 @@ struct SweepPoint {
   std::optional<std::size_t> parent;  ///< index of the neighbour that it starts from
   std::string branch;                 ///< its name; empty if the sweep has none
   std::string leg;                    ///< "forward" or "backward" in a continuation, else empty
+  /// The files by whose contents the name goes, each with hash_of_content().
+  std::map<std::string, std::string> inputs = {};
 };
+
+/// Hash of the content of a file, or of the checkpoint in a run's directory; "none" if it cannot be
+/// read, which the run will report.
+std::string hash_of_content(const std::string& path);
 
 constexpr std::size_t most_sweep_points = 10'000;
 

@@ -499,11 +499,12 @@ class Failures(SweepTest):
         self.assert_done(self.sweep(CHAIN.replace("continue_along: contact.restitution\n", ""), "out", "--prepare"))
         return [self.home / "out/points" / point["name"] for point in self.points()]
 
-    def assert_the_others_are_done(self, result, reason):
-        """Than the second of three."""
+    def assert_the_others_are_done(self, result, failed, reason):
+        """Of three points."""
         self.assertEqual(result.returncode, FAILED, result)
-        self.assertEqual([row["status"] for row in self.rows()], ["done", "failed", "done"])
-        self.assertIn(reason, self.rows()[1]["reason"])
+        self.assertEqual([row["status"] for row in self.rows()],
+                         ["failed" if i == failed else "done" for i in range(3)])
+        self.assertIn(reason, self.rows()[failed]["reason"])
         self.assertIn(reason, result.stderr + result.stdout)
 
     def test_a_point_that_cannot_be_written_fails_alone(self):
@@ -516,17 +517,17 @@ class Failures(SweepTest):
                 self.assertIn(f"failed: {obstacle.parent}".replace(f"{self.home}/", ""),
                               self.riesel("sweep-task", "out", 1).stdout)
                 for options in ([], ["--retry-failed"]):
-                    self.assert_the_others_are_done(self.riesel("sweep", "out", *options), reason)
+                    self.assert_the_others_are_done(self.riesel("sweep", "out", *options), 1, reason)
                 obstacle.rmdir()
                 self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
 
     def test_a_point_out_of_reach_fails_alone(self):
-        point = self.prepare_three()[1]
+        point = self.prepare_three()[0]
         aside = point.with_name("aside")
         point.rename(aside)
         point.symlink_to(point.name)  # to itself: as without permission, but for root, too
         for command in (["out"], ["out", "--retry-failed"], ["sweep.yaml", "--out", "out"]):
-            self.assert_the_others_are_done(self.riesel("sweep", *command), "cannot be reached")
+            self.assert_the_others_are_done(self.riesel("sweep", *command), 0, "cannot be reached")
         for command in ("status", "report"):
             self.assert_done(self.riesel(command, "out"))
         self.assertIn("2 done, 1 failed", self.riesel("collect", "out").stdout)
@@ -620,6 +621,29 @@ class Tasks(SweepTest):
         (point / "attempts.json").write_text(json.dumps({"attempts": 1, "failure": "bad luck"}), encoding="utf-8")
         other = self.sweep(ONE_POINT.replace("2000", "3000"))
         self.assertEqual((other.returncode, len(self.rows())), (0, 1), other)
+
+    def test_runs_begin_from_the_files_of_the_plan_only(self):
+        self.write("grains.csv", "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n2, 2, 1, 0, 1\n")
+        self.write("tube.yaml", """\
+scenario: periodic_tube
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+tube: {width: 10 mm, length: 6 mm}
+start: {kind: file, from: grains.csv}
+""")
+        text = "base: tube.yaml\nset: {run.duration: 1 ms}\naxes: {contact.friction: [0.1, 0.2]}\n"
+        self.assert_done(self.sweep(text, "out", "--prepare"))
+        self.assert_done(self.riesel("sweep-task", "out", 0))
+        planned = (self.home / "grains.csv").read_text(encoding="utf-8")
+        self.write("grains.csv", planned + "5, 5, 0, 0, 1\n")
+        before = bytes_of_files(self.home)
+        for command in (["sweep", "out"], ["sweep", "out", "--dry-run"], ["sweep-task", "out", 1]):
+            self.assert_refused(self.riesel(*command), "grains.csv: is not as it was when the sweep was planned",
+                                "with the sweep file and another --out")
+        self.assertEqual(bytes_of_files(self.home), before)
+        self.assert_done(self.riesel("sweep-task", "out", 0))  # it has begun, and reads the file no more
+        self.write("grains.csv", planned)
+        self.assert_done(self.riesel("sweep", "out"))
+        self.assertEqual({row["grains"] for row in self.rows()}, {"1"})
 
     def test_the_directory_of_a_sweep_is_no_place_for_a_run(self):
         self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
