@@ -31,7 +31,7 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
   const auto post_mortem = path / post_mortem_name;
   const auto holder = io::DirectoryLock::holder(path);
   if (holder && stopped_before_checkpoint(path))
-    throw UnusableInput(path.string() + ": is in use by " + *holder + "; wait until that ends");
+    throw UnusableInput(path.string() + ": " + io::in_use_by + *holder + "; wait until that ends");
   if (stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "

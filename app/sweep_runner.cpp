@@ -9,6 +9,7 @@
 #include "app/run_directory.hpp"
 #include "app/terminal.hpp"
 #include "app/walltime.hpp"
+#include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_record.hpp"
@@ -40,7 +41,8 @@ using namespace std::chrono_literals;
 
 constexpr auto between_looks = 10ms;
 constexpr auto between_manifests = 2s;
-constexpr int most_starts = 3;  // of one run in one sweep, if signals keep stopping it
+constexpr int most_starts = 3;       // of one run in one sweep, if signals keep stopping it
+constexpr int most_collisions = 20;  // of a run with others that have its directory for a moment
 constexpr auto log_name = "log.txt";
 
 /// The run of one directory; equal points share it.
@@ -54,7 +56,7 @@ struct Job {
   int most_threads = 1;
   RunStatus status = RunStatus::waiting;
   std::string reason;  // why it failed
-  int starts = 0;
+  int starts = 0, collisions = 0;
   std::unique_ptr<ChildProcess> process;
   Clock::time_point started = {};
   std::uintmax_t log_begin = 0;  // bytes of the log before this start
@@ -198,7 +200,7 @@ private:
     } catch (const NoProcess&) {
       throw;
     } catch (const std::runtime_error& error) {
-      fail(job, error.what());
+      fail_unless_in_use(job, error.what());
     }
   }
 
@@ -264,7 +266,17 @@ private:
                 call_of("sweep", sweep_));
       return;
     }
-    fail(job, reason_of(job, *end));
+    fail_unless_in_use(job, reason_of(job, *end));
+  }
+
+  /// Another process, such as 'riesel report', may have the directory just when the run begins, and
+  /// have left it since: then there is nothing wrong with the run.
+  void fail_unless_in_use(Job& job, const std::string& reason) {
+    const bool in_use = reason.find(io::in_use_by) != std::string::npos;
+    if (!in_use || job.collisions == most_collisions) return fail(job, reason);
+    ++job.collisions;
+    --job.starts;
+    job.status = RunStatus::interrupted;
   }
 
   static std::string reason_of(const Job& job, const ProcessEnd& end) {

@@ -1,5 +1,6 @@
 """A sweep that is stopped at any moment, politely or not, goes on as if it had never been stopped."""
 
+import fcntl
 import os
 import pathlib
 import random
@@ -244,3 +245,26 @@ axes: {contact.restitution: [0.8]}
         for options in ([], ["--dry-run"], ["--prepare"]):
             self.assert_refused(self.sweep(other, "out", *options), "holds another sweep", "--out")
         self.assertEqual([(self.home / "out" / name).read_bytes() for name in ("sweep.yaml", "manifest.json")], plan)
+
+    def test_a_point_in_use_for_a_moment_is_no_failure(self):
+        """A shared lock, which stands in the way of a run although nobody seems to work on it, is as one that
+        is taken between the look of the sweep and the start of the run."""
+        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
+        point = sorted(self.home.glob("out/points/*"))[0]
+        log = point / "log.txt"
+        with open(point / ".lock", "rb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH)
+            process = self.start("sweep", "out", "--jobs", 1, "--set", "run.duration=4 ms")
+            self.wait_until(lambda: "is in use by" in log.read_text("utf-8"), "the collision")
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual((process.returncode, {row["status"] for row in self.rows()}), (DONE, {"done"}), stderr)
+
+    def test_a_point_in_use_for_ever_is_one(self):
+        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
+        point = sorted(self.home.glob("out/points/*"))[0]
+        with open(point / ".lock", "rb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH)
+            result = self.riesel("sweep", "out", "--set", "run.duration=4 ms")
+        self.assertEqual(result.returncode, FAILED)
+        self.assertIn("2 done, 1 failed", result.stdout)
+        self.assertIn("is in use by", result.stdout)
