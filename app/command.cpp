@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/terminal.hpp"
 #include "app/walltime.hpp"
+#include "app/whole_number.hpp"
 #include "engine/simulation.hpp"
 #include "io/build_info.hpp"
 #include "io/file_error.hpp"
@@ -43,7 +44,7 @@ std::string version_text() {
                      build.git_dirty ? ", changed" : "", build.compiler, build.build_type);
 }
 
-constexpr int most_jobs = 1024;
+constexpr std::size_t most_jobs = 1024;
 constexpr std::size_t most_tasks = 10'000'000;
 
 CLI::Option* add_set(CLI::App& command, std::vector<std::string>& overrides,
@@ -179,7 +180,7 @@ private:
     sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]");
     CLI::Option* jobs =
         sweep->add_option("--jobs", sweep_.jobs, "Runs side by side [as many as cores]")
-            ->check(CLI::Range(1, most_jobs));
+            ->transform(app::whole_number(1, most_jobs));
     sweep->add_flag("--dry-run", sweep_.dry_run, "List the points, their directories and cost");
     CLI::Option* prepare = sweep->add_flag("--prepare", sweep_.prepare_only,
                                            "Write the plan for sweep-task, run nothing");
@@ -200,10 +201,10 @@ private:
                                         "Submit the sweep to Slurm; --dry-run shows the script");
     sweep
         .add_option("--tasks", sweep_.slurm.tasks, "Maximum number of Slurm tasks [one per point]")
-        ->check(CLI::Range(std::size_t{1}, most_tasks))
+        ->transform(app::whole_number(1, most_tasks))
         ->needs(slurm);
     sweep.add_option("--threads", sweep_.slurm.threads, "Threads of each task of Slurm [1]")
-        ->check(CLI::Range(1, most_jobs))
+        ->transform(app::whole_number(1, most_jobs))
         ->needs(slurm);
     sweep
         .add_option("--sbatch", sweep_.slurm.for_sbatch,
@@ -219,11 +220,11 @@ private:
         program_.add_subcommand("sweep-task", "Run one point of a sweep, for a batch system");
     task->add_option("DIR", task_.directory, "Directory of the sweep, see sweep --prepare");
     CLI::Option* index = task->add_option("INDEX", task_.index, "The point, counted from 0")
-                             ->check(CLI::Range(std::size_t{0}, most_tasks - 1));
+                             ->transform(app::whole_number(0, most_tasks - 1));
     task->add_option("--of", task_.parts, "Split the sweep into this many parts; INDEX is the part")
-        ->check(CLI::Range(std::size_t{1}, most_tasks));
+        ->transform(app::whole_number(1, most_tasks));
     task->add_option("--threads", task_.threads, "Threads [as many as cores]")
-        ->check(CLI::Range(1, most_jobs));
+        ->transform(app::whole_number(1, most_jobs));
     add_max_walltime(*task, task_.max_walltime,
                      "Stop with checkpoints before this much wall-clock time has passed");
     task->add_flag("--retry-failed", task_.retry_failed, "Run it again if it failed");

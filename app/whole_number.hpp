@@ -1,0 +1,14 @@
+// Whole numbers on the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cstddef>
+
+namespace riesel::app {
+
+/// Takes decimal digits only, from `low` to `high`, also with zeros in front, as `seq -w` prints
+/// them: CLI11 itself takes 010 for 8, as C does. To be used by CLI::Option::transform().
+CLI::Validator whole_number(std::size_t low, std::size_t high);
+
+}  // namespace riesel::app
