@@ -9,7 +9,7 @@ import signal
 
 import h5py
 
-from riesel_command import (BAD_INPUT, FAILED, PATIENCE, SHIPPED, SMALL_TUBE, CommandTest,
+from riesel_command import (BAD_INPUT, DONE, FAILED, PATIENCE, SHIPPED, SMALL_TUBE, CommandTest,
                             bytes_of_files)
 
 GRID = """\
@@ -175,7 +175,7 @@ class Grid(SweepTest):
             with self.subTest(text):
                 (damaged / "summary.json").write_text(text, encoding="utf-8")
                 result = self.riesel("collect", "out")
-                self.assertEqual(result.returncode, 0)
+                self.assertEqual(result.returncode, FAILED)
                 self.assertIn(f"{damaged.name}/summary.json", result.stderr)
                 self.assertIn(mention, result.stderr)
                 self.assertEqual([row["state_hash"] != "" for row in self.rows()], [True, False, True])
@@ -462,9 +462,9 @@ class Failures(SweepTest):
                 one_point.rename(aside)
                 other_point.rename(one_point)
                 aside.rename(other_point)
-                for command in (["collect", "out"], ["status", "out"]):
+                for command, status in ((["collect", "out"], FAILED), (["status", "out"], DONE)):
                     result = self.riesel(*command)
-                    self.assert_done(result)
+                    self.assertEqual((result.returncode, result.stderr), (status, ""))
                     self.assertIn("2 failed", result.stdout)
                     self.assertEqual(result.stdout.count("is of another point"), 2)
                 self.assertEqual(self.riesel("sweep", "out").returncode, FAILED)
@@ -530,7 +530,8 @@ class Failures(SweepTest):
             self.assert_the_others_are_done(self.riesel("sweep", *command), 0, "cannot be reached")
         for command in ("status", "report"):
             self.assert_done(self.riesel(command, "out"))
-        self.assertIn("2 done, 1 failed", self.riesel("collect", "out").stdout)
+        collected = self.riesel("collect", "out")
+        self.assertEqual((collected.returncode, "2 done, 1 failed" in collected.stdout), (FAILED, True), collected)
         self.assertEqual(self.sweep(CHAIN.replace("continue_along: contact.restitution\n", ""), "out",
                                     "--prepare").returncode, FAILED)
         point.unlink()
