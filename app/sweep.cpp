@@ -260,7 +260,7 @@ SweepPlan plan_in(const fs::path& sweep) {
     if (!fs::exists(file))
       throw UnusableInput(file.string() + ": is missing; call '" + call_of("sweep")
                           + "' with the sweep file, which makes it anew, and --out "
-                          + io::in_quotes(sweep.string()));
+                          + io::path_argument(sweep));
   }
   return plan;
 }

@@ -404,6 +404,13 @@ class Failures(SweepTest):
         self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
         self.assertEqual((rows[1]["state_hash"], rows[1]["reason"]), ("", points[1]["reason"]))
 
+    def test_a_directory_may_look_like_an_option(self):
+        self.write("sweep.yaml", ONE_FAILS)
+        told = self.riesel("sweep", "sweep.yaml", "--out=-x").stdout
+        again, = re.findall(r"'riesel (sweep .*) --retry-failed'", told)
+        self.assertEqual(self.riesel(*again.split()).returncode, FAILED)
+        self.assertEqual(again, "sweep ./-x")
+
     def test_a_failed_point_is_run_again_only_if_asked(self):
         attempts = []
         for options in ([], [], ["--retry-failed"]):
