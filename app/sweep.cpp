@@ -275,11 +275,17 @@ void reject_options_in_vain(const SweepOptions& options, bool begun) {
         "file, or write the setting into the file, below 'set:'");
 }
 
-/// The script for Slurm has a line for each option.
-void reject_line_breaks(const SlurmOptions& options) {
-  for (const std::string& option : options.for_sbatch)
-    if (option.find_first_of("\r\n") != std::string::npos)
-      throw UnusableInput("--sbatch: has a line break; give each option by an --sbatch of its own");
+bool has_line_break(const std::string& text) {
+  return text.find_first_of("\r\n") != std::string::npos;
+}
+
+/// The script for Slurm has a line for each option, among them the name of the directory.
+void reject_line_breaks(const SlurmOptions& options, const fs::path& sweep) {
+  if (std::ranges::any_of(options.for_sbatch, has_line_break))
+    throw UnusableInput("--sbatch: has a line break; give each option by an --sbatch of its own");
+  if (has_line_break(fs::absolute(sweep).string()))
+    throw UnusableInput("--slurm: the path of the sweep has a line break, which no script for "
+                        "Slurm can hold; choose another directory with --out");
 }
 
 }  // namespace
@@ -287,10 +293,10 @@ void reject_line_breaks(const SlurmOptions& options) {
 int sweep(const SweepOptions& options) {
   const bool begun = fs::is_directory(options.file);
   reject_options_in_vain(options, begun);
-  reject_line_breaks(options.slurm);
   const fs::path directory = begun               ? options.file
                              : options.directory ? *options.directory
                                                  : place_named_after(options.file, "sweeps");
+  if (options.to_slurm) reject_line_breaks(options.slurm, directory);
   SweepPlan plan = begun ? plan_in(directory) : plan_sweep(options.file);
   const Prolongation prolongation(plan.manifest, directory, {}, options.overrides);
   const int jobs = options.jobs.value_or(cores());

@@ -111,6 +111,14 @@ class Script(SweepTest):
             self.assert_refused(result, "--sbatch", "line break")
         self.assertEqual(bytes_of_files(self.home), before)
 
+    def test_a_path_is_within_a_line(self):
+        self.write("sweep.yaml", FOUR)
+        before = bytes_of_files(self.home)
+        for options in ([], ["--dry-run"]):
+            result = self.riesel("sweep", "sweep.yaml", "--out", "two\nlines", "--slurm", *options, PATH="/nowhere")
+            self.assert_refused(result, "--slurm: the path of the sweep has a line break", "--out")
+        self.assertEqual(bytes_of_files(self.home), before)
+
     def test_options_of_slurm_want_slurm(self):
         self.write("sweep.yaml", FOUR)
         for option in (["--tasks", 3], ["--sbatch=--mem=1G"]):
