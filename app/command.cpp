@@ -344,6 +344,12 @@ int tell_if_not_printed(int status) {
   return printed || status != app::exit_done ? status : fail_to_print();
 }
 
+/// OpenMP crashes where there is no memory for so many threads as OMP_NUM_THREADS may ask for.
+void limit_threads() {
+  constexpr int most = most_jobs;
+  if (omp_get_max_threads() > most) omp_set_num_threads(most);
+}
+
 /// Reads the command line and does what it says.
 int run_program(int argc, char** argv) {
   app::occupy_closed_streams();
@@ -351,6 +357,7 @@ int run_program(int argc, char** argv) {
   app::end_on_interrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // so that a write beyond the limit of a file fails with EFBIG
   std::set_new_handler(give_up_without_memory);
+  limit_threads();
   CommandLine line(argc, argv);
   try {
     line.parse();

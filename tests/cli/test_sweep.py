@@ -306,6 +306,14 @@ axes: {{contact.damping: {[1e4 / 2 ** i for i in range(points)]}}}
             self.assertEqual(len(self.hashes(out)), points)
             self.assertEqual({row["performance.threads"] for row in rows}, {threads})
 
+    def test_more_threads_than_there_is_memory_for(self):
+        self.write("walls.yaml", "scenario: wall_array\ncontact: {stiffness: 2000 N/m, restitution: 0.9}\n"
+                                 "impact: {starts: 2, axial_velocity: 1 m/s}\n")
+        many = {"OMP_NUM_THREADS": "100000"}
+        self.write("sweep.yaml", "base: walls.yaml\naxes: {contact.restitution: [0.8, 0.9]}\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--dry-run", **many))
+        self.assert_done(self.riesel("run", "walls.yaml", **many))
+
     def test_the_longest_runs_go_first(self):
         # Which these are is found by the clock: so far apart that no other work confuses them.
         out = self.sweep_to_end("base: tube.yaml\naxes: {run.duration: [1 ms, 900 ms, 30 ms]}\n", "out",
