@@ -23,6 +23,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -219,9 +220,9 @@ private:
       return fail(job, change);
     if (!goes_on && !cleared(job)) return;
     const std::vector<std::string> changes = options_.prolongation.overrides_for(job.directory);
-    const io::RunRecord record = io::read_run_record(job.directory);
-    io::write_run_record(job.directory,
-                         {.attempts = record.attempts + 1, .failure = "", .changes = changes});
+    const int before = io::read_run_record(job.directory).attempts;
+    const int attempts = before < std::numeric_limits<int>::max() ? before + 1 : before;
+    io::write_run_record(job.directory, {.attempts = attempts, .failure = "", .changes = changes});
 
     const std::string directory = job.directory.string();
     std::vector<std::string> arguments = {"resume", directory};

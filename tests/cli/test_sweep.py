@@ -427,6 +427,14 @@ class Failures(SweepTest):
             attempts.append([point["attempts"] for point in self.points()])
         self.assertEqual(attempts, [[1, 1, 1], [1, 1, 1], [1, 2, 1]])
 
+    def test_attempts_do_not_overflow(self):
+        most = 2**31 - 1
+        self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
+        record = self.home / "out/points" / self.points()[0]["name"] / "attempts.json"
+        record.write_text(json.dumps({"attempts": most, "failure": ""}), encoding="utf-8")
+        self.assert_done(self.riesel("sweep", "out"))
+        self.assertEqual(self.points()[0]["attempts"], most)
+
     def damage(self, text):
         """The summary of the first point."""
         point = self.home / "out/points" / self.points()[0]["name"]
