@@ -19,6 +19,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -74,10 +75,11 @@ std::string complaint_in(const fs::path& log, std::uintmax_t begin) {
   return complaint;
 }
 
-/// By somebody or something outside of it, so that it can go on.
+/// By somebody or something outside of it, such as a limit or a batch system, so that it can go on.
 bool was_ended_from_outside(const ProcessEnd& end) {
+  constexpr std::array from_outside = {SIGINT, SIGTERM, SIGHUP, SIGKILL, SIGXCPU, SIGUSR1, SIGUSR2};
   const int by_signal = end.signal != 0 ? end.signal : end.status - 128;
-  return by_signal == SIGINT || by_signal == SIGTERM || by_signal == SIGHUP || by_signal == SIGKILL;
+  return std::ranges::find(from_outside, by_signal) != from_outside.end();
 }
 
 class Runner {

@@ -4,6 +4,7 @@ import fcntl
 import os
 import pathlib
 import random
+import shutil
 import signal
 import time
 
@@ -178,11 +179,14 @@ axes: {contact.restitution: [0.8]}
         self.assert_goes_on_as_uninterrupted(LONG_CHAIN)
 
     def test_a_killed_run_is_gone_on_with_in_the_same_sweep(self):
-        process = self.start_sweep(LONG)
-        os.kill(children_of(process.pid)[0], signal.SIGKILL)
-        _, stderr = process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, DONE, stderr)
-        self.assertEqual(sorted(point["attempts"] for point in self.points()), [1, 1, 2])
+        for number in (signal.SIGKILL, signal.SIGXCPU, signal.SIGUSR1):
+            with self.subTest(number):
+                shutil.rmtree(self.home / "out", ignore_errors=True)
+                process = self.start_sweep(LONG)
+                os.kill(children_of(process.pid)[0], number)
+                _, stderr = process.communicate(timeout=PATIENCE)
+                self.assertEqual(process.returncode, DONE, stderr)
+                self.assertEqual(sorted(point["attempts"] for point in self.points()), [1, 1, 2])
 
     def test_a_crash_is_a_failure_and_does_not_stop_the_others(self):
         process = self.start_sweep(LONG)
