@@ -1,6 +1,5 @@
 #include "app/commands.hpp"
 #include "app/plain_words.hpp"
-#include "app/report_parts.hpp"
 #include "app/resumed_settings.hpp"
 #include "app/run_flow.hpp"
 #include "app/terminal.hpp"
@@ -10,19 +9,23 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
-#include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
 
 #include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace riesel::app {
 
 namespace {
 
 bool is_another_file_of_a_run(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> of_texts = {".yaml", ".json", ".html", ".txt", ".csv"};
   const std::string name = path.filename().string();
-  return path.extension() == ".yaml" || name == io::run_file_name || name == io::trajectory_name
-         || name == io::summary_name || name == report_name;
+  return std::ranges::find(of_texts, path.extension().string()) != of_texts.end()
+         || name == io::run_file_name || name == io::trajectory_name || name == io::lock_name;
 }
 
 void reject_what_is_no_run(const std::filesystem::path& path) {

@@ -20,7 +20,6 @@
 namespace riesel::io {
 namespace {
 
-constexpr auto lock_name = ".lock";
 constexpr auto cannot_be_locked = "the directory cannot be locked";
 
 /// Includes the host: on a network file system the process may run elsewhere.
