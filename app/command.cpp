@@ -8,9 +8,9 @@
 #include "app/completion.hpp"
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
+#include "app/option_values.hpp"
 #include "app/terminal.hpp"
 #include "app/walltime.hpp"
-#include "app/whole_number.hpp"
 #include "engine/simulation.hpp"
 #include "io/build_info.hpp"
 #include "io/file_error.hpp"
@@ -143,7 +143,8 @@ private:
   void add_run() {
     CLI::App* run = program_.add_subcommand("run", "Run a settings file");
     CLI::Option* file = run->add_option("FILE", run_.file, "Settings in YAML");
-    run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]");
+    run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]")
+        ->transform(app::some_name());
     add_overrides(*run, run_.overrides);
     add_threads(*run, run_.overrides);
     add_flow_options(*run, run_.flow);
@@ -177,7 +178,8 @@ private:
         "sweep", "Run all points of a sweep file that are not done, side by side");
     CLI::Option* file = sweep->add_option(
         "FILE", sweep_.file, "Sweep in YAML, or the directory of a sweep, to go on with it");
-    sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]");
+    sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]")
+        ->transform(app::some_name());
     CLI::Option* jobs =
         sweep->add_option("--jobs", sweep_.jobs, "Runs side by side [as many as cores]")
             ->transform(app::whole_number(1, most_jobs));
@@ -236,7 +238,8 @@ private:
     CLI::App* made = program_.add_subcommand("new", "Write a settings file to begin with");
     CLI::Option* scenario =
         made->add_option("SCENARIO", new_file_.scenario, "See 'riesel scenarios'");
-    made->add_option("FILE", new_file_.file, "File to write [SCENARIO.yaml]");
+    made->add_option("FILE", new_file_.file, "File to write [SCENARIO.yaml]")
+        ->transform(app::some_name());
     set_command(*made, *scenario, [this] { return app::new_file(new_file_); });
   }
 
@@ -363,8 +366,9 @@ int run_program(int argc, char** argv) {
     line.parse();
     if (!line.command()) throw CLI::RequiredError::Subcommand(1);
   } catch (const CLI::ParseError& error) {
-    const bool asked_for_text = line.program().exit(error) == 0;
-    return asked_for_text ? app::exit_done : app::exit_bad_input;
+    const bool asks_for_text = error.get_exit_code() == 0;
+    if (asks_for_text) return line.program().exit(error);
+    throw app::UnusableInput(std::string(error.what()) + "; see 'riesel --help'");
   }
   return line.command()();
 }

@@ -1,4 +1,4 @@
-#include "app/whole_number.hpp"
+#include "app/option_values.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +19,11 @@ CLI::Validator whole_number(std::size_t low, std::size_t high) {
     return "";
   };
   return {read, fmt::format("INT in [{} - {}]", low, high)};
+}
+
+CLI::Validator some_name() {
+  const auto read = [](std::string& text) { return std::string(text.empty() ? "is empty" : ""); };
+  return {read, ""};
 }
 
 }  // namespace riesel::app
