@@ -221,7 +221,8 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongati
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
   const std::string job = submitted_job(manifest, sweep, prolongation, options.retry_failed);
-  fmt::print("{}: submitted as job {}; see '{}'\n", sweep.string(), job, call_of("status", sweep));
+  fmt::print("{}: submitted{}; see '{}'\n", sweep.string(), job.empty() ? "" : " as job " + job,
+             call_of("status", sweep));
   return exit_done;
 }
 

@@ -179,6 +179,13 @@ class Submission(StandIns):
         self.assert_done(self.riesel("collect", "out"))
         self.assertEqual([row["attempts"] for row in self.rows()], ["1", "2", "1"])
 
+    def test_a_job_without_a_number_is_submitted_too(self):
+        self.write("sweep.yaml", FOUR)
+        self.stand_in("sbatch", "true")
+        result = self.submit()
+        self.assert_done(result)
+        self.assertEqual(result.stdout, "out: submitted; see 'riesel status out'\n")
+
     def test_what_failed_to_go_on_is_tried_once_more(self):
         """Its result of before is still there, and so it is done for those who do not ask for more."""
         self.sweep_to_end(ONE_FAILS.replace(", 0.5 N/m", ""))

@@ -393,8 +393,8 @@ class Chain(SweepTest):
         self.assertEqual(bytes_of_files(self.home), before)
 
     def test_the_start_may_differ_between_chains(self):
-        self.sweep_to_end(CHAIN + "branches: {slow: {start.axial_velocity: 1 m/s}, fast: {start.axial_velocity: 3 m/s}}\n"
-                                  "seeds: 2\n")
+        branches = "{slow: {start.axial_velocity: 1 m/s}, fast: {start.axial_velocity: 3 m/s}}"
+        self.sweep_to_end(f"{CHAIN}branches: {branches}\nseeds: 2\n")
         self.assertEqual(len(set(self.hashes().values())), 20)
         self.assertEqual([row["status"] for row in self.rows()], ["done"] * 20)
 

@@ -370,9 +370,8 @@ class Refused(SweepTest):
     def test_what_a_resume_refuses(self):
         """It goes by the settings with which the runs have gone on, not by the plan."""
         self.sweep_to_end(TWO)
-        longer = self.riesel("sweep", "out", "--set", "run.duration=", "--set", "run.until.relative_error=99 %", "--set",
-                             "run.until.at_most=4 ms")
-        self.assert_done(longer)
+        until = ("run.duration=", "run.until.relative_error=99 %", "run.until.at_most=4 ms")
+        self.assert_done(self.riesel("sweep", "out", *[f"--set={change}" for change in until]))
         for change, mention in (("run.duration=6 ms", "cannot be given together with run.until"),
                                 ("run.until.at_most=1e300 s", "more time steps than can be counted")):
             for options in ([], ["--dry-run"], ["--slurm", "--dry-run"]):
