@@ -58,7 +58,8 @@ bool write_plan(const SweepPlan& plan, const fs::path& sweep) {
       all_written = false;
     }
   }
-  io::write_durably(sweep / sweep_file_name, plan.sweep_file);
+  const fs::path copy = sweep / sweep_file_name;  // somebody may have written notes into it
+  if (!holds(copy, plan.sweep_file)) io::write_durably(copy, plan.sweep_file, io::Previous::keep);
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
   return all_written;
 }

@@ -646,6 +646,15 @@ class Tasks(SweepTest):
         other = self.sweep(ONE_POINT.replace("2000", "3000"))
         self.assertEqual((other.returncode, len(self.rows())), (0, 1), other)
 
+    def test_the_copy_of_the_sweep_file_is_kept_when_it_changes(self):
+        out = self.sweep_to_end(ONE_POINT)
+        notes = ONE_POINT + "# my notes\n"
+        self.write("out/sweep.yaml", notes)
+        for _ in range(2):
+            self.sweep_to_end(ONE_POINT)
+            self.assertEqual((out / "sweep.yaml").read_text(encoding="utf-8"), ONE_POINT)
+            self.assertEqual((out / "sweep.yaml.previous").read_text(encoding="utf-8"), notes)
+
     def test_runs_begin_from_the_files_of_the_plan_only(self):
         self.write("grains.csv", "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n2, 2, 1, 0, 1\n")
         self.write("tube.yaml", """\
