@@ -1,7 +1,6 @@
 #include "app/child_process.hpp"
 
 #include "app/interrupt.hpp"
-#include "io/file_error.hpp"
 #include "io/uninterrupted.hpp"
 
 #include <fcntl.h>
@@ -70,7 +69,8 @@ pid_t start(std::vector<std::string> arguments, const std::filesystem::path& log
   if (child == 0) become(pointers.data(), descriptor, parent, signals.before());
   const int error = errno;
   close(descriptor);
-  if (child < 0) throw io::system_failure(log, "no process can be started for the run", error);
+  if (child < 0)
+    throw NoProcess(io::system_failure(log, "no process can be started for the run", error));
   return child;
 }
 

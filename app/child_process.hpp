@@ -2,6 +2,8 @@
 // does, even if it crashes.
 #pragma once
 
+#include "io/file_error.hpp"
+
 #include <sys/types.h>
 
 #include <filesystem>
@@ -26,12 +28,18 @@ struct ProcessEnd {
 /// `wait_status`: what waitpid() tells of a process that has ended.
 ProcessEnd end_of(int wait_status);
 
+/// The system has no room for another process: no run can be started.
+class NoProcess : public io::FileError {
+public:
+  explicit NoProcess(const io::FileError& error) : FileError(error) {}
+};
+
 /// This program, started again with other arguments. Signals of the terminal do not reach it: its
 /// parent has to pass them on with send(). If its parent dies, it gets SIGTERM.
 class ChildProcess {
 public:
-  /// What it prints is appended to `log`. Throws io::FileError if `log` cannot be written, or if no
-  /// process can be started.
+  /// What it prints is appended to `log`. Throws io::FileError if `log` cannot be written,
+  /// NoProcess if no process can be started.
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log);
   /// Asks a process that still runs to stop (SIGTERM), and waits for its end.
   ~ChildProcess();

@@ -8,6 +8,7 @@
 #include "app/completion.hpp"
 #include "app/exit_status.hpp"
 #include "app/interrupt.hpp"
+#include "app/option_values.hpp"
 #include "app/terminal.hpp"
 #include "app/walltime.hpp"
 #include "engine/simulation.hpp"
@@ -43,7 +44,7 @@ std::string version_text() {
                      build.git_dirty ? ", changed" : "", build.compiler, build.build_type);
 }
 
-constexpr int most_jobs = 1024;
+constexpr std::size_t most_jobs = 1024;
 constexpr std::size_t most_tasks = 10'000'000;
 
 CLI::Option* add_set(CLI::App& command, std::vector<std::string>& overrides,
@@ -142,7 +143,8 @@ private:
   void add_run() {
     CLI::App* run = program_.add_subcommand("run", "Run a settings file");
     CLI::Option* file = run->add_option("FILE", run_.file, "Settings in YAML");
-    run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]");
+    run->add_option("--out", run_.directory, "Directory for the results [runs/NAME]")
+        ->transform(app::some_name());
     add_overrides(*run, run_.overrides);
     add_threads(*run, run_.overrides);
     add_flow_options(*run, run_.flow);
@@ -176,10 +178,11 @@ private:
         "sweep", "Run all points of a sweep file that are not done, side by side");
     CLI::Option* file = sweep->add_option(
         "FILE", sweep_.file, "Sweep in YAML, or the directory of a sweep, to go on with it");
-    sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]");
+    sweep->add_option("--out", sweep_.directory, "Directory for the results [sweeps/NAME]")
+        ->transform(app::some_name());
     CLI::Option* jobs =
         sweep->add_option("--jobs", sweep_.jobs, "Runs side by side [as many as cores]")
-            ->check(CLI::Range(1, most_jobs));
+            ->transform(app::whole_number(1, most_jobs));
     sweep->add_flag("--dry-run", sweep_.dry_run, "List the points, their directories and cost");
     CLI::Option* prepare = sweep->add_flag("--prepare", sweep_.prepare_only,
                                            "Write the plan for sweep-task, run nothing");
@@ -200,10 +203,10 @@ private:
                                         "Submit the sweep to Slurm; --dry-run shows the script");
     sweep
         .add_option("--tasks", sweep_.slurm.tasks, "Maximum number of Slurm tasks [one per point]")
-        ->check(CLI::Range(std::size_t{1}, most_tasks))
+        ->transform(app::whole_number(1, most_tasks))
         ->needs(slurm);
     sweep.add_option("--threads", sweep_.slurm.threads, "Threads of each task of Slurm [1]")
-        ->check(CLI::Range(1, most_jobs))
+        ->transform(app::whole_number(1, most_jobs))
         ->needs(slurm);
     sweep
         .add_option("--sbatch", sweep_.slurm.for_sbatch,
@@ -219,11 +222,11 @@ private:
         program_.add_subcommand("sweep-task", "Run one point of a sweep, for a batch system");
     task->add_option("DIR", task_.directory, "Directory of the sweep, see sweep --prepare");
     CLI::Option* index = task->add_option("INDEX", task_.index, "The point, counted from 0")
-                             ->check(CLI::Range(std::size_t{0}, most_tasks - 1));
+                             ->transform(app::whole_number(0, most_tasks - 1));
     task->add_option("--of", task_.parts, "Split the sweep into this many parts; INDEX is the part")
-        ->check(CLI::Range(std::size_t{1}, most_tasks));
+        ->transform(app::whole_number(1, most_tasks));
     task->add_option("--threads", task_.threads, "Threads [as many as cores]")
-        ->check(CLI::Range(1, most_jobs));
+        ->transform(app::whole_number(1, most_jobs));
     add_max_walltime(*task, task_.max_walltime,
                      "Stop with checkpoints before this much wall-clock time has passed");
     task->add_flag("--retry-failed", task_.retry_failed, "Run it again if it failed");
@@ -235,7 +238,8 @@ private:
     CLI::App* made = program_.add_subcommand("new", "Write a settings file to begin with");
     CLI::Option* scenario =
         made->add_option("SCENARIO", new_file_.scenario, "See 'riesel scenarios'");
-    made->add_option("FILE", new_file_.file, "File to write [SCENARIO.yaml]");
+    made->add_option("FILE", new_file_.file, "File to write [SCENARIO.yaml]")
+        ->transform(app::some_name());
     set_command(*made, *scenario, [this] { return app::new_file(new_file_); });
   }
 
@@ -343,6 +347,12 @@ int tell_if_not_printed(int status) {
   return printed || status != app::exit_done ? status : fail_to_print();
 }
 
+/// OpenMP crashes where there is no memory for so many threads as OMP_NUM_THREADS may ask for.
+void limit_threads() {
+  constexpr int most = most_jobs;
+  if (omp_get_max_threads() > most) omp_set_num_threads(most);
+}
+
 /// Reads the command line and does what it says.
 int run_program(int argc, char** argv) {
   app::occupy_closed_streams();
@@ -350,13 +360,15 @@ int run_program(int argc, char** argv) {
   app::end_on_interrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // so that a write beyond the limit of a file fails with EFBIG
   std::set_new_handler(give_up_without_memory);
+  limit_threads();
   CommandLine line(argc, argv);
   try {
     line.parse();
     if (!line.command()) throw CLI::RequiredError::Subcommand(1);
   } catch (const CLI::ParseError& error) {
-    const bool asked_for_text = line.program().exit(error) == 0;
-    return asked_for_text ? app::exit_done : app::exit_bad_input;
+    const bool asks_for_text = error.get_exit_code() == 0;
+    if (asks_for_text) return line.program().exit(error);
+    throw app::UnusableInput(std::string(error.what()) + "; see 'riesel --help'");
   }
   return line.command()();
 }

@@ -15,7 +15,7 @@
 namespace riesel::app {
 
 std::string call_of(std::string_view subcommand, const std::filesystem::path& path) {
-  return fmt::format("{} {}", call_of(subcommand), io::in_quotes(path.string()));
+  return fmt::format("{} {}", call_of(subcommand), io::path_argument(path));
 }
 
 std::string call_of(std::string_view subcommand) {

@@ -18,10 +18,13 @@ std::string text_of(const io::Measured& m, const char* unit, int digits = 4, int
 }
 
 void print_balance(const io::FlowSummary::Balance& b) {
-  const char* none = std::isnan(b.n_dot.value) ? "not known" : "no new ones; lasting contacts";
+  if (std::isnan(b.n_dot.value)) {
+    fmt::print("  {:<22}not known, gravity {:.4g} m/s^2\n", "wall collisions", b.gravity);
+    return;
+  }
   const std::string factors = b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s",
                                                                 b.n_dot.value, b.dv_y.value)
-                                                  : std::string(none);
+                                                  : "no new ones; lasting contacts";
   fmt::print("  {:<22}{} = {}, gravity {:.4g} m/s^2\n", "wall collisions", factors,
              text_of(b.n_dot_dv_y, "m/s^2"), b.gravity);
 }

@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "app/resumed_settings.hpp"
+#include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "io/run_record.hpp"
 #include "io/settings.hpp"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 #include <variant>
 
 namespace riesel::app {
@@ -69,6 +69,17 @@ std::optional<scenarios::RunLength> length_of(const fs::path& point) {
   }
 }
 
+/// The checkpoint from which the run of a point can go on. Nothing if there is none, or if it is
+/// damaged, which the run itself will tell.
+std::optional<io::FoundCheckpoint> checkpoint_of(const fs::path& point) {
+  if (!can_resume(point)) return {};
+  try {
+    return io::find_checkpoint(point);
+  } catch (const io::FileError&) {
+    return {};
+  }
+}
+
 bool has_reached(const scenarios::RunLength& wanted, const fs::path& point,
                  const io::FlowSummary& summary) {
   const double step = summary.time / static_cast<double>(summary.run.steps);
@@ -82,21 +93,37 @@ bool has_reached(const scenarios::RunLength& wanted, const fs::path& point,
 
 Prolongation::Prolongation(const io::Manifest& manifest, const fs::path& sweep,
                            const std::vector<std::string>& names,
-                           std::vector<std::string> overrides)
-    : overrides_(std::move(overrides)) {
-  if (overrides_.empty()) return;
-  reject_overrides_of_the_physics(overrides_);
-  reject_threads(overrides_);
+                           const std::vector<std::string>& overrides) {
+  if (overrides.empty()) return;
+  reject_overrides_of_the_physics(overrides);
+  reject_threads(overrides);
   reject_continuation(manifest, sweep);
   for (const io::ManifestPoint& point : manifest.points) {
     if (!names.empty() && std::ranges::find(names, point.name) == names.end()) continue;
-    const fs::path file = point_directory(sweep, point.name) / point_settings_name;
-    const io::Settings planned = kept_settings(file);
+    const fs::path directory = point_directory(sweep, point.name);
+    if (!obstacle_at(directory).empty()) continue;
+    const io::Settings planned = kept_settings(directory / point_settings_name);
     reject_without_length(planned, sweep);
-    goals_[point.name] = {.planned = scenarios::run_length(planned).at_most,
-                          .wanted = scenarios::run_length(resumed_settings(
-                              io::read_kept_text(file), file.string(), overrides_))};
+    goals_[point.name] = goal_for(directory, planned, overrides);
   }
+}
+
+Prolongation::Goal Prolongation::goal_for(const fs::path& point, const io::Settings& planned,
+                                          const std::vector<std::string>& overrides) {
+  const double planned_length = scenarios::run_length(planned).at_most;
+  if (const auto found = checkpoint_of(point)) {  // its settings may have changed since the plan
+    const io::Checkpoint& checkpoint = found->checkpoint;
+    const io::Settings settings =
+        resumed_settings(checkpoint.settings, found->path.string(), overrides);
+    return {.planned = planned_length,
+            .wanted = resumed_length(settings, checkpoint.state),
+            .changes = overrides};
+  }
+  const fs::path file = point / point_settings_name;
+  return {.planned = planned_length,
+          .wanted = scenarios::run_length(
+              resumed_settings(io::read_kept_text(file), file.string(), overrides)),
+          .changes = changes_to(planned, overrides)};
 }
 
 const Prolongation::Goal* Prolongation::goal_of(const fs::path& point) const {
@@ -105,12 +132,16 @@ const Prolongation::Goal* Prolongation::goal_of(const fs::path& point) const {
 }
 
 RunStanding Prolongation::standing_of(const fs::path& point) const {
-  RunStanding standing = app::standing_of(point);
   const Goal* goal = goal_of(point);
+  io::RunRecord record = io::read_run_record(point);
+  const bool tried_otherwise =
+      goal != nullptr && !record.changes.empty() && record.changes != overrides_for(point);
+  if (tried_otherwise) record.failure.clear();
+  RunStanding standing = app::standing_of(point, record);
   if (standing.status != RunStatus::done || goal == nullptr) return standing;
   const auto result = result_of(point);
   if (!result || has_reached(goal->wanted, point, *result)) return standing;
-  standing.reason = io::read_run_record(point).failure;
+  standing.reason = record.failure;
   if (!can_resume(point))
     standing.reason = "has no checkpoint to go on from; remove its directory to begin anew";
   standing.status = standing.reason.empty() ? RunStatus::interrupted : RunStatus::failed;
@@ -134,7 +165,7 @@ std::vector<std::string> Prolongation::overrides_for(const fs::path& point) cons
   // A shorter goal does not cut short a run that has not reached its plan.
   const bool goes_on =
       goal != nullptr && (goal->wanted.at_most >= goal->planned || result_of(point));
-  return goes_on ? overrides_ : std::vector<std::string>();
+  return goes_on ? goal->changes : std::vector<std::string>();
 }
 
 double Prolongation::part_left(const fs::path& point) const {

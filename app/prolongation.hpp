@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/sweep_directory.hpp"
+#include "io/settings.hpp"
 #include "io/sweep_manifest.hpp"
 #include "scenarios/run_length.hpp"
 
@@ -20,14 +21,16 @@ public:
   /// Nothing goes on.
   Prolongation() = default;
   /// `overrides` ("key=value") apply to the points of `sweep`, a directory, with these `names`; to
-  /// all points if `names` is empty. Throws io::SettingsError for settings that may not change or
-  /// values that they cannot have, UnusableInput for sweeps whose runs cannot go on: those of a
-  /// scenario without run.duration, and those that start from each other's ends.
+  /// all points if `names` is empty. Throws io::SettingsError for settings that may not change, and
+  /// for values that they cannot have in the run of any point, as far as it has come; UnusableInput
+  /// for sweeps whose runs cannot go on: those of a scenario without run.duration, and those that
+  /// start from each other's ends.
   Prolongation(const io::Manifest& manifest, const std::filesystem::path& sweep,
-               const std::vector<std::string>& names, std::vector<std::string> overrides);
+               const std::vector<std::string>& names, const std::vector<std::string>& overrides);
 
   /// As app::standing_of(), except for a point that is done, but not as long as it is to be: it
-  /// counts as interrupted, or as failed if it cannot go on or has failed in trying.
+  /// counts as interrupted, or as failed if it cannot go on or has failed in trying. A failure with
+  /// other overrides than these does not count.
   RunStanding standing_of(const std::filesystem::path& point) const;
 
   /// As refresh(), with these standings; reduces the expected time of each point to what is left.
@@ -44,10 +47,12 @@ private:
   struct Goal {
     double planned;  // s, simulated, at most
     scenarios::RunLength wanted;
+    std::vector<std::string> changes;  // overrides for the run
   };
+  static Goal goal_for(const std::filesystem::path& point, const io::Settings& planned,
+                       const std::vector<std::string>& overrides);
   const Goal* goal_of(const std::filesystem::path& point) const;
 
-  std::vector<std::string> overrides_;
   std::map<std::string, Goal> goals_;  // by name of the point
 };
 

@@ -96,10 +96,11 @@ Report report_of_run(const fs::path& directory) {
 
 SweepResult result_of(const io::ManifestPoint& point, const fs::path& sweep) {
   const fs::path directory = point_directory(sweep, point.name);
+  std::error_code out_of_reach;
   SweepResult result{.summary = std::nullopt,
                      .flaw = "",
                      .directory = point_directory("", point.name).generic_string(),
-                     .has_report = fs::exists(directory / report_name)};
+                     .has_report = fs::exists(directory / report_name, out_of_reach)};
   if (!has_status(point, RunStatus::done)) return result;
   try {
     result.summary = io::read_summary(directory / io::summary_name);

@@ -79,7 +79,8 @@ std::vector<bool> told_beside(const io::Manifest& manifest, std::optional<std::s
   return told;
 }
 
-/// Names and values of the `told` settings, and the branch.
+/// Names and values of the `told` settings, and the branch if the sweep has any: all points have
+/// the same marks.
 Marks marks_of(const io::Manifest& manifest, const io::ManifestPoint& point,
                const std::vector<bool>& told) {
   Marks marks;
@@ -87,7 +88,9 @@ Marks marks_of(const io::Manifest& manifest, const io::ManifestPoint& point,
     if (told[i])
       marks.push_back({.name = io::name_in_section(manifest.varied[i].key),
                        .value = text_of(point.values[i], manifest.varied[i].unit)});
-  if (!point.branch.empty()) marks.push_back({.name = "", .value = point.branch});
+  const bool any_branch = std::ranges::any_of(
+      manifest.points, [](const io::ManifestPoint& other) { return !other.branch.empty(); });
+  if (any_branch) marks.push_back({.name = "", .value = point.branch.empty() ? "-" : point.branch});
   return marks;
 }
 

@@ -1,6 +1,5 @@
 #include "app/commands.hpp"
 #include "app/plain_words.hpp"
-#include "app/report_parts.hpp"
 #include "app/resumed_settings.hpp"
 #include "app/run_flow.hpp"
 #include "app/terminal.hpp"
@@ -10,22 +9,23 @@
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_file.hpp"
-#include "io/summary.hpp"
 #include "io/trajectory_file.hpp"
-#include "scenarios/run_length.hpp"
-#include "scenarios/scenario.hpp"
-#include "scenarios/walls.hpp"
 
 #include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace riesel::app {
 
 namespace {
 
 bool is_another_file_of_a_run(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> of_texts = {".yaml", ".json", ".html", ".txt", ".csv"};
   const std::string name = path.filename().string();
-  return path.extension() == ".yaml" || name == io::run_file_name || name == io::trajectory_name
-         || name == io::summary_name || name == report_name;
+  return std::ranges::find(of_texts, path.extension().string()) != of_texts.end()
+         || name == io::run_file_name || name == io::trajectory_name || name == io::lock_name;
 }
 
 void reject_what_is_no_run(const std::filesystem::path& path) {
@@ -34,7 +34,7 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
   const auto post_mortem = path / post_mortem_name;
   const auto holder = io::DirectoryLock::holder(path);
   if (holder && stopped_before_checkpoint(path))
-    throw UnusableInput(path.string() + ": is in use by " + *holder + "; wait until that ends");
+    throw UnusableInput(path.string() + ": " + io::in_use_by + *holder + "; wait until that ends");
   if (stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "
@@ -97,13 +97,11 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
 
   const io::Settings settings =
       resumed_settings(found.checkpoint.settings, found.path.string(), options.overrides);
-  const scenarios::RunLength length = scenarios::run_length(settings);
   const State& state = found.checkpoint.state;
+  const scenarios::RunLength length = resumed_length(settings, state);
   if (length.at_most < state.time() - state.time_step)
     settings.reject(length.key, fmt::format("the run has come to {:.6g} s already", state.time()),
                     "choose a longer time");
-  scenarios::reject_too_many_steps(settings, length, state.time_step);
-  scenarios::reject_rows_in_step(settings, state);
   const auto damaged = [&](const std::string& flaw) {
     return UnusableInput(found.path.string() + ": is damaged (" + flaw + "); start the run again");
   };

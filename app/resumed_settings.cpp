@@ -4,6 +4,7 @@
 #include "io/settings_given.hpp"
 #include "io/settings_table.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/walls.hpp"
 
 #include <algorithm>
 #include <set>
@@ -46,13 +47,25 @@ void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) 
   }
 }
 
+std::vector<std::string> changes_to(const io::Settings& before,
+                                    std::vector<std::string> overrides) {
+  std::erase_if(overrides,
+                [&](const std::string& each) { return takes_out_nothing(each, before); });
+  return overrides;
+}
+
 io::Settings resumed_settings(const std::string& checkpoint, const std::string& source,
                               const std::vector<std::string>& overrides) {
   const io::SettingsTables& tables = scenarios::settings_tables();
   const io::Settings before = io::Settings::from_text(checkpoint, source, tables);
-  std::vector<std::string> changes = overrides;
-  std::erase_if(changes, [&](const std::string& each) { return takes_out_nothing(each, before); });
-  return io::Settings::from_text(checkpoint, source, tables, changes);
+  return io::Settings::from_text(checkpoint, source, tables, changes_to(before, overrides));
+}
+
+scenarios::RunLength resumed_length(const io::Settings& settings, const State& state) {
+  scenarios::RunLength length = scenarios::run_length(settings);
+  scenarios::reject_too_many_steps(settings, length, state.time_step);
+  scenarios::reject_rows_in_step(settings, state);
+  return length;
 }
 
 }  // namespace riesel::app

@@ -66,7 +66,7 @@ namespace {
 void reject_run_that_begins(const fs::path& path) {
   if (!stopped_before_checkpoint(path)) return;
   if (const auto holder = io::DirectoryLock::holder(path))
-    throw UnusableInput(path.string() + ": is in use by " + *holder
+    throw UnusableInput(path.string() + ": " + io::in_use_by + *holder
                         + "; wait until that ends, or choose another directory with --out");
 }
 

@@ -31,8 +31,8 @@ std::string slurm_script(const io::Manifest& manifest, const std::filesystem::pa
 
 inline constexpr auto slurm_script_name = "slurm.sh";
 
-/// Submits the script with sbatch. Returns the number of the job. Throws std::runtime_error if
-/// sbatch cannot be started or refuses the script.
+/// Submits the script with sbatch. Returns the number of the job; "" if sbatch does not tell it.
+/// Throws std::runtime_error if sbatch cannot be started or refuses the script.
 std::string submit_to_slurm(const std::filesystem::path& script);
 
 }  // namespace riesel::app

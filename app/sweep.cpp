@@ -36,16 +36,32 @@ bool holds(const fs::path& file, const std::string& content) {
   return io::beginning_of(file, content.size() + 1) == content;
 }
 
-/// Writes the directory and the settings of each point, the sweep file and the manifest.
-void write_plan(const SweepPlan& plan, const fs::path& sweep) {
+/// Writes the directory and the settings of a point.
+void write_point(const fs::path& point, const std::string& settings) {
+  io::make_directories(point);
+  const fs::path file = point / point_settings_name;
+  if (!holds(file, settings)) io::write_durably(file, settings);
+}
+
+/// Writes all points, the sweep file and the manifest. Returns whether that was possible for all
+/// points: one that was there before and cannot be written any more is told, and fails later.
+bool write_plan(const SweepPlan& plan, const fs::path& sweep) {
+  bool all_written = true;
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const fs::path point = point_directory(sweep, plan.manifest.points[i].name);
-    io::make_directories(point);
-    const fs::path file = point / point_settings_name;
-    if (!holds(file, plan.settings[i])) io::write_durably(file, plan.settings[i]);
+    const bool was_there = fs::exists(fs::symlink_status(point));
+    try {
+      write_point(point, plan.settings[i]);
+    } catch (const io::FileError& error) {
+      if (!was_there) throw;
+      tell("riesel: {}\n", error.what());
+      all_written = false;
+    }
   }
-  io::write_durably(sweep / sweep_file_name, plan.sweep_file);
+  const fs::path copy = sweep / sweep_file_name;  // somebody may have written notes into it
+  if (!holds(copy, plan.sweep_file)) io::write_durably(copy, plan.sweep_file, io::Previous::keep);
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
+  return all_written;
 }
 
 /// The points of the sweep that was here before; none if its manifest cannot be read, as that is
@@ -60,8 +76,15 @@ std::vector<io::ManifestPoint> points_before(const fs::path& sweep) {
   }
 }
 
+/// Whether a run of the point is going on or has come to anything.
+bool has_begun(const io::ManifestPoint& point, const fs::path& sweep) {
+  if (!has_status(point, RunStatus::failed)) return !has_status(point, RunStatus::waiting);
+  const fs::path directory = point_directory(sweep, point.name);
+  return !obstacle_at(directory).empty() || has_checkpoint(directory);
+}
+
 /// Tells of points that were here and are not in this sweep: their runs stay, but no table lists
-/// them any more. Throws UnusableInput if that holds for all points and some are done.
+/// them any more. Throws UnusableInput if that holds for all points and some have begun.
 void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
   const std::vector<io::ManifestPoint> earlier = points_before(sweep);
   const auto is_gone = [&](const io::ManifestPoint& point) {
@@ -69,9 +92,9 @@ void heed_earlier_sweep(const SweepPlan& plan, const fs::path& sweep) {
            == plan.manifest.points.end();
   };
   const auto gone = std::ranges::count_if(earlier, is_gone);
-  const bool any_done = std::ranges::any_of(
-      earlier, [](const auto& point) { return has_status(point, RunStatus::done); });
-  if (gone > 0 && gone == std::ssize(earlier) && any_done)
+  const bool any_begun =
+      std::ranges::any_of(earlier, [&](const auto& point) { return has_begun(point, sweep); });
+  if (gone > 0 && gone == std::ssize(earlier) && any_begun)
     throw UnusableInput(sweep.string()
                         + ": holds another sweep that has no point in common with this one; choose "
                           "another directory with --out");
@@ -129,8 +152,9 @@ Records records_of_failed(const io::Manifest& manifest, const fs::path& sweep,
   Records records;
   for (const io::ManifestPoint& point : manifest.points) {
     const fs::path directory = point_directory(sweep, point.name);
-    if (prolongation.standing_of(directory).status == RunStatus::failed)
-      records.emplace(directory, io::read_run_record(directory));
+    const io::RunRecord record = io::read_run_record(directory);
+    if (!record.failure.empty() && prolongation.standing_of(directory).status == RunStatus::failed)
+      records.emplace(directory, record);
   }
   return records;
 }
@@ -198,7 +222,8 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongati
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);
   const std::string job = submitted_job(manifest, sweep, prolongation, options.retry_failed);
-  fmt::print("{}: submitted as job {}; see '{}'\n", sweep.string(), job, call_of("status", sweep));
+  fmt::print("{}: submitted{}; see '{}'\n", sweep.string(), job.empty() ? "" : " as job " + job,
+             call_of("status", sweep));
   return exit_done;
 }
 
@@ -222,20 +247,22 @@ int run_here(io::Manifest& manifest, const fs::path& sweep, const io::DirectoryL
   return status;
 }
 
-/// The plan of a sweep that was begun, with its manifest only, as all files of it must be there.
-/// Throws UnusableInput if one is missing.
+/// The plan of a sweep that was begun, with its manifest only, as all files of it must be there,
+/// except those of points out of reach, which fail. Throws UnusableInput if one is missing.
 SweepPlan plan_in(const fs::path& sweep) {
   SweepPlan plan{.manifest = manifest_in(sweep), .settings = {}, .sweep_file = {}};
   std::vector<fs::path> files = {sweep / sweep_file_name};
-  for (const io::ManifestPoint& point : plan.manifest.points)
-    files.push_back(point_directory(sweep, point.name) / point_settings_name);
+  for (const io::ManifestPoint& point : plan.manifest.points) {
+    const fs::path directory = point_directory(sweep, point.name);
+    if (obstacle_at(directory).empty()) files.push_back(directory / point_settings_name);
+  }
   for (const fs::path& file : files) {
     if (fs::exists(file) && !fs::is_regular_file(file))
       throw UnusableInput(file.string() + ": is no regular file; remove it");
     if (!fs::exists(file))
       throw UnusableInput(file.string() + ": is missing; call '" + call_of("sweep")
                           + "' with the sweep file, which makes it anew, and --out "
-                          + io::in_quotes(sweep.string()));
+                          + io::path_argument(sweep));
   }
   return plan;
 }
@@ -250,11 +277,17 @@ void reject_options_in_vain(const SweepOptions& options, bool begun) {
         "file, or write the setting into the file, below 'set:'");
 }
 
-/// The script for Slurm has a line for each option.
-void reject_line_breaks(const SlurmOptions& options) {
-  for (const std::string& option : options.for_sbatch)
-    if (option.find_first_of("\r\n") != std::string::npos)
-      throw UnusableInput("--sbatch: has a line break; give each option by an --sbatch of its own");
+bool has_line_break(const std::string& text) {
+  return text.find_first_of("\r\n") != std::string::npos;
+}
+
+/// The script for Slurm has a line for each option, among them the name of the directory.
+void reject_line_breaks(const SlurmOptions& options, const fs::path& sweep) {
+  if (std::ranges::any_of(options.for_sbatch, has_line_break))
+    throw UnusableInput("--sbatch: has a line break; give each option by an --sbatch of its own");
+  if (has_line_break(fs::absolute(sweep).string()))
+    throw UnusableInput("--slurm: the path of the sweep has a line break, which no script for "
+                        "Slurm can hold; choose another directory with --out");
 }
 
 }  // namespace
@@ -262,14 +295,15 @@ void reject_line_breaks(const SlurmOptions& options) {
 int sweep(const SweepOptions& options) {
   const bool begun = fs::is_directory(options.file);
   reject_options_in_vain(options, begun);
-  reject_line_breaks(options.slurm);
   const fs::path directory = begun               ? options.file
                              : options.directory ? *options.directory
                                                  : place_named_after(options.file, "sweeps");
+  if (options.to_slurm) reject_line_breaks(options.slurm, directory);
   SweepPlan plan = begun ? plan_in(directory) : plan_sweep(options.file);
   const Prolongation prolongation(plan.manifest, directory, {}, options.overrides);
   const int jobs = options.jobs.value_or(cores());
   reject_directory_of_run(directory);
+  if (begun) reject_changed_inputs(plan.manifest, directory, {});
   if (!begun) reject_files_of_others(plan, directory);
   if (options.dry_run) {
     if (!begun) heed_earlier_sweep(plan, directory);
@@ -278,11 +312,10 @@ int sweep(const SweepOptions& options) {
   // Asked before anything is written.
   const std::size_t most_tasks = options.to_slurm ? required_most_tasks() : 0;
   const io::DirectoryLock locked = lock(directory);
-  if (!begun) {
-    heed_earlier_sweep(plan, directory);
-    write_plan(plan, directory);
-  }
+  if (!begun) heed_earlier_sweep(plan, directory);
+  const bool all_written = begun || write_plan(plan, directory);
   if (options.prepare_only) {
+    if (!all_written) return exit_failed;
     fmt::print("{}: {} points are ready for '{}'\n", directory.string(),
                plan.manifest.points.size(), call_of("sweep-task"));
     return exit_done;

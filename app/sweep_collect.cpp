@@ -76,8 +76,11 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const io::ManifestPoint& point = manifest.points[row];
     // Whatever the status: a point that has failed to go on keeps its earlier result.
-    const fs::path summary = point_directory(sweep, point.name) / io::summary_name;
-    if (!fs::exists(summary) || misplaced.contains(point.name)) continue;
+    const fs::path directory = point_directory(sweep, point.name);
+    const bool in_reach = obstacle_at(directory).empty();
+    all_taken = all_taken && in_reach;
+    const fs::path summary = directory / io::summary_name;
+    if (!in_reach || !fs::exists(summary) || misplaced.contains(point.name)) continue;
     try {
       add_results(summary, row, columns_of_plan, table);
     } catch (const io::FileError& error) {  // go on with the other points
@@ -94,9 +97,9 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
 int sweep_collect(const fs::path& directory) {
   io::Manifest manifest = manifest_in(directory);
   refresh(manifest, directory);
-  write_table(manifest, directory);
+  const bool all_taken = write_table(manifest, directory);
   print_status(manifest, directory);
-  return exit_done;
+  return all_taken ? exit_done : exit_failed;
 }
 
 }  // namespace riesel::app

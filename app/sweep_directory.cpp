@@ -2,16 +2,18 @@
 
 #include "app/cell_text.hpp"
 #include "app/commands.hpp"
+#include "app/plain_words.hpp"
 #include "app/resumed_settings.hpp"
 #include "app/run_directory.hpp"
 #include "io/checkpoint.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
+#include "io/file_error.hpp"
 #include "io/run_file.hpp"
-#include "io/run_record.hpp"
 #include "io/settings_table.hpp"
 #include "io/settings_text.hpp"
 #include "io/summary.hpp"
+#include "io/sweep_points.hpp"
 #include "io/trajectory_file.hpp"
 #include "io/whole_file.hpp"
 #include "scenarios/scenario.hpp"
@@ -21,6 +23,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <system_error>
 #include <vector>
 
 namespace riesel::app {
@@ -46,7 +49,8 @@ std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
 
 /// "seed is 2 in its effective.yaml, not 1": a setting in which the run in the directory of the
 /// point is not what was planned; "" if there is none, or if its settings cannot be read. What a
-/// run that goes on may change does not count, nor do paths, which count by what they lead to.
+/// run that goes on may change does not count, nor do paths, which count by what they lead to, nor
+/// the start of a chain where it is not at its first point.
 std::string difference_from_plan(const io::ManifestPoint& point,
                                  const std::vector<io::VariedSetting>& varied,
                                  const fs::path& sweep) {
@@ -60,6 +64,7 @@ std::string difference_from_plan(const io::ManifestPoint& point,
       const std::string& key = varied[i].key;
       const auto row = std::ranges::find(table, key, &io::Setting::key);
       if (row == table.end() || row->names_content || may_change(key)) continue;
+      if (!point.parent.empty() && io::is_of_start(key)) continue;
       const io::Cell found = io::cell_of(settings, key);
       if (found != point.values[i])
         return fmt::format("{} is {} in its {}, not {}", key, text_of(found),
@@ -114,8 +119,19 @@ io::Manifest manifest_in(const fs::path& sweep) {
   return as_input([&] { return io::read_manifest(sweep); });
 }
 
+std::string obstacle_at(const fs::path& point) {
+  std::error_code error;
+  if (fs::status(point / point_settings_name, error).type() != fs::file_type::none) return "";
+  return io::system_failure(point, "cannot be reached", error.value()).what();
+}
+
 RunStanding standing_of(const fs::path& point) {
-  const io::RunRecord record = io::read_run_record(point);
+  return standing_of(point, io::read_run_record(point));
+}
+
+RunStanding standing_of(const fs::path& point, const io::RunRecord& record) {
+  if (const std::string obstacle = obstacle_at(point); !obstacle.empty())
+    return {.status = RunStatus::failed, .attempts = 0, .reason = obstacle};
   const auto with = [&](RunStatus status, const std::string& reason = "") {
     return RunStanding{.status = status, .attempts = record.attempts, .reason = reason};
   };
@@ -158,6 +174,30 @@ std::set<std::string> note_misplaced(io::Manifest& manifest, const fs::path& swe
                                point_directory(sweep, point.name).string(), difference);
   }
   return misplaced;
+}
+
+std::string changed_input(const io::ManifestPoint& point) {
+  for (const auto& [file, content] : point.inputs)
+    if (io::hash_of_content(file) != content)
+      return file + ": is not as it was when the sweep was planned; restore it, or call '"
+             + call_of("sweep") + "' with the sweep file and another --out";
+  return "";
+}
+
+void reject_changed_inputs(const io::Manifest& manifest, const fs::path& sweep,
+                           const std::vector<std::string>& names) {
+  std::set<std::map<std::string, std::string>> unchanged;  // each is read once
+  for (const io::ManifestPoint& point : manifest.points) {
+    if (!names.empty() && std::ranges::find(names, point.name) == names.end()) continue;
+    const fs::path directory = point_directory(sweep, point.name);
+    if (point.inputs.empty() || unchanged.contains(point.inputs)) continue;
+    const RunStatus status = standing_of(directory).status;
+    const bool is_open = status == RunStatus::waiting || status == RunStatus::interrupted;
+    if (!is_open || can_resume(directory)) continue;
+    const std::string change = changed_input(point);
+    if (!change.empty()) throw UnusableInput(change);
+    unchanged.insert(point.inputs);
+  }
 }
 
 bool can_resume(const fs::path& point) {

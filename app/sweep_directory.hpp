@@ -2,11 +2,13 @@
 // directory of its own below points/, which says how far the point has come.
 #pragma once
 
+#include "io/run_record.hpp"
 #include "io/sweep_manifest.hpp"
 
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace riesel::app {
 
@@ -40,8 +42,14 @@ inline constexpr auto point_settings_name = "point.yaml";
 /// The manifest of the sweep in this directory. Throws UnusableInput if it cannot be read.
 io::Manifest manifest_in(const std::filesystem::path& sweep);
 
-/// How far the point in this directory has come.
+/// Why the files of a point cannot be reached, as for want of permission; "" if they can, or if
+/// there are none.
+std::string obstacle_at(const std::filesystem::path& point);
+
+/// How far the point in this directory has come. One that cannot be reached counts as failed.
 RunStanding standing_of(const std::filesystem::path& point);
+/// The same, with another record than that in the directory.
+RunStanding standing_of(const std::filesystem::path& point, const io::RunRecord& record);
 
 /// Brings status, attempts and reason of each point of the manifest up to date from the
 /// directories.
@@ -53,6 +61,15 @@ bool has_chains(const io::Manifest& manifest);
 /// Marks points as failed whose directories hold the results of other settings than theirs, as
 /// after a mistake in moving directories. Returns their names.
 std::set<std::string> note_misplaced(io::Manifest& manifest, const std::filesystem::path& sweep);
+
+/// Why a run of the point that begins now would not be the planned one, as a file that it reads has
+/// changed; "" if none has.
+std::string changed_input(const io::ManifestPoint& point);
+
+/// Throws UnusableInput if that holds for any point, among those with these `names` (all if empty),
+/// that has yet to begin.
+void reject_changed_inputs(const io::Manifest& manifest, const std::filesystem::path& sweep,
+                           const std::vector<std::string>& names);
 
 /// Whether a run of the point can go on from a checkpoint.
 bool can_resume(const std::filesystem::path& point);

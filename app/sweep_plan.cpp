@@ -123,6 +123,7 @@ io::ManifestPoint row_of(const io::SweepPoint& point, const std::vector<io::Swee
                            .branch = point.branch,
                            .leg = point.leg,
                            .values = {},
+                           .inputs = point.inputs,
                            .expected_seconds = cost.seconds,
                            .most_threads = cost.most_threads,
                            .status = to_string(RunStatus::waiting),
@@ -176,13 +177,19 @@ void reject_seeds_in_vain(const io::SweepFile& sweep, const std::map<std::string
                             "leave it out");
 }
 
-std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep) {
-  const io::SettingsTable& table = scenarios::settings_tables().at(sweep.scenario);
+/// The unit that a setting has in all points with a value; empty if it is not the same in all.
+std::string common_unit(const std::string& key, const std::vector<io::SweepPoint>& points) {
+  std::set<std::string> units;
+  for (const io::SweepPoint& point : points)
+    if (point.settings.has(key)) units.insert(point.settings.unit(key));
+  return units.size() == 1 ? *units.begin() : "";
+}
+
+std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep,
+                                               const std::vector<io::SweepPoint>& points) {
   std::vector<io::VariedSetting> varied;
   for (const std::string& key : io::varied_keys(sweep))
-    varied.push_back({key, std::find_if(table.begin(), table.end(), [&](auto& row) {
-                             return row.key == key;
-                           })->unit});
+    varied.push_back({key, common_unit(key, points)});
   return varied;
 }
 
@@ -197,7 +204,7 @@ SweepPlan plan_sweep(const std::filesystem::path& file) {
 
   SweepPlan plan;
   plan.sweep_file = sweep.text;
-  plan.manifest.varied = varied_settings(sweep);
+  plan.manifest.varied = varied_settings(sweep, points);
   const std::map<std::string, Cost> costs = costs_of(points);
   reject_seeds_in_vain(sweep, costs);
   std::set<std::tuple<std::string, std::string, std::string>> seen;

@@ -9,6 +9,7 @@
 #include "app/run_directory.hpp"
 #include "app/terminal.hpp"
 #include "app/walltime.hpp"
+#include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/run_record.hpp"
@@ -18,13 +19,17 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -38,11 +43,13 @@ using namespace std::chrono_literals;
 
 constexpr auto between_looks = 10ms;
 constexpr auto between_manifests = 2s;
-constexpr int most_starts = 3;  // of one run in one sweep, if signals keep stopping it
+constexpr int most_starts = 3;       // of one run in one sweep, if signals keep stopping it
+constexpr int most_collisions = 20;  // of a run with others that have its directory for a moment
 constexpr auto log_name = "log.txt";
 
 /// The run of one directory; equal points share it.
 struct Job {
+  const io::ManifestPoint* point = nullptr;
   std::string name;
   fs::path directory;
   Job* parent = nullptr;
@@ -51,7 +58,7 @@ struct Job {
   int most_threads = 1;
   RunStatus status = RunStatus::waiting;
   std::string reason;  // why it failed
-  int starts = 0;
+  int starts = 0, collisions = 0;
   std::unique_ptr<ChildProcess> process;
   Clock::time_point started = {};
   std::uintmax_t log_begin = 0;  // bytes of the log before this start
@@ -68,10 +75,11 @@ std::string complaint_in(const fs::path& log, std::uintmax_t begin) {
   return complaint;
 }
 
-/// By somebody or something outside of it, so that it can go on.
+/// By somebody or something outside of it, such as a limit or a batch system, so that it can go on.
 bool was_ended_from_outside(const ProcessEnd& end) {
+  constexpr std::array from_outside = {SIGINT, SIGTERM, SIGHUP, SIGKILL, SIGXCPU, SIGUSR1, SIGUSR2};
   const int by_signal = end.signal != 0 ? end.signal : end.status - 128;
-  return by_signal == SIGINT || by_signal == SIGTERM || by_signal == SIGHUP || by_signal == SIGKILL;
+  return std::ranges::find(from_outside, by_signal) != from_outside.end();
 }
 
 class Runner {
@@ -86,6 +94,13 @@ public:
     }
     order_by_urgency();
   }
+
+  /// If this does not end by itself, all runs are to stop, and none is to wait for the others.
+  ~Runner() { send_to_all(SIGTERM); }
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+  Runner(Runner&&) = delete;
+  Runner& operator=(Runner&&) = delete;
 
   int run() {
     catch_interrupts();
@@ -110,6 +125,7 @@ private:
   void add(const io::ManifestPoint& point) {
     if (by_name_.contains(point.name)) return;
     auto job = std::make_unique<Job>();
+    job->point = &point;
     job->name = point.name;
     job->directory = point_directory(sweep_, point.name);
     if (const auto parent = by_name_.find(point.parent); parent != by_name_.end())
@@ -129,9 +145,11 @@ private:
     job.reason = standing.reason;
   }
 
-  /// A point that has a result, but no checkpoint to go on from, must not be started again.
+  /// Not if it is out of reach; and if it has a result, but no checkpoint to go on from, it must
+  /// not be started again.
   static bool can_begin(const Job& job) {
-    return can_resume(job.directory) || !fs::exists(job.directory / io::summary_name);
+    return obstacle_at(job.directory).empty()
+           && (can_resume(job.directory) || !fs::exists(job.directory / io::summary_name));
   }
 
   void order_by_urgency() {
@@ -178,7 +196,18 @@ private:
     return std::clamp(options_.cores / std::max(1, side_by_side), 1, job.most_threads);
   }
 
+  /// A point that cannot be started fails alone, but not for want of processes, which all need.
   void start(Job& job) {
+    try {
+      start_process(job);
+    } catch (const NoProcess&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      fail_unless_in_use(job, error.what());
+    }
+  }
+
+  void start_process(Job& job) {
     const int threads = threads_for(job);
     look_at(job);
     const bool in_vain = job.status == RunStatus::failed && !options_.retry_failed;
@@ -189,18 +218,24 @@ private:
     // A run takes its settings from a pipe, too, and would wait for its writer.
     if (!goes_on && fs::exists(settings) && !fs::is_regular_file(settings))
       return fail(job, settings.string() + ": is no regular file; remove it");
+    if (const std::string change = goes_on ? "" : changed_input(*job.point); !change.empty())
+      return fail(job, change);
     if (!goes_on && !cleared(job)) return;
-    io::RunRecord record = io::read_run_record(job.directory);
-    io::write_run_record(job.directory, {.attempts = record.attempts + 1, .failure = ""});
+    const std::vector<std::string> changes = options_.prolongation.overrides_for(job.directory);
+    const int before = io::read_run_record(job.directory).attempts;
+    const int attempts = before < std::numeric_limits<int>::max() ? before + 1 : before;
+    io::write_run_record(job.directory, {.attempts = attempts, .failure = "", .changes = changes});
 
     const std::string directory = job.directory.string();
     std::vector<std::string> arguments = {"resume", directory};
     if (!goes_on) arguments = {"run", settings.string(), "--out", directory};
     arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
-    for (const std::string& setting : options_.prolongation.overrides_for(job.directory))
+    for (const std::string& setting : changes)
       arguments.insert(arguments.end(), {"--set", setting});
     const auto log = job.directory / log_name;
-    job.log_begin = fs::exists(log) ? fs::file_size(log) : 0;
+    std::error_code no_log;
+    const std::uintmax_t log_size = fs::file_size(log, no_log);
+    job.log_begin = no_log ? 0 : log_size;
     job.process = std::make_unique<ChildProcess>(arguments, log);
     ++running_;
     job.started = Clock::now();
@@ -234,7 +269,17 @@ private:
                 call_of("sweep", sweep_));
       return;
     }
-    fail(job, reason_of(job, *end));
+    fail_unless_in_use(job, reason_of(job, *end));
+  }
+
+  /// Another process, such as 'riesel report', may have the directory just when the run begins, and
+  /// have left it since: then there is nothing wrong with the run.
+  void fail_unless_in_use(Job& job, const std::string& reason) {
+    const bool in_use = reason.find(io::in_use_by) != std::string::npos;
+    if (!in_use || job.collisions == most_collisions) return fail(job, reason);
+    ++job.collisions;
+    --job.starts;
+    job.status = RunStatus::interrupted;
   }
 
   static std::string reason_of(const Job& job, const ProcessEnd& end) {
@@ -244,12 +289,15 @@ private:
   }
 
   void fail(Job& job, const std::string& reason) {
-    io::RunRecord record = io::read_run_record(job.directory);
-    record.failure = reason;
-    io::write_run_record(job.directory, record);
     job.status = RunStatus::failed;
     job.reason = reason;
     tell_of("point {} failed: {}", job, reason);
+    try {
+      io::RunRecord record = io::read_run_record(job.directory);
+      record.failure = reason;
+      io::write_run_record(job.directory, record);
+    } catch (const io::FileError&) {  // the next sweep has to try again
+    }
   }
 
   template <class... Parts>
@@ -273,6 +321,10 @@ private:
     const int signal = ending_signal();
     if (signal == 0 || passed_on_) return;
     passed_on_ = true;
+    send_to_all(signal);
+  }
+
+  void send_to_all(int signal) const {
     for (const auto& job : jobs_)
       if (job->process) job->process->send(signal);
   }

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -40,6 +41,15 @@ std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Ma
   return {point.name};
 }
 
+/// `manifest`: as run_points() has left it, which knows failures that could not be recorded.
+RunStanding standing_after(const std::string& name, const io::Manifest& manifest,
+                           const fs::path& sweep, const Prolongation& prolongation) {
+  const auto point = std::ranges::find(manifest.points, name, &io::ManifestPoint::name);
+  if (has_status(*point, RunStatus::failed))
+    return {.status = RunStatus::failed, .attempts = point->attempts, .reason = point->reason};
+  return prolongation.standing_of(point_directory(sweep, name));
+}
+
 }  // namespace
 
 int sweep_task(const SweepTaskOptions& options) {
@@ -47,6 +57,7 @@ int sweep_task(const SweepTaskOptions& options) {
   const std::vector<std::string> names = names_for(options, manifest);
   if (names.empty()) return exit_done;  // there are more parts than chains of points
   const Prolongation prolongation(manifest, options.directory, names, options.overrides);
+  reject_changed_inputs(manifest, options.directory, names);
   const int status = run_points(manifest, options.directory, names,
                                 {.jobs = 1,
                                  .cores = options.threads.value_or(cores()),
@@ -54,7 +65,7 @@ int sweep_task(const SweepTaskOptions& options) {
                                  .max_walltime = options.max_walltime,
                                  .prolongation = prolongation});
   for (const std::string& name : names) {
-    const RunStanding standing = prolongation.standing_of(point_directory(options.directory, name));
+    const RunStanding standing = standing_after(name, manifest, options.directory, prolongation);
     fmt::print("point {}: {}{}{}\n", name, to_string(standing.status),
                standing.reason.empty() ? "" : ": ", standing.reason);
   }

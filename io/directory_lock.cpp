@@ -20,7 +20,6 @@
 namespace riesel::io {
 namespace {
 
-constexpr auto lock_name = ".lock";
 constexpr auto cannot_be_locked = "the directory cannot be locked";
 
 /// Includes the host: on a network file system the process may run elsewhere.
@@ -84,7 +83,7 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature s
   if (error_number != EWOULDBLOCK) {
     throw system_failure(directory, cannot_be_locked, error_number);
   }
-  throw FileError(directory, "is in use by " + holder,
+  throw FileError(directory, in_use_by + holder,
                   "wait until that ends, or choose another directory");
 }
 

@@ -22,6 +22,12 @@ struct FileIdentity {
 /// find nothing to do should change no file.
 enum class Signature { now, later };
 
+/// The file in the directory that is locked.
+inline constexpr auto lock_name = ".lock";
+
+/// What messages say between a directory that another process has locked and that process.
+inline constexpr auto in_use_by = "is in use by ";
+
 /// Holds the lock of a directory as long as it lives.
 class DirectoryLock {
 public:

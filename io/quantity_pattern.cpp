@@ -24,35 +24,48 @@ std::string names_of_unit(const std::string& unit) {
   return found == known.end() ? "" : "(?:" + found->second + ")";
 }
 
-/// Other units of the same dimension.
-std::string aliases_of_unit(const std::string& unit) {
-  if (unit == "1/s") return "|" + prefix + "(?:Hz|hertz)";
-  if (unit == "N/m") return fmt::format("|{}/{}\\^?2", names_of_unit("kg"), names_of_unit("s"));
-  return "";
+/// An exponent, as in m^2, m2, m² and, for 1, m.
+std::string exponent(const std::string& power) {
+  if (power == "2") return "(?:\\^?2|\u00b2)";
+  return power == "1" ? "(?:\\^?1|\u00b9)?" : "\\^?" + power;
 }
 
 /// For "N/m", "m/s^2", "1/s", one word on each side of the slash; empty for anything else.
 std::string pattern_of_quotient(const std::string& unit) {
   const auto slash = unit.find('/');
   const std::string above = unit.substr(0, slash);
-  std::string below = unit.substr(slash + 1), power;
+  std::string below = unit.substr(slash + 1), power = "1";
   if (const auto sign = below.find('^'); sign != std::string::npos) {
     power = below.substr(sign + 1);
     below.resize(sign);
   }
-  const std::string numerator = above == "1" ? "1" : names_of_unit(above);
-  const std::string denominator = names_of_unit(below);
-  if (numerator.empty() || denominator.empty()) return "";
-  const std::string exponent = power.empty() ? "" : "\\^?" + power;
-  return fmt::format("{0} ?/ ?{1}{2}|{3}{1}\\^?-{4}", numerator, denominator, exponent,
-                     above == "1" ? "" : numerator + "[ .*]", power.empty() ? "1" : power);
+  const std::string one = exponent("1"), denominator = names_of_unit(below);
+  const std::string numerator = above == "1" ? "1" : names_of_unit(above) + one;
+  if (numerator == one || denominator.empty()) return "";
+  const std::string twice =
+      power == "2" ? fmt::format("|{0} ?/ ?{1}{2} ?/ ?{1}{2}", numerator, denominator, one) : "";
+  return fmt::format("{} ?/ ?{}{}|{}{}\\^?-{}{}", numerator, denominator, exponent(power),
+                     above == "1" ? "" : numerator + "[ .*]", denominator, power, twice);
+}
+
+/// The usual ways to write a unit and others of its dimension; empty if this file knows none.
+std::string pattern_of_known_unit(const std::string& unit) {
+  if (unit.find('/') == std::string::npos) {
+    const std::string names = names_of_unit(unit);
+    return names.empty() ? "" : names + exponent("1");
+  }
+  const std::string quotient = pattern_of_quotient(unit);
+  if (unit == "1/s") return quotient + "|" + prefix + "(?:Hz|hertz)";
+  if (unit == "m/s^2") return quotient + "|" + pattern_of_quotient("N/kg");
+  if (unit == "N/m")
+    return quotient + "|" + pattern_of_quotient("kg/s^2") + "|" + pattern_of_quotient("J/m^2");
+  return quotient;
 }
 
 std::string pattern_of_unit(const std::string& unit) {
   if (unit == "1") return "%|percent|ppm";
-  const std::string pattern =
-      unit.find('/') == std::string::npos ? names_of_unit(unit) : pattern_of_quotient(unit);
-  return pattern.empty() ? "\\S.*" : pattern + aliases_of_unit(unit);
+  const std::string pattern = pattern_of_known_unit(unit);
+  return pattern.empty() ? "\\S.*" : pattern;
 }
 
 }  // namespace

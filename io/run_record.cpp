@@ -17,7 +17,9 @@ constexpr auto record_name = "attempts.json";
 RunRecord read_run_record(const std::filesystem::path& directory) {
   try {
     const auto json = read_json(directory / record_name, {});
-    return {.attempts = integer_of<int>(json.at("attempts")), .failure = json.at("failure")};
+    return {.attempts = integer_of<int>(json.at("attempts")),
+            .failure = json.at("failure"),
+            .changes = json.value("changes", std::vector<std::string>())};
   } catch (const std::exception&) {
     return {};
   }
@@ -26,7 +28,8 @@ RunRecord read_run_record(const std::filesystem::path& directory) {
 void write_run_record(const std::filesystem::path& directory, const RunRecord& record) {
   const Json json = {{"riesel_version", std::string(build_info().version)},
                      {"attempts", record.attempts},
-                     {"failure", record.failure}};
+                     {"failure", record.failure},
+                     {"changes", record.changes}};
   write_durably(directory / record_name, text_of(json));
 }
 

@@ -7,12 +7,15 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace riesel::io {
 
 struct RunRecord {
   int attempts = 0;     ///< starts and resumes
   std::string failure;  ///< the reason; empty if the last attempt did not fail
+  /// Changes of settings ("key=value") with which the last attempt was made.
+  std::vector<std::string> changes = {};
 };
 
 /// The record of the run in `directory`; no attempts if there is none or it cannot be read.

@@ -130,6 +130,10 @@ std::string Settings::written(const std::string& key) const {
   return has(key) ? io::written(*contents_->find(key)) : "";
 }
 
+std::string Settings::unit(const std::string& key) const {
+  return has(key) ? contents_->find(key)->row.unit : "";
+}
+
 const std::string& Settings::source_text() const { return contents_->source_text; }
 
 }  // namespace riesel::io

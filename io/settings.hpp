@@ -77,6 +77,10 @@ public:
   /// The value of a key of any kind as effective.yaml writes it; empty if it has none.
   std::string written(const std::string& key) const;
 
+  /// The SI unit of a key's value, "1" for pure numbers; empty if it has none, or no value. It may
+  /// depend on other settings, as that of a stiffness on the contact law.
+  std::string unit(const std::string& key) const;
+
   /// The file verbatim, without the overrides.
   const std::string& source_text() const;
 

@@ -35,6 +35,15 @@ std::string in_sections(const std::string& key) {
   return fmt::format("{}: {{{}}}", key.substr(0, dot), in_sections(key.substr(dot + 1)));
 }
 
+/// What to do about a file without the key `row`, that of the scenario.
+std::string remedy_without_scenario(const YamlNode& file, const Setting& row) {
+  if (find_entry(file, "base") != nullptr) return "this is a sweep file: use 'riesel sweep'";
+  for (const auto& entry : file.entries)
+    if (nearest_name(entry.key, {row.key}))
+      return fmt::format("write '{}' instead of '{}'", row.key, entry.key);
+  return fmt::format("add '{}:' with {}", row.key, expectation(row));
+}
+
 /// The scenario decides which table applies, so it is read before anything else is checked.
 std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& overrides,
                           const SettingsTables& tables) {
@@ -48,11 +57,8 @@ std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& ov
     }
   }
   if (node == nullptr) {
-    const bool is_sweep =
-        std::ranges::find(file.entries, "base", &YamlEntry::key) != file.entries.end();
     throw SettingsError({file.place.source, 1, 1}, row.key, "is missing",
-                        is_sweep ? "this is a sweep file: use 'riesel sweep'"
-                                 : "add 'scenario:' with " + expectation(row));
+                        remedy_without_scenario(file, row));
   }
   return std::get<std::string>(read_value(row, *node));
 }

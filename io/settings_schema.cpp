@@ -108,7 +108,8 @@ Json condition(const When& when, const SettingsTable& table) {
   return {{"allOf", Json::array({own, condition(*row->only_when, table)})}};
 }
 
-/// The names in a section, or at the top level of a file, for completion.
+/// The names in a section, or at the top level of a file, with the values that they may have under
+/// any conditions.
 Json section(const SettingsTable& table, const std::string& path) {
   Json properties = Json::object();
   for (const std::string& part : names_of(table, path)) {
@@ -117,10 +118,10 @@ Json section(const SettingsTable& table, const std::string& path) {
       properties[part] = section(table, key);
       continue;
     }
-    const auto rows = std::ranges::count(table, key, &Setting::key);
-    const Setting& row = *std::ranges::find(table, key, &Setting::key);
-    if (rows == 1) properties[part] = described(row);
-    if (rows > 1) properties[part] = {{"description", row.doc}};  // the rest by conditions
+    std::vector<Json> values;
+    for (const Setting& row : table)
+      if (row.key == key) values.push_back(described(row));
+    properties[part] = values.size() == 1 ? values.front() : Json{{"anyOf", values}};
   }
   return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
 }
@@ -175,9 +176,11 @@ Json file_schema(const SettingsTables& tables) {
           {"allOf", choices}};
 }
 
-Json definitions(const SettingsTables& tables) {
+/// The schema of each scenario, which `of` makes of its table.
+template <class Of>
+Json definitions(const SettingsTables& tables, Of of) {
   Json all = Json::object();
-  for (const auto& [name, table] : tables) all[name] = scenario_schema(table);
+  for (const auto& [name, table] : tables) all[name] = of(table);
   return all;
 }
 
@@ -200,13 +203,37 @@ Json overrides(const SettingsTables& tables, Of of) {
   return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
 }
 
-Json value_or_nothing(const Setting& row) {
-  return {{"anyOf", {value_of(row), {{"type", "null"}}}}};
+Json nothing() { return {{"type", "null"}}; }
+
+Json value_or_nothing(const Setting& row) { return {{"anyOf", {value_of(row), nothing()}}}; }
+
+/// For set and branches, which may take out whole sections, too.
+Json changes(const SettingsTables& tables) {
+  Json all = overrides(tables, value_or_nothing);
+  for (const auto& [name, table] : tables)
+    for (const Setting& row : table)
+      for (std::string section = section_of(row.key); !section.empty();
+           section = section_of(section))
+        all["properties"][section] = nothing();
+  return all;
 }
 
 Json values_along(const Setting& row) {
-  const Json list = list_of(value_of(row));
+  const Json list = list_of(value_or_nothing(row));
   return row.kind == Kind::number ? Json{{"anyOf", {list, span_of(row)}}} : list;
+}
+
+Json axis_schema(const SettingsTables& tables) {
+  Json axis = overrides(tables, values_along);
+  axis["minProperties"] = 1;
+  return axis;
+}
+
+Json seeds_schema(const SettingsTables& tables) {
+  const SettingsTable& any = tables.begin()->second;
+  const Setting& seed = *std::ranges::find(any, "seed", &Setting::key);
+  return {{"anyOf", {in_range("integer", between(1, most_seeds)), list_of(value_of(seed))}},
+          {"description", "A list of seeds, or how many: 3 stands for 1, 2 and 3."}};
 }
 
 }  // namespace
@@ -214,16 +241,17 @@ Json values_along(const Setting& row) {
 std::string settings_schema(const SettingsTables& tables) {
   Json schema = head("Settings of riesel");
   schema.update(file_schema(tables));
-  schema["definitions"] = definitions(tables);
+  schema["definitions"] = definitions(tables, scenario_schema);
   return schema.dump(1) + "\n";
 }
 
 std::string sweep_schema(const SettingsTables& tables) {
   Json schema = head("A sweep of riesel");
-  Json all = definitions(tables);
+  // What the base lacks, set, axes and branches may give: whether it is complete is not asked.
+  Json all = definitions(tables, [](const SettingsTable& table) { return section(table, ""); });
   all["settings"] = file_schema(tables);
-  all["overrides"] = overrides(tables, value_or_nothing);
-  all["axis"] = overrides(tables, values_along);
+  all["overrides"] = changes(tables);
+  all["axis"] = axis_schema(tables);
   const Json axis = {{"$ref", "#/definitions/axis"}};
   const Json set = {{"$ref", "#/definitions/overrides"}};
   schema.update(Json{
@@ -237,12 +265,11 @@ std::string sweep_schema(const SettingsTables& tables) {
          {{"anyOf", {axis, list_of(axis)}},
           {"description",
            "Settings that vary, each with its values; those in one list item vary together."}}},
-        {"seeds",
-         {{"anyOf", {in_range("integer", between(1, most_seeds)), list_of({{"type", "integer"}})}},
-          {"description", "A list of seeds, or how many: 3 stands for 1, 2 and 3."}}},
+        {"seeds", seeds_schema(tables)},
         {"branches",
          {{"type", "object"},
           {"minProperties", 1},
+          {"propertyNames", {{"minLength", 1}}},
           {"additionalProperties", set},
           {"description", "Named sets of overrides."}}},
         {"continue_along",

@@ -10,4 +10,9 @@ std::string in_quotes(const std::string& word) {
   return quoted + "'";
 }
 
+std::string path_argument(const std::filesystem::path& path) {
+  const std::string word = path.string();
+  return in_quotes(word.starts_with('-') ? "./" + word : word);
+}
+
 }  // namespace riesel::io

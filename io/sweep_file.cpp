@@ -82,6 +82,10 @@ std::vector<SweepBranch> read_branches(const YamlNode& node) {
   }
   std::vector<SweepBranch> branches;
   for (const auto& entry : node.entries) {
+    if (entry.key.empty()) {
+      throw SettingsError(entry.key_place, "branches", "a branch has no name",
+                          "give it one, which tables and figures can show");
+    }
     branches.push_back({entry.key, read_overrides(entry.value, "branches." + entry.key)});
   }
   return branches;

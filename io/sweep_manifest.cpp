@@ -30,16 +30,18 @@ Json to_json(const ManifestPoint& point, const std::vector<VariedSetting>& varie
   for (std::size_t i = 0; i < varied.size(); ++i) {
     settings[varied[i].key] = to_json(point.values[i]);
   }
-  return {{"name", point.name},
-          {"parent", point.parent},
-          {"branch", point.branch},
-          {"leg", point.leg},
-          {"settings", settings},
-          {"expected_seconds", point.expected_seconds},
-          {"most_threads", point.most_threads},
-          {"status", point.status},
-          {"attempts", point.attempts},
-          {"reason", point.reason}};
+  Json json = {{"name", point.name},
+               {"parent", point.parent},
+               {"branch", point.branch},
+               {"leg", point.leg},
+               {"settings", settings},
+               {"expected_seconds", point.expected_seconds},
+               {"most_threads", point.most_threads},
+               {"status", point.status},
+               {"attempts", point.attempts},
+               {"reason", point.reason}};
+  if (!point.inputs.empty()) json["inputs"] = point.inputs;
+  return json;
 }
 
 /// A point's name is that of its directory, so it must not lead anywhere else.
@@ -60,6 +62,8 @@ ManifestPoint point_of(const Json& json, const std::vector<VariedSetting>& varie
                          .status = json.at("status"),
                          .attempts = integer_of<int>(json.at("attempts")),
                          .reason = json.at("reason")};
+  if (json.contains("inputs"))
+    point.inputs = json.at("inputs").get<std::map<std::string, std::string>>();
   for (const auto& setting : varied) {
     point.values.push_back(cell_of(json.at("settings").at(setting.key)));
   }

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -25,11 +26,13 @@ struct VariedSetting {
 };
 
 struct ManifestPoint {
-  std::string name;           ///< of its directory in points/; equal for equal runs
-  std::string parent;         ///< name of the run that it continues, or empty
-  std::string branch;         ///< or empty
-  std::string leg;            ///< forward, backward, or empty
-  std::vector<Cell> values;   ///< of the varied settings, in their order
+  std::string name;          ///< of its directory in points/; equal for equal runs
+  std::string parent;        ///< name of the run that it continues, or empty
+  std::string branch;        ///< or empty
+  std::string leg;           ///< forward, backward, or empty
+  std::vector<Cell> values;  ///< of the varied settings, in their order
+  /// Files that are read when the run begins, with hash_of_content() at the time of the plan.
+  std::map<std::string, std::string> inputs = {};
   double expected_seconds{};  ///< s, on one thread
   int most_threads = 1;       ///< more would not make it faster
   std::string status;         ///< at the time when the manifest was written

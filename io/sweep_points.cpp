@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <system_error>
 #include <utility>
 
 namespace riesel::io {
@@ -43,21 +44,6 @@ std::string hash_text(std::string_view text) {
   hash.add_text(text);
   return fmt::format("{:016x}", hash.value());
 }
-
-/// Hash of the content of a file, or of the checkpoint in a run's directory; "none" if it cannot be
-/// read, which the run will report.
-std::string hash_content(const std::string& path) {
-  namespace fs = std::filesystem;
-  try {
-    const auto content =
-        read_whole_file(fs::is_directory(path) ? fs::path(path) / checkpoint_name : fs::path(path));
-    return hash_text({content.data(), content.size()});
-  } catch (const FileError&) {
-    return "none";
-  }
-}
-
-bool is_of_start(const Setting& row) { return section_of(row.key) == start_section; }
 
 class Expansion {
 public:
@@ -120,32 +106,41 @@ private:
     return sweep_.branches.empty() ? "" : sweep_.branches[combination[sweep_.axes.size()]].name;
   }
 
-  /// What the results depend on: the wanted settings that matter, and the content of files that
-  /// they name, in the order of the settings.
+  /// What the results depend on: a text of the wanted settings that matter, and of the content of
+  /// files that they name, in the order of the settings; and these files, with that content.
+  struct Identity {
+    std::string text;
+    std::map<std::string, std::string> inputs;
+  };
+
   template <class Wanted>
-  std::string identity_of(const Settings& settings, Wanted wanted) {
-    std::string text = settings.effective_yaml(
-        [&](const Setting& row) { return row.matters && !row.names_content && wanted(row); });
+  Identity identity_of(const Settings& settings, Wanted wanted) {
+    Identity identity{.text = settings.effective_yaml([&](const Setting& row) {
+                        return row.matters && !row.names_content && wanted(row);
+                      }),
+                      .inputs = {}};
     for (const std::string& key :
          settings.keys([&](const Setting& row) { return row.names_content && wanted(row); })) {
       const std::string& file = settings.text(key);
       const auto [known, is_new] = contents_.try_emplace(file);
-      if (is_new) known->second = hash_content(file);
-      text += known->second;
+      if (is_new) known->second = hash_of_content(file);
+      identity.text += known->second;
+      identity.inputs.insert(*known);
     }
-    return text;
+    return identity;
   }
 
   void add_point(const Combination& combination) {
     auto settings = settings_of(combination);
-    const auto identity = identity_of(settings, [](const Setting&) { return true; });
+    auto identity = identity_of(settings, [](const Setting&) { return true; });
     auto yaml = settings.effective_yaml();
     points_.push_back({.settings = std::move(settings),
                        .yaml = std::move(yaml),
-                       .name = hash_text(identity),
+                       .name = hash_text(identity.text),
                        .parent = {},
                        .branch = branch_of(combination),
-                       .leg = ""});
+                       .leg = "",
+                       .inputs = std::move(identity.inputs)});
   }
 
   /// The same, starting from the final state of the point before.
@@ -153,16 +148,16 @@ private:
     auto settings = settings_of(combination);
     const auto parent = points_.size() - 1;
     const auto& parents_name = points_[parent].name;
-    const auto identity =
-        identity_of(settings, [](const Setting& row) { return !is_of_start(row); });
-    auto yaml = settings.effective_yaml([](const Setting& row) { return !is_of_start(row); });
+    auto identity = identity_of(settings, [](const Setting& row) { return !is_of_start(row.key); });
+    auto yaml = settings.effective_yaml([](const Setting& row) { return !is_of_start(row.key); });
     yaml += fmt::format("\n{}:\n  kind: continued\n  from: ../{}\n", start_section, parents_name);
     points_.push_back({.settings = std::move(settings),
                        .yaml = std::move(yaml),
-                       .name = hash_text(identity + "continued from " + parents_name),
+                       .name = hash_text(identity.text + "continued from " + parents_name),
                        .parent = parent,
                        .branch = branch_of(combination),
-                       .leg = leg});
+                       .leg = leg,
+                       .inputs = std::move(identity.inputs)});
   }
 
   void add_chain(Combination combination) {
@@ -184,9 +179,23 @@ private:
 
 }  // namespace
 
+std::string hash_of_content(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  try {
+    const auto content = read_whole_file(
+        fs::is_directory(path, ignored) ? fs::path(path) / checkpoint_name : fs::path(path));
+    return hash_text({content.data(), content.size()});
+  } catch (const FileError&) {
+    return "none";
+  }
+}
+
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables) {
   return Expansion(sweep, tables).points();
 }
+
+bool is_of_start(const std::string& key) { return section_of(key) == start_section; }
 
 std::vector<std::string> varied_keys(const SweepFile& sweep) {
   std::vector<std::string> keys;

@@ -14,6 +14,7 @@
 #include "io/sweep_file.hpp"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,13 @@ struct SweepPoint {
   std::optional<std::size_t> parent;  ///< index of the neighbour that it starts from
   std::string branch;                 ///< its name; empty if the sweep has none
   std::string leg;                    ///< "forward" or "backward" in a continuation, else empty
+  /// The files by whose contents the name goes, each with hash_of_content().
+  std::map<std::string, std::string> inputs = {};
 };
+
+/// Hash of the content of a file, or of the checkpoint in a run's directory; "none" if it cannot be
+/// read, which the run will report.
+std::string hash_of_content(const std::string& path);
 
 constexpr std::size_t most_sweep_points = 10'000;
 
@@ -35,6 +42,9 @@ constexpr std::size_t most_sweep_points = 10'000;
 /// branches, then seeds; the legs of a continuation come last. Throws SettingsError for values that
 /// no run can have, and for a continuation if the scenario has none.
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables);
+
+/// Whether the setting concerns only the first point of a chain: the others start from neighbours.
+bool is_of_start(const std::string& key);
 
 /// The keys whose values tell the points apart, in the order of the file; `seed` comes last.
 std::vector<std::string> varied_keys(const SweepFile& sweep);

@@ -30,13 +30,14 @@ class Unreadable(ValueError):
 def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE,
            sealed: bool = False) -> Iterator[Any]:
     """The HDF5 file, open as long as the `with` block lasts. The texts are remedies for the
-    messages. Raises NotThere if it is missing, and Unreadable for any flaw that h5py finds in the
+    messages. Raises NotThere if it is missing, and Unreadable for any flaw that shows in the
     block, or that the seal shows (docs/files.md)."""
     _require(path, if_missing)
     try:
         with h5py.File(_unsealed(path) if sealed else path, "r") as file:
             yield file
-    except (OSError, KeyError, IndexError, RuntimeError, ValueError) as error:
+    except (OSError, KeyError, IndexError, RuntimeError, ValueError, TypeError,
+            AttributeError) as error:  # the last two for a number in the place of a group
         raise Unreadable(f"{path}: cannot be read ({error}); {if_damaged}") from error
 
 
@@ -69,7 +70,7 @@ def members(path: pathlib.Path, parse: Callable[[str], Any], if_missing: str,
     _require(path, if_missing)
     try:
         values = parse(path.read_text(encoding="utf-8"))
-    except (ValueError, yaml.YAMLError) as error:
+    except (OSError, ValueError, RecursionError, yaml.YAMLError) as error:
         flaw = " ".join(str(error).split())  # PyYAML describes it on several lines
         raise Unreadable(f"{path}: is damaged ({flaw}); {if_damaged}") from error
     if not isinstance(values, dict):

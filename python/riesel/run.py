@@ -106,11 +106,8 @@ class Run:
     @cached_property
     def summary(self) -> Tree:
         """summary.json: summary["balance.n_dot"]. Values that are unknown are None."""
-        anew = "make the run again"
-        if (self.directory / "checkpoint.h5").exists():
-            anew = f"make it anew by 'riesel resume {self.directory}'"
         summary = Tree(members(self._summary_file, json.loads, self._go_on,
-                               f"restore the file, or {anew}"))
+                               self._restored_summary))
         number = summary.get("format", 1)  # files of format 1 do not say
         if number != _SUMMARY_FORMAT:
             version = summary.get("version", "?")
@@ -135,9 +132,13 @@ class Run:
         if "validity.verdict" not in self.summary:
             raise NotThere(f"{self.directory}: impacts and columns of beads have no verdict of the "
                            "whole run; see curve['verdict']")
-        return Validity(self.summary["validity.verdict"],
-                        [Finding(*(finding[name] for name in Finding._fields))
-                         for finding in self.summary["validity.findings"]])
+        try:
+            findings = [Finding(*(finding[name] for name in Finding._fields))
+                        for finding in self.summary["validity.findings"]]
+        except (KeyError, TypeError) as error:
+            raise Unreadable(f"{self._summary_file}: is damaged (its findings: {error!r}); "
+                             f"{self._restored_summary}") from error
+        return Validity(self.summary["validity.verdict"], findings)
 
     @cached_property
     def series(self) -> Table:
@@ -203,6 +204,13 @@ class Run:
     @property
     def _summary_file(self) -> pathlib.Path:
         return self.directory / "summary.json"
+
+    @property
+    def _restored_summary(self) -> str:
+        """What to do about a damaged one."""
+        if (self.directory / "checkpoint.h5").exists():
+            return f"restore the file, or make it anew by 'riesel resume {self.directory}'"
+        return "restore the file, or make the run again"
 
     @property
     def _go_on(self) -> str:

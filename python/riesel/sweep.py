@@ -156,6 +156,8 @@ class Sweep:
         return [list(group.values()) for group in groups.values()]
 
     def _point(self, entry: Mapping[str, Any]) -> Point:
+        if not isinstance(entry["settings"], dict):
+            raise TypeError("a point without settings")
         return Point(directory=self.directory / "points" / entry["name"], name=entry["name"],
                      settings=entry["settings"], branch=entry["branch"], leg=entry["leg"],
                      parent=entry["parent"], status=entry["status"], attempts=entry["attempts"],

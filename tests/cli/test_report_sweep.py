@@ -347,6 +347,17 @@ class OtherSweeps(SweepReport):
         for a, b in zip(across, across[1:]):
             self.assertTrue(math.isclose(b - a, across[1] - across[0], rel_tol=1e-3))
 
+    def test_a_branch_without_a_name_has_a_curve_too(self):
+        sweep = self.sweep(GRID)
+        manifest = json.loads((sweep / "manifest.json").read_text(encoding="utf-8"))
+        for point in manifest["points"]:
+            if point["branch"] == "slow":
+                point["branch"] = ""
+        (sweep / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
+        self.report_on(sweep)
+        legend = self.figure(sweep, "mean_axial_velocity").findall(f"{SVG}g[@class='legend']/{SVG}text")
+        self.assertEqual({text.text.split(", ")[-1] for text in legend}, {"-", "fast"})
+
     def test_a_sweep_without_results_is_refused(self):
         self.write("tube.yaml", SMALL_TUBE)
         self.write("sweep.yaml", GRID)

@@ -229,7 +229,7 @@ class ResumeRefuses(CommandTest):
         self.assert_refused(result, "tube.yaml", "is no checkpoint", "directory of a run")
         self.assertEqual([path.name for path in self.home.iterdir()], ["tube.yaml"])
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
-        for name in ("run.h5", "summary.json", "effective.yaml"):
+        for name in ("run.h5", "summary.json", "effective.yaml", ".lock"):
             self.assert_refused(self.riesel("resume", out / name), name, "is no checkpoint")
 
     def test_a_missing_run_file(self):

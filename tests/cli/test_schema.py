@@ -19,10 +19,13 @@ BEYOND_A_SCHEMA = {
 }
 # A key, and values that are right or wrong for it.
 VALUES = {
-    "tube.width": (["20 mm", 0.02, "1e-2 m", ".5cm", "20000 µm", "2 meters"],
+    "tube.width": (["20 mm", 0.02, "1e-2 m", ".5cm", "20000 µm", "2 meters", "20 mm^1"],
                    ["20 kg", "20 s", "mm", "-20 mm", -1, 0, "0,02 m", True, None, [1], "20 mm mm", "1 2"]),
-    "contact.stiffness": (["2000 N/m", "2 kN/m", "2 kg/s^2", "2 N m-1", 2000], ["2000 N", "2 m/N", "x", -2]),
-    "gravity": (["9.81 m/s^2", "9.81 m/s2", "9.81 m s^-2", "981 cm/s2", 0], ["9.81 m/s", "-1 m/s^2"]),
+    "contact.stiffness": (["2000 N/m", "2 kN/m", "2 kg/s^2", "2 N m-1", "2000 J/m^2", "2000 kg s^-2",
+                           "2000 kg/s²", 2000],
+                          ["2000 N", "2 m/N", "x", -2, "2000 J/m", "2000 kg/s"]),
+    "gravity": (["9.81 m/s^2", "9.81 m/s2", "9.81 m s^-2", "981 cm/s2", "9.81 N/kg", "9.81 m/s/s",
+                 "36 km/h/s", "9.81 m/s²", 0], ["9.81 m/s", "-1 m/s^2", "9.81 N/m", "9.81 m/s/kg"]),
     "start.axial_velocity": (["-1 m/s", "3.6 km/h", -2], ["1 m", "fast"]),
     "contact.damping": (["1e4 1/s", "10 kHz", "1e4 s^-1"], ["1e4 s", "-1 1/s"]),
     "grains.polydispersity": (["5 %", 0.05, "0.05"], ["5 mm", 0.4]),
@@ -138,9 +141,35 @@ class Schema(CommandTest):
         right = {"base": "tube.yaml", "axes": {"contact.friction": [0.1, 0.3]}, "seeds": 3}
         self.assertTrue(self.of_sweeps.is_valid(right))
         for change in ({"axis": {}}, {"axes": {"contact.fiction": [1]}}, {"axes": {"contact.friction": 1}},
-                       {"seeds": 0}, {"seeds": 10_001}, {"set": {"tube.width": "1 kg"}}, {"base": None}):
+                       {"seeds": 0}, {"seeds": 10_001}, {"set": {"tube.width": "1 kg"}}, {"base": None},
+                       {"branches": {"": {}}}):
             with self.subTest(change):
                 self.assertFalse(self.of_sweeps.is_valid({**right, **change}))
+
+    def test_sweeps_that_are_right(self):
+        """What the base lacks, the rest may give; keys and sections may be taken out."""
+        tube = "base: {scenario: periodic_tube, grains: {area_fraction: 0.1}, tube: {width: 10 mm, length: 6 mm}, " \
+               "run: {duration: 1 ms}, contact: {restitution: 0.9%s}%s}\n"
+        for text in (tube % ("", "") + "axes: {contact.stiffness: [2000, 2 kN/m]}\n",
+                     tube % ("", "") + "set: {contact.stiffness: 2000 N/m}\n",
+                     tube % ("", "") + "branches: {soft: {contact.stiffness: 2000 N/m}}\n",
+                     tube % (", stiffness: 2000, slip: viscous", "") + "set: {contact.slip_damping: 1e4 1/s}\n",
+                     tube % (", stiffness: 2000", ", wall: {spacing: 2 mm}") + "set: {wall: }\n",
+                     tube % (", stiffness: 2000, friction: 0.3", "") + "axes: {contact.friction: [0.1, null]}\n"):
+            with self.subTest(text):
+                self.assertEqual([error.message for error in self.of_sweeps.iter_errors(yaml.safe_load(text))], [])
+                self.write("sweep.yaml", text)
+                self.assert_done(self.riesel("sweep", "sweep.yaml", "--dry-run"))
+
+    def test_sweeps_that_are_wrong(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        for text in ("seeds: [-1]", "axes: {}", "axes: [{}]", "axes: {contact: [1]}", "set: {contact: 1}",
+                     "set: {tube.width: 1 kg}"):
+            with self.subTest(text):
+                text = f"base: tube.yaml\n{text}\n"
+                self.assertFalse(self.of_sweeps.is_valid(yaml.safe_load(text)))
+                self.write("sweep.yaml", text)
+                self.assert_refused(self.riesel("sweep", "sweep.yaml", "--dry-run"))
 
     def test_more_values_than_the_program_takes(self):
         right = {"from": "0.1 m/s", "to": "2 m/s", "points": 10_000, "spacing": "linear"}

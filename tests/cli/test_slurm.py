@@ -111,6 +111,14 @@ class Script(SweepTest):
             self.assert_refused(result, "--sbatch", "line break")
         self.assertEqual(bytes_of_files(self.home), before)
 
+    def test_a_path_is_within_a_line(self):
+        self.write("sweep.yaml", FOUR)
+        before = bytes_of_files(self.home)
+        for options in ([], ["--dry-run"]):
+            result = self.riesel("sweep", "sweep.yaml", "--out", "two\nlines", "--slurm", *options, PATH="/nowhere")
+            self.assert_refused(result, "--slurm: the path of the sweep has a line break", "--out")
+        self.assertEqual(bytes_of_files(self.home), before)
+
     def test_options_of_slurm_want_slurm(self):
         self.write("sweep.yaml", FOUR)
         for option in (["--tasks", 3], ["--sbatch=--mem=1G"]):
@@ -170,6 +178,13 @@ class Submission(StandIns):
             self.assertEqual(self.riesel("sweep-task", "out", 1, "--of", 3).returncode, FAILED)
         self.assert_done(self.riesel("collect", "out"))
         self.assertEqual([row["attempts"] for row in self.rows()], ["1", "2", "1"])
+
+    def test_a_job_without_a_number_is_submitted_too(self):
+        self.write("sweep.yaml", FOUR)
+        self.stand_in("sbatch", "true")
+        result = self.submit()
+        self.assert_done(result)
+        self.assertEqual(result.stdout, "out: submitted; see 'riesel status out'\n")
 
     def test_what_failed_to_go_on_is_tried_once_more(self):
         """Its result of before is still there, and so it is done for those who do not ask for more."""

@@ -9,7 +9,7 @@ import signal
 
 import h5py
 
-from riesel_command import (BAD_INPUT, FAILED, PATIENCE, SHIPPED, SMALL_TUBE, CommandTest,
+from riesel_command import (BAD_INPUT, DONE, FAILED, PATIENCE, SHIPPED, SMALL_TUBE, CommandTest,
                             bytes_of_files)
 
 GRID = """\
@@ -175,7 +175,7 @@ class Grid(SweepTest):
             with self.subTest(text):
                 (damaged / "summary.json").write_text(text, encoding="utf-8")
                 result = self.riesel("collect", "out")
-                self.assertEqual(result.returncode, 0)
+                self.assertEqual(result.returncode, FAILED)
                 self.assertIn(f"{damaged.name}/summary.json", result.stderr)
                 self.assertIn(mention, result.stderr)
                 self.assertEqual([row["state_hash"] != "" for row in self.rows()], [True, False, True])
@@ -274,6 +274,24 @@ class Grid(SweepTest):
                               "validity.contacts_per_wall_visit",
                               *[name for name in unit if name.startswith("validity.findings.")]})
 
+    def test_the_unit_of_a_setting_is_that_of_its_points(self):
+        """It may depend on the contact law."""
+        hertz = "contact.law: hertz, contact.damping: 4.1, contact.impact_speed: 1 m/s"
+        base = "base: {scenario: periodic_tube, grains: {area_fraction: 0.1}, tube: {width: 5 mm, length: 5 mm}}"
+        axis = "axes: {contact.stiffness: [5e5, 6e5]}\n"
+        for number, (text, unit) in enumerate({
+                f"set: {{run.duration: 1 us, {hertz}}}\n": "",
+                "set: {run.duration: 1 us, contact.damping: 4.1}\n": "N/m",
+                f"set: {{run.duration: 1 us}}\nbranches: {{hard: {{contact.damping: 4.1}}, round: {{{hertz}}}}}\n":
+                ""}.items()):
+            with self.subTest(unit):
+                out = self.sweep_to_end(f"{base}\n{text}{axis}", f"out{number}")
+                varied = {each["key"]: each["unit"] for each in self.manifest(out.name)["varied"]}
+                self.assertEqual(varied["contact.stiffness"], unit)
+                with h5py.File(out / "sweep.h5") as file:
+                    stated = file["points/contact.stiffness"].attrs.get("unit", b"").decode()
+                self.assertEqual(stated, unit)
+
     def test_impacts_are_swept_too_and_share_the_cores(self):
         for points, threads in ((1, "4"), (2, "2"), (4, "1")):
             out = f"sweeps/{points}"
@@ -287,6 +305,14 @@ axes: {{contact.damping: {[1e4 / 2 ** i for i in range(points)]}}}
                              [1e4 / 2 ** i for i in range(points)])
             self.assertEqual(len(self.hashes(out)), points)
             self.assertEqual({row["performance.threads"] for row in rows}, {threads})
+
+    def test_more_threads_than_there_is_memory_for(self):
+        self.write("walls.yaml", "scenario: wall_array\ncontact: {stiffness: 2000 N/m, restitution: 0.9}\n"
+                                 "impact: {starts: 2, axial_velocity: 1 m/s}\n")
+        many = {"OMP_NUM_THREADS": "100000"}
+        self.write("sweep.yaml", "base: walls.yaml\naxes: {contact.restitution: [0.8, 0.9]}\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--dry-run", **many))
+        self.assert_done(self.riesel("run", "walls.yaml", **many))
 
     def test_the_longest_runs_go_first(self):
         # Which these are is found by the clock: so far apart that no other work confuses them.
@@ -366,6 +392,12 @@ class Chain(SweepTest):
         self.assert_refused(result, "start.from", "nowhere")
         self.assertEqual(bytes_of_files(self.home), before)
 
+    def test_the_start_may_differ_between_chains(self):
+        branches = "{slow: {start.axial_velocity: 1 m/s}, fast: {start.axial_velocity: 3 m/s}}"
+        self.sweep_to_end(f"{CHAIN}branches: {branches}\nseeds: 2\n")
+        self.assertEqual(len(set(self.hashes().values())), 20)
+        self.assertEqual([row["status"] for row in self.rows()], ["done"] * 20)
+
 
 class Failures(SweepTest):
 
@@ -380,6 +412,13 @@ class Failures(SweepTest):
         self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
         self.assertEqual((rows[1]["state_hash"], rows[1]["reason"]), ("", points[1]["reason"]))
 
+    def test_a_directory_may_look_like_an_option(self):
+        self.write("sweep.yaml", ONE_FAILS)
+        told = self.riesel("sweep", "sweep.yaml", "--out=-x").stdout
+        again, = re.findall(r"'riesel (sweep .*) --retry-failed'", told)
+        self.assertEqual(self.riesel(*again.split()).returncode, FAILED)
+        self.assertEqual(again, "sweep ./-x")
+
     def test_a_failed_point_is_run_again_only_if_asked(self):
         attempts = []
         for options in ([], [], ["--retry-failed"]):
@@ -387,6 +426,14 @@ class Failures(SweepTest):
             self.assertEqual(result.returncode, FAILED, result)
             attempts.append([point["attempts"] for point in self.points()])
         self.assertEqual(attempts, [[1, 1, 1], [1, 1, 1], [1, 2, 1]])
+
+    def test_attempts_do_not_overflow(self):
+        most = 2**31 - 1
+        self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
+        record = self.home / "out/points" / self.points()[0]["name"] / "attempts.json"
+        record.write_text(json.dumps({"attempts": most, "failure": ""}), encoding="utf-8")
+        self.assert_done(self.riesel("sweep", "out"))
+        self.assertEqual(self.points()[0]["attempts"], most)
 
     def damage(self, text):
         """The summary of the first point."""
@@ -438,9 +485,9 @@ class Failures(SweepTest):
                 one_point.rename(aside)
                 other_point.rename(one_point)
                 aside.rename(other_point)
-                for command in (["collect", "out"], ["status", "out"]):
+                for command, status in ((["collect", "out"], FAILED), (["status", "out"], DONE)):
                     result = self.riesel(*command)
-                    self.assert_done(result)
+                    self.assertEqual((result.returncode, result.stderr), (status, ""))
                     self.assertIn("2 failed", result.stdout)
                     self.assertEqual(result.stdout.count("is of another point"), 2)
                 self.assertEqual(self.riesel("sweep", "out").returncode, FAILED)
@@ -469,6 +516,50 @@ class Failures(SweepTest):
         told = self.riesel("status", "out").stdout
         self.assertIn("to run the failed points again: '", told)
         self.assertNotIn("--set", told)
+
+    def prepare_three(self):
+        """Returns their directories."""
+        self.assert_done(self.sweep(CHAIN.replace("continue_along: contact.restitution\n", ""), "out", "--prepare"))
+        return [self.home / "out/points" / point["name"] for point in self.points()]
+
+    def assert_the_others_are_done(self, result, failed, reason):
+        """Of three points."""
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assertEqual([row["status"] for row in self.rows()],
+                         ["failed" if i == failed else "done" for i in range(3)])
+        self.assertIn(reason, self.rows()[failed]["reason"])
+        self.assertIn(reason, result.stderr + result.stdout)
+
+    def test_a_point_that_cannot_be_written_fails_alone(self):
+        for name, reason in (("log.txt", "log.txt: cannot be written: Is a directory"),
+                             ("attempts.json", "attempts.json: "), (".lock", "cannot be locked: Is a directory")):
+            with self.subTest(name):
+                shutil.rmtree(self.home / "out", ignore_errors=True)
+                obstacle = self.prepare_three()[1] / name
+                obstacle.mkdir()
+                self.assertIn(f"failed: {obstacle.parent}".replace(f"{self.home}/", ""),
+                              self.riesel("sweep-task", "out", 1).stdout)
+                for options in ([], ["--retry-failed"]):
+                    self.assert_the_others_are_done(self.riesel("sweep", "out", *options), 1, reason)
+                obstacle.rmdir()
+                self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
+
+    def test_a_point_out_of_reach_fails_alone(self):
+        point = self.prepare_three()[0]
+        aside = point.with_name("aside")
+        point.rename(aside)
+        point.symlink_to(point.name)  # to itself: as without permission, but for root, too
+        for command in (["out"], ["out", "--retry-failed"], ["sweep.yaml", "--out", "out"]):
+            self.assert_the_others_are_done(self.riesel("sweep", *command), 0, "cannot be reached")
+        for command in ("status", "report"):
+            self.assert_done(self.riesel(command, "out"))
+        collected = self.riesel("collect", "out")
+        self.assertEqual((collected.returncode, "2 done, 1 failed" in collected.stdout), (FAILED, True), collected)
+        self.assertEqual(self.sweep(CHAIN.replace("continue_along: contact.restitution\n", ""), "out",
+                                    "--prepare").returncode, FAILED)
+        point.unlink()
+        aside.rename(point)
+        self.assert_done(self.riesel("sweep", "out"))
 
     def test_status_tells_why(self):
         self.sweep(ONE_FAILS)
@@ -548,6 +639,45 @@ class Tasks(SweepTest):
             del manifest["points"][0]["expected_seconds"]
             self.assertEqual(manifest["points"][0]["status"], "done")
 
+    def test_a_sweep_of_which_nothing_has_come_may_be_replaced(self):
+        self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
+        point = self.home / "out/points" / self.points()[0]["name"]
+        (point / "attempts.json").write_text(json.dumps({"attempts": 1, "failure": "bad luck"}), encoding="utf-8")
+        other = self.sweep(ONE_POINT.replace("2000", "3000"))
+        self.assertEqual((other.returncode, len(self.rows())), (0, 1), other)
+
+    def test_the_copy_of_the_sweep_file_is_kept_when_it_changes(self):
+        out = self.sweep_to_end(ONE_POINT)
+        notes = ONE_POINT + "# my notes\n"
+        self.write("out/sweep.yaml", notes)
+        for _ in range(2):
+            self.sweep_to_end(ONE_POINT)
+            self.assertEqual((out / "sweep.yaml").read_text(encoding="utf-8"), ONE_POINT)
+            self.assertEqual((out / "sweep.yaml.previous").read_text(encoding="utf-8"), notes)
+
+    def test_runs_begin_from_the_files_of_the_plan_only(self):
+        self.write("grains.csv", "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n2, 2, 1, 0, 1\n")
+        self.write("tube.yaml", """\
+scenario: periodic_tube
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+tube: {width: 10 mm, length: 6 mm}
+start: {kind: file, from: grains.csv}
+""")
+        text = "base: tube.yaml\nset: {run.duration: 1 ms}\naxes: {contact.friction: [0.1, 0.2]}\n"
+        self.assert_done(self.sweep(text, "out", "--prepare"))
+        self.assert_done(self.riesel("sweep-task", "out", 0))
+        planned = (self.home / "grains.csv").read_text(encoding="utf-8")
+        self.write("grains.csv", planned + "5, 5, 0, 0, 1\n")
+        before = bytes_of_files(self.home)
+        for command in (["sweep", "out"], ["sweep", "out", "--dry-run"], ["sweep-task", "out", 1]):
+            self.assert_refused(self.riesel(*command), "grains.csv: is not as it was when the sweep was planned",
+                                "with the sweep file and another --out")
+        self.assertEqual(bytes_of_files(self.home), before)
+        self.assert_done(self.riesel("sweep-task", "out", 0))  # it has begun, and reads the file no more
+        self.write("grains.csv", planned)
+        self.assert_done(self.riesel("sweep", "out"))
+        self.assertEqual({row["grains"] for row in self.rows()}, {"1"})
+
     def test_the_directory_of_a_sweep_is_no_place_for_a_run(self):
         self.assert_done(self.sweep(ONE_POINT, "out", "--prepare"))
         before = bytes_of_files(self.home / "out")
@@ -589,6 +719,7 @@ class Mistakes(SweepTest):
         "base: tube.yaml\nseeds: []": [":2:8: seeds: the list is empty"],
         "base: tube.yaml\nseeds: [1, x]": [":2:12: seed: expected an integer"],
         "base: tube.yaml\nbranches: {slow: 1}": [":2:18: branches.slow: expected keys"],
+        'base: tube.yaml\nbranches: {"": {}}': [":2:12: branches: a branch has no name"],
         "base: tube.yaml\nbranches: {slow: {start.axial: 1}}": [
             ":2:19: start.axial: unknown key"],
         "base: tube.yaml\nset: {contact: 1}": [":2:7: contact: is a section"],

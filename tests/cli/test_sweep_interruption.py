@@ -1,5 +1,6 @@
 """A sweep that is stopped at any moment, politely or not, goes on as if it had never been stopped."""
 
+import fcntl
 import os
 import pathlib
 import random
@@ -183,11 +184,14 @@ axes: {contact.restitution: [0.8]}
         self.assertGreater(met, 0, "no kill met the sweep at work")
 
     def test_a_killed_run_is_gone_on_with_in_the_same_sweep(self):
-        process = self.start_sweep(LONG)
-        os.kill(children_of(process.pid)[0], signal.SIGKILL)
-        _, stderr = process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, DONE, stderr)
-        self.assertEqual(sorted(point["attempts"] for point in self.points()), [1, 1, 2])
+        for number in (signal.SIGKILL, signal.SIGXCPU, signal.SIGUSR1):
+            with self.subTest(number):
+                shutil.rmtree(self.home / "out", ignore_errors=True)
+                process = self.start_sweep(LONG)
+                os.kill(children_of(process.pid)[0], number)
+                _, stderr = process.communicate(timeout=PATIENCE)
+                self.assertEqual(process.returncode, DONE, stderr)
+                self.assertEqual(sorted(point["attempts"] for point in self.points()), [1, 1, 2])
 
     def test_a_crash_is_a_failure_and_does_not_stop_the_others(self):
         process = self.start_sweep(LONG)
@@ -226,3 +230,50 @@ axes: {contact.restitution: [0.8]}
         task.communicate(timeout=PATIENCE)
         self.assertEqual(task.returncode, DONE)
         self.assertEqual({point["attempts"] for point in self.points()}, {1})
+
+    def test_a_sweep_that_ends_stops_all_its_runs_at_once(self):
+        """Also if one of them takes its time."""
+        process = self.start_sweep(ENDLESS)
+        names = [point["name"] for point in self.points()]
+        slow, other = sorted(children_of(process.pid), key=lambda child: next(
+            i for i, name in enumerate(names) if name in pathlib.Path(f"/proc/{child}/cmdline").read_text("ascii")))
+        os.kill(slow, signal.SIGSTOP)
+        try:
+            (self.home / "out/.lock").unlink()
+            self.wait_until(lambda: not is_alive(other), "the end of the other run")
+        finally:
+            os.kill(slow, signal.SIGCONT)
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, FAILED)
+
+    def test_a_sweep_that_has_begun_is_not_put_aside_by_another(self):
+        process = self.start_sweep(ENDLESS)
+        self.assertEqual(self.stop(process, signal.SIGTERM), 143)
+        plan = [(self.home / "out" / name).read_bytes() for name in ("sweep.yaml", "manifest.json")]
+        other = ENDLESS.replace("[0.7, 0.8, 0.9]", "[0.6]")
+        for options in ([], ["--dry-run"], ["--prepare"]):
+            self.assert_refused(self.sweep(other, "out", *options), "holds another sweep", "--out")
+        self.assertEqual([(self.home / "out" / name).read_bytes() for name in ("sweep.yaml", "manifest.json")], plan)
+
+    def test_a_point_in_use_for_a_moment_is_no_failure(self):
+        """A shared lock, which stands in the way of a run although nobody seems to work on it, is as one that
+        is taken between the look of the sweep and the start of the run."""
+        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
+        point = sorted(self.home.glob("out/points/*"))[0]
+        log = point / "log.txt"
+        with open(point / ".lock", "rb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH)
+            process = self.start("sweep", "out", "--jobs", 1, "--set", "run.duration=4 ms")
+            self.wait_until(lambda: "is in use by" in log.read_text("utf-8"), "the collision")
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual((process.returncode, {row["status"] for row in self.rows()}), (DONE, {"done"}), stderr)
+
+    def test_a_point_in_use_for_ever_is_one(self):
+        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
+        point = sorted(self.home.glob("out/points/*"))[0]
+        with open(point / ".lock", "rb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH)
+            result = self.riesel("sweep", "out", "--set", "run.duration=4 ms")
+        self.assertEqual(result.returncode, FAILED)
+        self.assertIn("2 done, 1 failed", result.stdout)
+        self.assertIn("is in use by", result.stdout)

@@ -289,6 +289,18 @@ class Prolonged(SweepTest):
         self.sweep_to_end(TWO)
         self.assert_done(self.go_on("run.duration=5 ms", "limits.speed="))
 
+    def test_what_failed_with_one_change_is_tried_again_with_another(self):
+        self.sweep_to_end(TWO)
+        for limit, attempts in (("1e-9", 2), ("1e-9", 2), ("1", 3)):
+            self.go_on("run.duration=5 ms", f"limits.overlap={limit}")
+            self.assertEqual([point["attempts"] for point in self.points()], 2 * [attempts])
+        self.assertEqual({row["status"] for row in self.rows()}, {"done"})
+        self.assert_is_whole("0.9", "5 ms")
+
+    def test_what_is_taken_out_need_not_be_there_before_the_beginning(self):
+        self.assert_done(self.sweep(TWO, "out", "--prepare"))
+        self.assert_done(self.go_on("run.duration=5 ms", "limits.speed="))
+
 
 class Refused(SweepTest):
 
@@ -352,6 +364,19 @@ class Refused(SweepTest):
     def test_resume_tells_the_way(self):
         self.sweep_to_end(TWO)
         self.assert_refused(self.riesel("resume", "out"), "sweep out")
+
+    def test_what_a_resume_refuses(self):
+        """It goes by the settings with which the runs have gone on, not by the plan."""
+        self.sweep_to_end(TWO)
+        until = ("run.duration=", "run.until.relative_error=99 %", "run.until.at_most=4 ms")
+        self.assert_done(self.riesel("sweep", "out", *[f"--set={change}" for change in until]))
+        for change, mention in (("run.duration=6 ms", "cannot be given together with run.until"),
+                                ("run.until.at_most=1e300 s", "more time steps than can be counted")):
+            for options in ([], ["--dry-run"], ["--slurm", "--dry-run"]):
+                self.assert_refused_without_a_trace(["out", "--set", change, *options], mention)
+            self.assert_refused(self.riesel("sweep-task", "out", 0, "--set", change), mention)
+        self.assert_done(self.riesel("sweep", "out", "--set", "run.until=", "--set", "run.duration=6 ms"))
+        self.assertEqual({row["ended_by"] for row in self.rows()}, {"duration"})
 
 
 if __name__ == "__main__":

@@ -94,6 +94,19 @@ class Tasks(SweepTest):
             self.assertEqual(result.returncode, BAD_INPUT)
             self.assertIn(f"INDEX: Value {index} not in range 0 to ", result.stderr)
 
+    def test_numbers_are_decimal(self):
+        self.prepare(GRID)
+        names = [point["name"] for point in self.points()]
+        self.assertEqual(self.names_told(self.task("006")), [names[6]])
+        self.assertEqual(len(self.names_told(self.task("00", "--of", "08"))), 1)
+        for number in ("0x1", "+1", "1e0", "1.0", "0b1", ""):
+            for arguments in (["sweep-task", "out", number], ["sweep-task", "out", 1, "--of", number],
+                              ["sweep", "out", "--jobs", number],
+                              ["sweep", "out", "--slurm", "--dry-run", "--tasks", number]):
+                with self.subTest(arguments):
+                    self.assertEqual(self.riesel(*arguments).returncode, BAD_INPUT)
+        self.assertEqual(sum(path.exists() for path in self.home.glob("out/points/*/summary.json")), 2)
+
     @unittest.skipIf(shutil.which("parallel") is None, "there is no GNU parallel")
     def test_gnu_parallel(self):
         self.prepare(GRID)

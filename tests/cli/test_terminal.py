@@ -38,6 +38,11 @@ class Terminal(CommandTest):
         self.assertIn(summary["state"], result.stdout)
         self.assertIn("out/summary.json", result.stdout)
 
+    def test_unknown_collisions_are_told_once(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        result = self.riesel("run", "tube.yaml", "--set", "run.duration=1 us")
+        self.assertRegex(result.stdout, r"(?m)^  wall collisions +not known, gravity 10 m/s\^2$")
+
     def test_what_cannot_be_printed_is_told(self):
         self.write("tube.yaml", SMALL_TUBE)
         for arguments in (["scenarios"], ["settings"], ["check", "tube.yaml"], ["run", "tube.yaml", "--out", "out"]):

@@ -31,8 +31,7 @@ class Usage(CommandTest):
         result = self.riesel(*arguments)
         self.assertEqual(result.returncode, BAD_INPUT, result)
         self.assertEqual(result.stdout, "")
-        self.assertIn(mentions, result.stderr)
-        self.assertIn("--help", result.stderr)
+        self.assert_one_message(result.stderr, mentions, "--help")
         self.assert_nothing_written({})
 
     def test_without_a_subcommand(self):
@@ -71,6 +70,12 @@ class Usage(CommandTest):
         for option in ("--out", "--set", "--threads"):
             with self.subTest(option):
                 self.assert_usage_error("run", "tube.yaml", option, mentions=option)
+
+    def test_an_empty_name_is_refused(self):
+        for arguments in (["run", "tube.yaml", "--out", ""], ["sweep", "tube.yaml", "--out", ""],
+                          ["new", "periodic_tube", ""]):
+            with self.subTest(arguments):
+                self.assert_usage_error(*arguments, mentions="is empty")
 
     def test_two_files_are_one_too_many(self):
         self.assert_usage_error("run", "one.yaml", "two.yaml", mentions="two.yaml")

@@ -153,6 +153,8 @@ TEST_CASE("missing values") {
 TEST_CASE("the scenario comes first") {
   CHECK(error("seed: 1\n")
         == "f.yaml:1:1: scenario: is missing; add 'scenario:' with tube or wall");
+  CHECK(error("Scenario: tube\n")
+        == "f.yaml:1:1: scenario: is missing; write 'scenario' instead of 'Scenario'");
   CHECK(error("seed: 1\nscenario: tub\n")
         == "f.yaml:2:11: scenario: expected tube or wall, got 'tub'; did you mean 'tube'?");
   CHECK(error("scenario: hourglass\n")

@@ -15,3 +15,9 @@ TEST_CASE("what means something to a shell, and nothing at all, stands in quotes
   CHECK(in_quotes("it's") == "'it'\\''s'");
   CHECK(in_quotes("") == "''");
 }
+
+TEST_CASE("a path is no option") {
+  CHECK(path_argument("-x") == "./-x");
+  CHECK(path_argument("--out = y/z") == "'./--out = y/z'");
+  CHECK(path_argument("runs/-x") == "runs/-x");
+}

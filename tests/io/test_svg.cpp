@@ -33,6 +33,8 @@ TEST_CASE("Text in markup cannot become markup") {
   CHECK(escaped("a < b && c > \"d\" 'e'")
         == "a &lt; b &amp;&amp; c &gt; &quot;d&quot; &#39;e&#39;");
   CHECK(escaped("two\n\tlines, ± and µ") == "two\n\tlines, ± and µ");
+  CHECK(escaped("a\xEF\xBF\xBE\xEF\xBF\xBF\xEF\xBF\xBD")
+        == "a\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
   CHECK(escaped(std::string("a\0b\x1b", 4))
         == "a\xEF\xBF\xBD"
            "b\xEF\xBF\xBD");

@@ -9,7 +9,7 @@ FAULTS = [
     ("what has come further begun again", "app/prolongation.cpp",
      "if (wanted.at_most < summary.time + 0.5 * step) return true;", "if (wanted.at_most < step) return true;"),
     ("a prolongation that has failed tried again and again", "app/prolongation.cpp",
-     "standing.reason = io::read_run_record(point).failure;", "standing.reason.clear();"),
+     "standing.reason = record.failure;", "standing.reason.clear();"),
     ("points of a sweep that go on, but no further", "app/sweep_runner.cpp",
      'arguments.insert(arguments.end(), {"--set", setting});', "static_cast<void>(setting);"),
     ("a contact that is not finite in a checkpoint", "engine/state_check.cpp",

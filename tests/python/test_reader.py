@@ -363,6 +363,38 @@ class Unreadable(CommandTest):
                            ("run.h5", "final"), ("trajectory.h5", "trajectory")):
             self.assert_unreadable(directory / name, lambda: getattr(run, part), "restore")
 
+    def test_what_is_nested_without_end(self):
+        directory = self.run_small_tube("run")
+        for name, part in (("summary.json", "summary"), ("effective.yaml", "settings")):
+            (directory / name).write_text("[" * 100_000, encoding="utf-8")
+            self.assert_unreadable(directory / name, lambda: getattr(riesel.Run(directory), part), "restore")
+
+    def test_a_directory_in_the_place_of_a_file(self):
+        directory = self.run_small_tube("run")
+        (directory / "summary.json").unlink()
+        (directory / "summary.json").mkdir()
+        self.assert_unreadable(directory / "summary.json", lambda: riesel.Run(directory).summary, "restore")
+
+    def test_findings_that_are_none(self):
+        directory = self.run_small_tube("run")
+        summary = self.summary(directory)
+        for findings in (None, [None], [{"value": 1.0}], [1]):
+            summary["validity"]["findings"] = findings
+            (directory / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+            self.assert_unreadable(directory / "summary.json", lambda: riesel.Run(directory).validity, "restore")
+
+    def test_numbers_in_the_place_of_groups(self):
+        directory = self.run_small_tube("run")
+        for part in ("series", "profiles", "histograms", "provenance", "final"):
+            with changed_behind_seal(directory / "run.h5") as file:
+                del file[part]
+                file[part] = 1.0
+            self.assert_unreadable(directory / "run.h5", lambda: getattr(riesel.Run(directory), part), "restore")
+        with changed_behind_seal(directory / "run.h5") as file:
+            del file["series"]
+            file["series"] = [1.0, 2.0]
+        self.assert_unreadable(directory / "run.h5", lambda: riesel.Run(directory).series, "restore")
+
     def test_a_changed_bit_behind_the_seal(self):
         path = self.run_small_tube("run") / "run.h5"
         good = path.read_bytes()
@@ -404,8 +436,10 @@ class Unreadable(CommandTest):
         self.write("out/sweep.h5", "no HDF5")
         self.assert_unreadable(out / "sweep.h5", lambda: sweep.table, "make it with 'riesel collect")
         manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
+        unset = json.loads(json.dumps(manifest).replace('"settings": {', '"settings": null, "x": {'))
         del manifest["points"][1]["branch"]
-        for text in (json.dumps(manifest), "{}", "[]", '{"varied": 1}', '{"varied'):
+        for text in (json.dumps(manifest), "{}", "[]", '{"varied": 1}', '{"varied', json.dumps(unset),
+                     "[" * 100_000):
             self.write("out/manifest.json", text)
             self.assert_unreadable(out / "manifest.json", lambda: riesel.Sweep(out),
                                    "run 'riesel sweep' with its sweep file")
