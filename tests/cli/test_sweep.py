@@ -266,7 +266,7 @@ class Grid(SweepTest):
             self.assertEqual(unit[name], expected, name)
         # What has none, has none: counts, and ratios of equal things.
         self.assertLessEqual({re.sub(r"\.(value|error)$", "", name) for name, of_it in unit.items() if of_it == ""},
-                             {"seed", "attempts", "format", "grains", "steps", "performance.threads",
+                             {"seed", "attempts", "format", "held_back_by", "grains", "steps", "performance.threads",
                               "independent_samples", *[f"structure_factor.{n}" for n in range(1, 5)],
                               "profiles.core.area_fraction", "profiles.wall_layers.area_fraction",
                               "wall_visits.visits", "wall_visits.contacts", "validity.max_overlap_ratio",
