@@ -54,7 +54,7 @@ std::string pattern_of_known_unit(const std::string& unit) {
     const std::string names = names_of_unit(unit);
     return names.empty() ? "" : names + exponent("1");
   }
-  const std::string quotient = pattern_of_quotient(unit);
+  std::string quotient = pattern_of_quotient(unit);
   if (unit == "1/s") return quotient + "|" + prefix + "(?:Hz|hertz)";
   if (unit == "m/s^2") return quotient + "|" + pattern_of_quotient("N/kg");
   if (unit == "N/m")

@@ -247,8 +247,8 @@ TEST_CASE("the error of a ratio whose weight lies in one sample is unknown", "[t
 }
 
 TEST_CASE("each sample is compared with the ratio of all others", "[time_series]") {
-  // Weights of 3 and 1, with 2 and 6 per weight: 3 in the mean of all. The first deviates by -3 from
-  // it and by -12 from the other; for the second it is 3 and 4.
+  // Weights of 3 and 1, with 2 and 6 per weight: 3 in the mean of all. The first deviates by -3
+  // from it and by -12 from the other; for the second it is 3 and 4.
   const Series linear{-3.0, 3.0}, weights{3.0, 1.0};
   CHECK(riesel::error_per_weight(linear, weights) == Approx((4.0 + 12.0) / 2.0));
 }

@@ -73,8 +73,8 @@ TEST_CASE("units with an offset, logarithms and dates are refused") {
 
 TEST_CASE("what is no unit, or has numbers in it, is refused") {
   for (const std::string unit :
-       {"foo", "MM", "m/1000", "m 5", "s^0.5", "N/m^1.5", "5 m", "+2 m", "-2 m", "m*-2", "m/-2", "m -2", "/s", "m/", "m^^2", "since 1 m",
-        "s since 1990-01-01", "m @ 5", "m; kg"}) {
+       {"foo", "MM", "m/1000", "m 5", "s^0.5", "N/m^1.5", "5 m", "+2 m", "-2 m", "m*-2", "m/-2",
+        "m -2", "/s", "m/", "m^^2", "since 1 m", "s since 1990-01-01", "m @ 5", "m; kg"}) {
     CAPTURE(unit);
     CHECK(remedy("2 " + unit, "m") == "replace '" + unit + "', which is not a known unit");
   }
