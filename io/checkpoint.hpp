@@ -4,7 +4,7 @@
 // Integers and doubles are stored exactly, so that a run continues with the same bits. The file
 // contains no date or anything else from outside the run: equal checkpoints are equal files, byte
 // by byte. Any HDF5 reader opens it (docs/files.md describes the layout), but it begins with a user
-// block, the seal (seal.hpp), which holds its length and a checksum of all that follows: HDF5
+// block, the seal (seal.hpp), which holds its length and checksums of all that follows: HDF5
 // itself protects only the content of data sets, and may crash on damaged metadata. The reader here
 // parses nothing before the seal has proved right, and returns nothing before everything has been
 // checked.
