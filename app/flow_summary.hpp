@@ -17,7 +17,7 @@ namespace riesel::app {
 /// What a flow leaves to be summarised.
 struct FlowRecords {
   const io::RunFile& file;
-  const SteadyState& steady;  ///< the assessment of the series that judged_by() names
+  const SteadyState& steady;  ///< assess_flow() of the series that judged_by() names
   const Strips& strips;
   const TimeBlocks& profiles;                ///< a sample of the strips with each row of the series
   double interval;                           ///< s, between two rows
