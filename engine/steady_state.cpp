@@ -1,5 +1,6 @@
 #include "engine/steady_state.hpp"
 
+#include "engine/named.hpp"
 #include "engine/time_series.hpp"
 
 #include <algorithm>
@@ -96,10 +97,8 @@ std::string_view name(SteadyVerdict verdict) {
 }
 
 std::optional<SteadyVerdict> steady_verdict_named(std::string_view text) {
-  for (const auto verdict : {SteadyVerdict::steady, SteadyVerdict::accelerating,
-                             SteadyVerdict::drifting, SteadyVerdict::too_short})
-    if (name(verdict) == text) return verdict;
-  return std::nullopt;
+  using enum SteadyVerdict;
+  return named(text, {steady, accelerating, drifting, too_short});
 }
 
 }  // namespace riesel

@@ -1,6 +1,7 @@
 #include "engine/validity.hpp"
 
 #include "engine/estimate.hpp"
+#include "engine/named.hpp"
 
 #include <algorithm>
 #include <array>
@@ -165,9 +166,8 @@ double detachment(double restitution, double rigid_restitution) {
 }
 
 std::optional<Validity> validity_named(std::string_view text) {
-  for (const Validity validity : {Validity::valid, Validity::suspect, Validity::unphysical})
-    if (name(validity) == text) return validity;
-  return std::nullopt;
+  using enum Validity;
+  return named(text, {valid, suspect, unphysical});
 }
 
 std::string_view name(Validity validity) {

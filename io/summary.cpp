@@ -1,5 +1,6 @@
 #include "io/summary.hpp"
 
+#include "engine/named.hpp"
 #include "io/build_info.hpp"
 #include "io/json_file.hpp"
 
@@ -127,15 +128,13 @@ std::string_view name(JudgedBy judged_by) {
 }
 
 std::optional<EndedBy> ended_by_named(std::string_view text) {
-  for (const auto ended_by : {EndedBy::duration, EndedBy::precision, EndedBy::at_most})
-    if (name(ended_by) == text) return ended_by;
-  return std::nullopt;
+  using enum EndedBy;
+  return named(text, {duration, precision, at_most});
 }
 
 std::optional<JudgedBy> judged_by_named(std::string_view text) {
-  for (const auto judged_by : {JudgedBy::mean_vy, JudgedBy::granular_temperature})
-    if (name(judged_by) == text) return judged_by;
-  return std::nullopt;
+  using enum JudgedBy;
+  return named(text, {mean_vy, granular_temperature});
 }
 
 std::string to_json(const FlowSummary& s) {
