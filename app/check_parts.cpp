@@ -71,7 +71,7 @@ void warn_of_time_step(const io::Settings& settings) {
   if (steps < 20.0)
     warn(
         "{:.3g} steps per collision are few: errors grow with the square of the step; 50 keep them "
-        "at 1e-4",
+        "below 1e-3",
         steps);
 }
 

@@ -63,10 +63,4 @@ std::vector<std::string> keys_of_settings() {
   return {keys.begin(), keys.end()};
 }
 
-std::vector<std::string> names_of_scenarios() {
-  std::vector<std::string> names;
-  for (const scenarios::Scenario& scenario : scenarios::all()) names.push_back(scenario.name);
-  return names;
-}
-
 }  // namespace riesel::app

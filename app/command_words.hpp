@@ -28,6 +28,5 @@ std::vector<Subcommand> subcommands_of(const CLI::App& program);
 
 /// The keys that --set takes: those of all scenarios, sorted, each once.
 std::vector<std::string> keys_of_settings();
-std::vector<std::string> names_of_scenarios();
 
 }  // namespace riesel::app

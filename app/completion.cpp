@@ -1,6 +1,8 @@
 #include "app/completion.hpp"
 
 #include "app/command_words.hpp"
+#include "io/settings_table.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +21,8 @@ std::string bash_reply(WordKind kind) {
   case WordKind::directory:
     return "_riesel_reply -d; compopt -o filenames 2>/dev/null";
   case WordKind::scenario:
-    return fmt::format("_riesel_reply -W \"{}\"", fmt::join(names_of_scenarios(), " "));
+    return fmt::format("_riesel_reply -W \"{}\"",
+                       fmt::join(io::names_of_scenarios(scenarios::settings_tables()), " "));
   case WordKind::key:
     return "_riesel_reply -S = -W \"$keys\"; compopt -o nospace 2>/dev/null";
   case WordKind::shell:
@@ -66,7 +69,8 @@ std::string zsh_action(WordKind kind) {
   case WordKind::directory:
     return "_files -/";
   case WordKind::scenario:
-    return fmt::format("({})", fmt::join(names_of_scenarios(), " "));
+    return fmt::format("({})",
+                       fmt::join(io::names_of_scenarios(scenarios::settings_tables()), " "));
   case WordKind::key:
     return "_values -S = key $keys";
   case WordKind::shell:

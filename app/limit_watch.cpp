@@ -36,8 +36,8 @@ std::string energy_error_exceeded(double ratio) {
 }
 
 std::string steps_too_few(double steps) {
-  return fmt::format("the shortest twentieth of the contacts lasts {:.3g} steps or less, which "
-                     "does not resolve them; raise run.steps_per_collision, or contact.stiffness "
+  return fmt::format("the shortest twentieth of the contacts lasts about {:.3g} steps, which does "
+                     "not resolve them; raise run.steps_per_collision, or contact.stiffness "
                      "where grains run through the walls",
                      steps);
 }

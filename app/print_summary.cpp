@@ -22,9 +22,15 @@ void print_balance(const io::FlowSummary::Balance& b) {
     fmt::print("  {:<22}not known, gravity {:.4g} m/s^2\n", "wall collisions", b.gravity);
     return;
   }
-  const std::string factors = b.n_dot.value > 0.0 ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s",
-                                                                b.n_dot.value, b.dv_y.value)
-                                                  : "no new ones; lasting contacts";
+  const bool any_new = b.n_dot.value > 0.0;
+  if (!any_new && b.n_dot_dv_y.value == 0.0) {
+    fmt::print("  {:<22}none after the transient, gravity {:.4g} m/s^2\n", "wall collisions",
+               b.gravity);
+    return;
+  }
+  const std::string factors =
+      any_new ? fmt::format("{:.4g} 1/s per grain x {:.4g} m/s", b.n_dot.value, b.dv_y.value)
+              : "no new ones; lasting contacts";
   fmt::print("  {:<22}{} = {}, gravity {:.4g} m/s^2\n", "wall collisions", factors,
              text_of(b.n_dot_dv_y, "m/s^2"), b.gravity);
 }

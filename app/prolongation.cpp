@@ -99,7 +99,7 @@ Prolongation::Prolongation(const io::Manifest& manifest, const fs::path& sweep,
   reject_threads(overrides);
   reject_continuation(manifest, sweep);
   for (const io::ManifestPoint& point : manifest.points) {
-    if (!names.empty() && std::ranges::find(names, point.name) == names.end()) continue;
+    if (!is_among(names, point.name)) continue;
     const fs::path directory = point_directory(sweep, point.name);
     if (!obstacle_at(directory).empty()) continue;
     const io::Settings planned = kept_settings(directory / point_settings_name);

@@ -1,7 +1,7 @@
 // Going on with the runs of a sweep beyond their plan: for a longer time, or to a better precision.
 //
-// A point keeps its settings, except for those that may change when a run is resumed. That it has
-// been prolonged is recorded nowhere: its result says how long it is.
+// A point keeps its settings, except for those that may change when a run is resumed. How long it
+// has become its result says; the last attempt's changes are in its record (io::RunRecord).
 #pragma once
 
 #include "app/sweep_directory.hpp"
@@ -29,8 +29,8 @@ public:
                const std::vector<std::string>& names, const std::vector<std::string>& overrides);
 
   /// As app::standing_of(), except for a point that is done, but not as long as it is to be: it
-  /// counts as interrupted, or as failed if it cannot go on or has failed in trying. A failure with
-  /// other overrides than these does not count.
+  /// counts as interrupted, or as failed if it cannot go on or has failed in trying. A failure in
+  /// trying other overrides than these does not count.
   RunStanding standing_of(const std::filesystem::path& point) const;
 
   /// As refresh(), with these standings; reduces the expected time of each point to what is left.

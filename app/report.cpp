@@ -27,8 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto figures_name = "figures";
-
 /// What to do about a run without a result.
 std::string way_on_with(const fs::path& directory) {
   if (io::DirectoryLock::is_held(directory)) return "wait until it has";
@@ -142,18 +140,6 @@ void reject_files_of_others(const Report& report, const fs::path& directory) {
   }
 }
 
-/// Removes the figures of an earlier report that this one does not have. Others stay.
-void remove_other_figures(const Report& report, const fs::path& figures) {
-  for (const auto& entry : fs::directory_iterator(figures)) {
-    const bool is_figure = entry.is_regular_file() && !entry.is_symlink()
-                           && entry.path().extension() == ".svg" && is_own_drawing(entry.path());
-    if (is_figure
-        && std::ranges::find(report.figures, entry.path().stem().string(), &ReportFigure::name)
-               == report.figures.end())
-      fs::remove(entry.path());
-  }
-}
-
 /// Writes the page last, so that a page always has its figures.
 void write(const Report& report, const fs::path& directory) {
   const fs::path figures = directory / figures_name;
@@ -162,9 +148,12 @@ void write(const Report& report, const fs::path& directory) {
     throw io::FileError(figures, "is a link to another place", "remove it");
   reject_files_of_others(report, directory);
   io::make_directories(figures);
-  for (const ReportFigure& figure : report.figures)
+  std::vector<std::string> names;
+  for (const ReportFigure& figure : report.figures) {
     io::write_durably(file_of(figure, figures), figure.svg.file());
-  remove_other_figures(report, figures);
+    names.push_back(figure.name);
+  }
+  remove_own_drawings(figures, names);
   io::write_durably(directory / report_name, report.page);
 }
 

@@ -27,6 +27,17 @@ bool is_own_drawing(const std::filesystem::path& file) {
   return contains_mark(file, io::mark_of_drawings);
 }
 
+void remove_own_drawings(const std::filesystem::path& figures,
+                         const std::vector<std::string>& kept) {
+  if (!std::filesystem::is_directory(figures)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(figures)) {
+    const bool is_own = entry.is_regular_file() && !entry.is_symlink()
+                        && entry.path().extension() == ".svg" && is_own_drawing(entry.path());
+    if (is_own && std::ranges::find(kept, entry.path().stem().string()) == kept.end())
+      std::filesystem::remove(entry.path());
+  }
+}
+
 void ReportDraft::add_figure(const std::string& name, const io::Svg& svg,
                              std::string_view caption) {
   add_figure(name, svg, svg, caption);

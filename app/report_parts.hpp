@@ -24,6 +24,14 @@ bool is_own_report(const std::filesystem::path& page);
 /// The same of a figure.
 bool is_own_drawing(const std::filesystem::path& file);
 
+/// The figures as files, in the directory of the run or sweep.
+inline constexpr auto figures_name = "figures";
+
+/// Removes the drawings of an earlier report from the directory `figures`, if there is one, but for
+/// those with the names in `kept`. Files of others stay. Throws std::filesystem::filesystem_error.
+void remove_own_drawings(const std::filesystem::path& figures,
+                         const std::vector<std::string>& kept);
+
 // How figures look.
 inline constexpr double figure_width = 760.0, tall_figure = 420.0;  ///< px
 namespace ink {

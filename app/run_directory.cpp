@@ -31,6 +31,15 @@ std::string text_of(const io::Settings& settings) {
   return "# Written by " + written_by() + ".\n" + settings.effective_yaml();
 }
 
+/// Whether two such texts have the same settings, whichever versions have written them.
+bool same_settings(const std::string& a, const std::string& b) {
+  const auto behind_first_line = [](const std::string& text) {
+    const auto end = text.find('\n');
+    return end == std::string::npos ? std::string() : text.substr(end);
+  };
+  return behind_first_line(a) == behind_first_line(b);
+}
+
 }  // namespace
 
 fs::path place_named_after(const fs::path& file, const fs::path& parent) {
@@ -56,8 +65,20 @@ bool stopped_before_checkpoint(const fs::path& directory) {
          && !fs::exists(directory / io::summary_name);
 }
 
+namespace {
+
+std::unique_ptr<io::DirectoryLock> locked(const fs::path& path, io::Signature signature) {
+  try {
+    return std::make_unique<io::DirectoryLock>(path, signature);
+  } catch (const io::InUse& error) {
+    throw UnusableInput(error.what());
+  }
+}
+
+}  // namespace
+
 RunDirectory::RunDirectory(const fs::path& path, io::Signature signature)
-    : path_(path), lock_(std::make_unique<io::DirectoryLock>(path, signature)) {}
+    : path_(path), lock_(locked(path, signature)) {}
 
 namespace {
 
@@ -75,10 +96,10 @@ void reject_directory_in_use(const fs::path& path) {
     throw UnusableInput(path.string() + ": is no directory; choose another one with --out");
   if (fs::exists(path / io::manifest_name))
     throw UnusableInput(path.string() + ": holds a sweep; choose another directory with --out");
-  const bool holds_run = fs::exists(path / io::run_file_name)
-                         || fs::exists(path / io::trajectory_name)
-                         || fs::exists(path / io::trajectory_index_name)
-                         || fs::exists(path / io::summary_name) || has_checkpoint(path);
+  const bool holds_run =
+      fs::exists(path / io::run_file_name) || fs::exists(path / io::trajectory_name)
+      || fs::exists(path / io::trajectory_index_name) || fs::exists(path / post_mortem_name)
+      || fs::exists(path / io::summary_name) || has_checkpoint(path);
   if (holds_run && stopped_before_checkpoint(path))
     throw UnusableInput(path.string()
                         + ": holds a run that was stopped before its first checkpoint; "
@@ -114,44 +135,49 @@ RunDirectory RunDirectory::reopen(const fs::path& path) {
   return {path, io::Signature::later};
 }
 
-std::optional<std::string> RunDirectory::go_on(const io::Settings& settings, bool is_over) const {
+std::optional<RunDirectory::SetAside> RunDirectory::go_on(const io::Settings& settings,
+                                                          bool is_over) const {
   lock_->sign();
   const std::string text = text_of(settings);
   const fs::path settings_file = file(io::effective_settings_name);
-  std::string before = io::beginning_of(settings_file, io::largest_settings_text);
-  if (is_over && before == text) return {};
+  SetAside before{.settings = io::beginning_of(settings_file, io::largest_settings_text)};
+  if (is_over && same_settings(before.settings, text)) return {};
   // The result first, so that it never stands beside settings that are not its own.
   const fs::path summary = file(io::summary_name);
   std::error_code error;
   fs::rename(summary, io::previous_generation(summary), error);
   if (error && error != std::errc::no_such_file_or_directory)
     throw io::system_failure(summary, "cannot be set aside", error.value());
-  const bool had_result = !error;
+  before.has_result = !error;
   try {
     io::write_durably(settings_file, text);
   } catch (const io::FileError&) {
-    if (had_result) go_back(before);
+    go_back(before);
     throw;
   }
-  return had_result ? std::optional(std::move(before)) : std::nullopt;
+  return before;
 }
 
-void RunDirectory::go_back(const std::string& settings_before) const {
+void RunDirectory::go_back(const SetAside& before) const {
   const fs::path settings = file(io::effective_settings_name), summary = file(io::summary_name);
   try {
-    const bool same = io::beginning_of(settings, io::largest_settings_text) == settings_before;
-    if (!same) io::write_durably(settings, settings_before);
+    const bool same = io::beginning_of(settings, io::largest_settings_text) == before.settings;
+    if (!same) io::write_durably(settings, before.settings);
   } catch (const io::FileError&) {
     return;  // the result must not stand beside settings that are not its own
   }
+  if (!before.has_result) return;
   std::error_code ignored;  // what made the run fail is told
   fs::rename(io::previous_generation(summary), summary, ignored);
 }
 
 void RunDirectory::drop_report() const {
   if (!is_own_report(file(report_name))) return;
-  std::error_code ignored;  // an old report that stays does no harm to results
-  fs::remove(file(report_name), ignored);
+  try {  // an old report that stays does no harm to results
+    fs::remove(file(report_name));
+    remove_own_drawings(file(figures_name), {});
+  } catch (const fs::filesystem_error&) {
+  }
 }
 
 void RunDirectory::write_summary(const std::string& text) const {

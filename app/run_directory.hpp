@@ -34,6 +34,12 @@ bool stopped_before_checkpoint(const std::filesystem::path& directory);
 
 class RunDirectory {
 public:
+  /// What was there before a run went on.
+  struct SetAside {
+    std::string settings;     ///< the text of effective.yaml
+    bool has_result = false;  ///< now summary.json.previous
+  };
+
   /// Makes the directory and puts effective.yaml in it. Throws UnusableInput if there is a run or a
   /// sweep in it already, or another effective.yaml, io::FileError if it cannot be written.
   static RunDirectory create(const std::filesystem::path& path, const io::Settings& settings);
@@ -42,13 +48,13 @@ public:
   static RunDirectory reopen(const std::filesystem::path& path);
   /// Prepares the directory for a run that goes on: renames its result, summary.json, to
   /// summary.json.previous, then writes effective.yaml anew, as settings may have changed. Does
-  /// neither if the run `is_over` and the settings are the same. Returns the text of effective.yaml
-  /// before, for go_back(), if there was a result. Throws io::FileError; the result is in its place
-  /// then.
-  std::optional<std::string> go_on(const io::Settings& settings, bool is_over) const;
-  /// Undoes go_on() if nothing has been saved since: the result and its settings count again.
-  void go_back(const std::string& settings_before) const;
-  /// Removes the report, which is out of date once the run has gone on, if it is riesel's.
+  /// neither if the run `is_over` and the settings are the same. Returns what go_back() needs.
+  /// Throws io::FileError; the result is in its place then.
+  std::optional<SetAside> go_on(const io::Settings& settings, bool is_over) const;
+  /// Undoes go_on() if nothing has been saved since: the settings, and the result, count again.
+  void go_back(const SetAside& before) const;
+  /// Removes the report and its figures, which are out of date once the run has gone on, if the
+  /// report is riesel's.
   void drop_report() const;
   /// Writes summary.json and removes its previous version. Throws io::FileError.
   void write_summary(const std::string& text) const;

@@ -121,7 +121,7 @@ private:
 
   /// Prepares the directory of a run that goes on.
   void take_up_directory() {
-    settings_before_ = files_.directory().go_on(settings_, is_over());
+    set_aside_ = files_.directory().go_on(settings_, is_over());
     if (!is_over() || past_.had_other_settings) files_.directory().drop_report();
   }
 
@@ -146,7 +146,7 @@ private:
     try {
       save();
     } catch (const io::FileError&) {
-      if (settings_before_) files_.directory().go_back(*settings_before_);
+      if (set_aside_) files_.directory().go_back(*set_aside_);
       throw;
     }
     save();
@@ -367,8 +367,8 @@ private:
   Progress progress_;
   Pace pace_;
   TimeLimit time_limit_;
-  std::optional<std::string> settings_before_;  // of a result that was set aside
-  std::string precision_so_far_;                // for the line of progress
+  std::optional<RunDirectory::SetAside> set_aside_;  // when the run went on
+  std::string precision_so_far_;                     // for the line of progress
   const std::int64_t first_step_;
   Clock::time_point start_, last_checkpoint_;
   RunTimes times_;

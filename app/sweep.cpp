@@ -45,7 +45,7 @@ void write_point(const fs::path& point, const std::string& settings) {
 
 /// Writes all points, the sweep file and the manifest. Returns whether that was possible for all
 /// points: one that was there before and cannot be written any more is told, and fails later.
-bool write_plan(const SweepPlan& plan, const fs::path& sweep) {
+bool write_plan(SweepPlan& plan, const fs::path& sweep) {
   bool all_written = true;
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const fs::path point = point_directory(sweep, plan.manifest.points[i].name);
@@ -60,6 +60,7 @@ bool write_plan(const SweepPlan& plan, const fs::path& sweep) {
   }
   const fs::path copy = sweep / sweep_file_name;  // somebody may have written notes into it
   if (!holds(copy, plan.sweep_file)) io::write_durably(copy, plan.sweep_file, io::Previous::keep);
+  refresh(plan.manifest, sweep);  // some points may be done
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
   return all_written;
 }
@@ -217,7 +218,8 @@ int submit(const io::Manifest& manifest, const fs::path& sweep, const Prolongati
       slurm_script(manifest, sweep, options.overrides, options.slurm, options.max_walltime, most);
   if (script.empty()) {
     print_status(manifest, sweep);
-    return exit_done;
+    const auto is_done = [](const auto& point) { return has_status(point, RunStatus::done); };
+    return std::ranges::all_of(manifest.points, is_done) ? exit_done : exit_failed;
   }
   io::make_directories(sweep / "slurm");
   io::write_durably(sweep / slurm_script_name, script);

@@ -94,9 +94,23 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
   return all_taken;
 }
 
+namespace {
+
+/// Tasks leave the manifest as it is. A process that runs the whole sweep writes it itself.
+void keep(const io::Manifest& manifest, const fs::path& sweep) {
+  try {
+    const io::DirectoryLock lock(sweep);
+    io::write_durably(sweep / io::manifest_name, io::to_json(manifest));
+  } catch (const io::InUse&) {
+  }
+}
+
+}  // namespace
+
 int sweep_collect(const fs::path& directory) {
   io::Manifest manifest = manifest_in(directory);
   refresh(manifest, directory);
+  keep(manifest, directory);
   const bool all_taken = write_table(manifest, directory);
   print_status(manifest, directory);
   return all_taken ? exit_done : exit_failed;

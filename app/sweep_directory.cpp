@@ -144,9 +144,14 @@ RunStanding standing_of(const fs::path& point, const io::RunRecord& record) {
   return with(has_begun ? RunStatus::interrupted : RunStatus::waiting);
 }
 
-void refresh(io::Manifest& manifest, const fs::path& sweep) {
+bool is_among(const std::vector<std::string>& names, const std::string& point) {
+  return names.empty() || std::ranges::find(names, point) != names.end();
+}
+
+void refresh(io::Manifest& manifest, const fs::path& sweep, const std::vector<std::string>& names) {
   std::map<std::string, RunStanding> standings;
   for (io::ManifestPoint& point : manifest.points) {
+    if (!is_among(names, point.name)) continue;
     RunStanding& standing = standings[point.name];
     standing = standing_of(point_directory(sweep, point.name));
     if (standing.status == RunStatus::waiting) standing.reason = reason_to_wait(point, standings);
@@ -188,7 +193,7 @@ void reject_changed_inputs(const io::Manifest& manifest, const fs::path& sweep,
                            const std::vector<std::string>& names) {
   std::set<std::map<std::string, std::string>> unchanged;  // each is read once
   for (const io::ManifestPoint& point : manifest.points) {
-    if (!names.empty() && std::ranges::find(names, point.name) == names.end()) continue;
+    if (!is_among(names, point.name)) continue;
     const fs::path directory = point_directory(sweep, point.name);
     if (point.inputs.empty() || unchanged.contains(point.inputs)) continue;
     const RunStatus status = standing_of(directory).status;
@@ -204,9 +209,13 @@ bool can_resume(const fs::path& point) {
   return fs::exists(point / io::run_file_name) && has_checkpoint(point);
 }
 
+bool can_begin(const fs::path& point) {
+  return obstacle_at(point).empty() && (can_resume(point) || !fs::exists(point / io::summary_name));
+}
+
 void clear(const fs::path& point) {
   const io::DirectoryLock lock(point);
-  if (fs::exists(point / io::summary_name)) return;  // even if it is damaged
+  if (fs::exists(point / io::summary_name) || can_resume(point)) return;
   const fs::path checkpoint = point / io::checkpoint_name, post_mortem = point / post_mortem_name;
   for (const fs::path& file : {checkpoint, io::previous_generation(checkpoint), post_mortem,
                                io::previous_generation(post_mortem), point / io::run_file_name,

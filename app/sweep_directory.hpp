@@ -51,9 +51,13 @@ RunStanding standing_of(const std::filesystem::path& point);
 /// The same, with another record than that in the directory.
 RunStanding standing_of(const std::filesystem::path& point, const io::RunRecord& record);
 
-/// Brings status, attempts and reason of each point of the manifest up to date from the
+/// Whether a point is among those with these `names`: all if empty.
+bool is_among(const std::vector<std::string>& names, const std::string& point);
+
+/// Brings status, attempts and reason of the points with these `names` up to date from the
 /// directories.
-void refresh(io::Manifest& manifest, const std::filesystem::path& sweep);
+void refresh(io::Manifest& manifest, const std::filesystem::path& sweep,
+             const std::vector<std::string>& names = {});
 
 /// Whether some runs start from the ends of others. Such runs cannot be extended.
 bool has_chains(const io::Manifest& manifest);
@@ -66,16 +70,20 @@ std::set<std::string> note_misplaced(io::Manifest& manifest, const std::filesyst
 /// changed; "" if none has.
 std::string changed_input(const io::ManifestPoint& point);
 
-/// Throws UnusableInput if that holds for any point, among those with these `names` (all if empty),
-/// that has yet to begin.
+/// Throws UnusableInput if that holds for any point, among those with these `names`, that has yet
+/// to begin.
 void reject_changed_inputs(const io::Manifest& manifest, const std::filesystem::path& sweep,
                            const std::vector<std::string>& names);
 
 /// Whether a run of the point can go on from a checkpoint.
 bool can_resume(const std::filesystem::path& point);
 
+/// Whether the run of the point can be started, or go on: not if it is out of reach, nor if it has
+/// a result, but no checkpoint to go on from.
+bool can_begin(const std::filesystem::path& point);
+
 /// Removes the files of a run that cannot go on, so that it can be started again; does nothing if
-/// the run is done. Throws io::FileError if a process is working on it.
+/// the run is done, or can go on after all. Throws io::FileError if a process is working on it.
 void clear(const std::filesystem::path& point);
 
 }  // namespace riesel::app

@@ -188,7 +188,8 @@ std::string common_unit(const std::string& key, const std::vector<io::SweepPoint
 std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep,
                                                const std::vector<io::SweepPoint>& points) {
   std::vector<io::VariedSetting> varied;
-  for (const std::string& key : io::varied_keys(sweep))
+  const io::SettingsTable& table = scenarios::settings_tables().at(sweep.scenario);
+  for (const std::string& key : io::varied_keys(sweep, table, points))
     varied.push_back({key, common_unit(key, points)});
   return varied;
 }

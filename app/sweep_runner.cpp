@@ -86,12 +86,9 @@ class Runner {
 public:
   Runner(io::Manifest& manifest, fs::path sweep, const std::vector<std::string>& names,
          const SweepRunOptions& options)
-      : manifest_(manifest), sweep_(std::move(sweep)), options_(options) {
-    for (const io::ManifestPoint& point : manifest.points) {
-      const bool wanted =
-          names.empty() || std::find(names.begin(), names.end(), point.name) != names.end();
-      if (wanted) add(point);
-    }
+      : manifest_(manifest), sweep_(std::move(sweep)), names_(names), options_(options) {
+    for (const io::ManifestPoint& point : manifest.points)
+      if (is_among(names, point.name)) add(point);
     order_by_urgency();
   }
 
@@ -111,11 +108,12 @@ public:
       const bool more = ending_signal() == 0 && start_what_can();
       if (!more && running_ == 0) break;
       show_progress();
-      if (Clock::now() - last_manifest_ > between_manifests) write_manifest();
+      if (options_.on_change && Clock::now() - last_manifest_ > between_manifests) tell_manifest();
       std::this_thread::sleep_for(between_looks);
     }
     progress_.finish();
-    write_manifest();
+    update_manifest();
+    if (options_.on_change) options_.on_change(manifest_);
     if (interrupting_signal() != 0) return 128 + interrupting_signal();
     if (count(RunStatus::done) == jobs_.size()) return exit_done;
     return passed_on_ ? exit_out_of_time : exit_failed;
@@ -133,7 +131,7 @@ private:
     job->seconds = point.expected_seconds * options_.prolongation.part_left(job->directory);
     job->most_threads = point.most_threads;
     look_at(*job);
-    if (job->status == RunStatus::failed && options_.retry_failed && can_begin(*job))
+    if (job->status == RunStatus::failed && options_.retry_failed && can_begin(job->directory))
       job->status = RunStatus::interrupted;
     by_name_.emplace(job->name, job.get());
     jobs_.push_back(std::move(job));
@@ -143,13 +141,6 @@ private:
     const RunStanding standing = options_.prolongation.standing_of(job.directory);
     job.status = standing.status;
     job.reason = standing.reason;
-  }
-
-  /// Not if it is out of reach; and if it has a result, but no checkpoint to go on from, it must
-  /// not be started again.
-  static bool can_begin(const Job& job) {
-    return obstacle_at(job.directory).empty()
-           && (can_resume(job.directory) || !fs::exists(job.directory / io::summary_name));
   }
 
   void order_by_urgency() {
@@ -213,14 +204,16 @@ private:
     const bool in_vain = job.status == RunStatus::failed && !options_.retry_failed;
     if (job.status == RunStatus::running || job.status == RunStatus::done || in_vain) return;
     ++job.starts;
-    const bool goes_on = can_resume(job.directory);
     const fs::path settings = job.directory / point_settings_name;
-    // A run takes its settings from a pipe, too, and would wait for its writer.
-    if (!goes_on && fs::exists(settings) && !fs::is_regular_file(settings))
-      return fail(job, settings.string() + ": is no regular file; remove it");
-    if (const std::string change = goes_on ? "" : changed_input(*job.point); !change.empty())
-      return fail(job, change);
-    if (!goes_on && !cleared(job)) return;
+    if (!can_resume(job.directory)) {
+      // A run takes its settings from a pipe, too, and would wait for its writer.
+      if (fs::exists(settings) && !fs::is_regular_file(settings))
+        return fail(job, settings.string() + ": is no regular file; remove it");
+      if (const std::string change = changed_input(*job.point); !change.empty())
+        return fail(job, change);
+      if (!cleared(job)) return;
+    }
+    const bool goes_on = can_resume(job.directory);  // another process may have begun it meanwhile
     const std::vector<std::string> changes = options_.prolongation.overrides_for(job.directory);
     const int before = io::read_run_record(job.directory).attempts;
     const int attempts = before < std::numeric_limits<int>::max() ? before + 1 : before;
@@ -349,20 +342,25 @@ private:
                                failed > 0 ? fmt::format(", {} failed", failed) : ""));
   }
 
-  void write_manifest() {
-    refresh(manifest_, sweep_);
+  void tell_manifest() {
+    update_manifest();
+    options_.on_change(manifest_);
+    last_manifest_ = Clock::now();
+  }
+
+  void update_manifest() {
+    refresh(manifest_, sweep_, names_);
     for (io::ManifestPoint& point : manifest_.points) {
       const auto job = by_name_.find(point.name);
       if (job == by_name_.end() || job->second->status != RunStatus::failed) continue;
       point.status = to_string(RunStatus::failed);  // refresh() may say done: it failed to go on
       point.reason = job->second->reason;
     }
-    options_.on_change(manifest_);
-    last_manifest_ = Clock::now();
   }
 
   io::Manifest& manifest_;
   const fs::path sweep_;
+  const std::vector<std::string>& names_;
   const SweepRunOptions& options_;
   std::vector<std::unique_ptr<Job>> jobs_;  // a parent before its children
   std::map<std::string, Job*> by_name_;

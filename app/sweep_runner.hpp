@@ -28,14 +28,15 @@ struct SweepRunOptions {
   bool retry_failed = false;                ///< start failed points again
   std::optional<double> max_walltime = {};  ///< s of real time since the program started
   Prolongation prolongation = {};           ///< for points that are done, too
-  /// Called now and then, and at the end, with the snapshot in the manifest up to date.
-  std::function<void(const io::Manifest&)> on_change = [](const io::Manifest&) {};
+  /// If there is one, called now and then, and at the end, with the snapshot in the manifest up to
+  /// date.
+  std::function<void(const io::Manifest&)> on_change = {};
 };
 
 /// Runs those points that have not come to their end, but none that failed before (see options).
 /// `names`: which points; all if empty. Returns exit_done if all of them are done, exit_failed if
-/// not, exit_out_of_time if the time was over, 128 + signal if interrupted. Brings the manifest up
-/// to date.
+/// not, exit_out_of_time if the time was over, 128 + signal if interrupted. Brings these points in
+/// the manifest up to date.
 int run_points(io::Manifest& manifest, const std::filesystem::path& sweep,
                const std::vector<std::string>& names, const SweepRunOptions& options);
 

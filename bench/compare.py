@@ -49,7 +49,7 @@ class Ratio(NamedTuple):
 def paired_ratio(row, base):
     """How much faster `row` is than `base`, which was measured in turns with it."""
     ratios = [row["work"] / seconds / (base["work"] / base_seconds)
-              for seconds, base_seconds in zip(row["seconds"]["all"], base["seconds"]["all"])]
+              for seconds, base_seconds in zip(row["seconds"]["all"], base["seconds"]["all"], strict=True)]
     return Ratio(statistics.median(ratios), min(ratios), max(ratios))
 
 

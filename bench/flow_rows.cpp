@@ -28,7 +28,7 @@ struct Contender {
 };
 
 /// Steps are the same for all variants and do not depend on the clock, so that the hashes of two
-/// machines can be compared. At least as many as lie between several sortings, but for the largest.
+/// machines can be compared. Up to 100 k grains at least as many as lie between several sortings.
 struct Plan {
   std::int64_t warm_up, steps;
   std::int64_t scalar_steps;  ///< all are alike to the scalar code, and it takes long
@@ -38,16 +38,18 @@ struct Plan {
 
   Plan(const FlowCase& one, const Effort& effort, double grains)
       : warm_up(std::llround(std::clamp(2e6 / grains, 20.0, 1000.0))),
-        steps(steps_for(one.work * effort.work, grains)),
-        scalar_steps(steps_for(std::min(one.work, 1e7) * effort.work, grains)),
+        steps(steps_for(one.work * effort.work, grains, 1000.0)),
+        scalar_steps(steps_for(std::min(one.work, 1e7) * effort.work, grains, 500.0)),
         settling(std::llround(std::max(std::max(3.6e8, 9.0 * one.work) / grains, 1200.0))),
         repetitions(std::min(effort.repetitions, grains > 2e6   ? 2
                                                  : grains > 5e5 ? 3
                                                                 : 5)) {}
 
 private:
-  static std::int64_t steps_for(double work, double grains) {
-    return std::llround(std::max(work / grains, grains > 2e6 ? 100.0 : 200.0));
+  static std::int64_t steps_for(double work, double grains, double least) {
+    return std::llround(std::max(work / grains, grains > 2e6   ? 100.0
+                                                : grains > 5e5 ? 200.0
+                                                               : least));
   }
 };
 

@@ -3,8 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace riesel::bench {
+
+namespace {
+
+bool is_simple(const State& state, const ContactModel& model) {
+  const auto at_rest = [](const WallLattice& wall) { return !wall.motion.is_ever_away(); };
+  return std::holds_alternative<LinearLaw>(model.normal)
+         && std::holds_alternative<CappedSlip>(model.slip) && model.attraction == Attraction::keep
+         && !state.grains.rotate() && state.gravity.x == 0.0 && state.walls.size() == 2
+         && std::all_of(state.walls.begin(), state.walls.end(), at_rest);
+}
+
+}  // namespace
 
 ScalarReference::ScalarReference(const State& state, const ContactModel& model)
     : n_(state.grains.size()),
@@ -19,6 +32,8 @@ ScalarReference::ScalarReference(const State& state, const ContactModel& model)
       mu_(model.friction),
       fx_(n_, 0.0),
       fy_(n_, 0.0) {
+  if (!is_simple(state, model))
+    throw std::invalid_argument("the scalar reference knows only the tube of the paper");
   for (std::size_t i = 0; i < n_; ++i) {
     const Grain g = grain_at(state, i);
     x_.push_back(g.x);
@@ -35,6 +50,12 @@ ScalarReference::ScalarReference(const State& state, const ContactModel& model)
 
 double ScalarReference::mean_vy() const {
   return std::accumulate(vy_.begin(), vy_.end(), 0.0) / static_cast<double>(n_);
+}
+
+double ScalarReference::kinetic_energy() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n_; ++i) sum += 0.5 * mass_[i] * (vx_[i] * vx_[i] + vy_[i] * vy_[i]);
+  return sum;
 }
 
 void ScalarReference::advance(std::int64_t steps) {

@@ -15,10 +15,13 @@ namespace riesel::bench {
 
 class ScalarReference {
 public:
+  /// Throws std::invalid_argument if there is something that it does not know: another law, grains
+  /// that rotate, gravity across the tube, no or moving walls.
   ScalarReference(const State& state, const ContactModel& model);
 
   void advance(std::int64_t steps);
-  double mean_vy() const;
+  double mean_vy() const;         ///< m/s
+  double kinetic_energy() const;  ///< J
 
 private:
   void step();

@@ -74,7 +74,8 @@ double spring_time(const SlipLaw& slip, double inertia, double reduced_mass);
 double chord(double reach, double impact_height);
 
 /// m, the chord through a circle of radius `reach` at the depth to which a body sinks in a head-on
-/// contact of duration `t_col` (s) that begins with `speed` (m/s).
+/// contact of duration `t_col` (s) that begins with `speed` (m/s): speed t_col / pi, as by linear
+/// springs. (Hertz' law goes 7 % deeper, which changes the chord by 3 %.)
 double chord_of_impact(double reach, double speed, double t_col);
 
 /// m/s, v_crit: a body that passes the chord (m) faster is through before `t_col` (s) has passed.

@@ -68,8 +68,8 @@ struct Touch {
   double since;           ///< s, how long the bodies have touched; dt if longer than the last step
   double until;           ///< s, how long they will touch; dt if longer than the next step
   double elastic_energy;  ///< J
-  double normal_power;    ///< W, dissipated by the normal damping (negative where a clipped force
-                          ///< gives back)
+  double normal_power;    ///< W, dissipated by the normal damping; where the force is clipped, the
+                          ///< elastic energy that is not given back
   double spring;          ///< m, elongation of the tangential spring; 0 without
   double spring_energy;   ///< J, the part of the elastic energy that is in it
   double torque;          ///< N m, of the friction, on both bodies together: each has its part of
@@ -185,12 +185,13 @@ template <class Turn, class Normal, class Slip>
   const double elastic = normal.elastic(overlap);
   const double damping = normal.damping(overlap, rate, e.reduced_mass);
   const double present = elastic + damping;
-  const Passage in_touch = passage(e, distance, closing, present, dt);
   const double least = least_force(attraction), per_dt = 1.0 / dt;
+  const double pushing = std::max(present, least);
+  const Passage in_touch = passage(e, distance, closing, pushing, dt);
   const double f_n = mean_normal_force(elastic, damping, least, in_touch.kick_time, per_dt);
 
   const Sliding sliding{.limit = mu * std::abs(f_n),
-                        .present_limit = mu * std::abs(std::max(present, least)),
+                        .present_limit = mu * std::abs(pushing),
                         .slip = slip,
                         .half_step_slip = half_step_slip,
                         .spring = stretch.spring + slipping * stretch.time,

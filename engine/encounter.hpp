@@ -10,8 +10,10 @@
 
 namespace riesel {
 
-/// Position and motion of a body at a step, in quanta: `u` is the displacement in that step, and
-/// `kick` what that in the next step will be larger by.
+/// Position and motion of a body at a step, in quanta: `u` is the displacement in that step. Half
+/// of `kick` takes it to the velocity at the step itself: of grains it is the kick of the step
+/// before, which `u` has already, of walls what `u` will be larger by in the next step. In a State
+/// between two advances it is the latter for grains, too.
 struct BodyMotion {
   FixedVector position, u, kick;
 };

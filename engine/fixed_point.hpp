@@ -81,7 +81,7 @@ constexpr std::int64_t part_of_ring(Fixed y, std::int64_t parts) {
 [[gnu::always_inline]] inline Fixed nearest_fixed(double quanta) {
   constexpr double shift = 0x1.8p52;
   const auto integer = [=](double shifted) {
-    return std::bit_cast<Fixed>(shifted) - std::bit_cast<Fixed>(shift);
+    return wrapped_difference(std::bit_cast<Fixed>(shifted), std::bit_cast<Fixed>(shift));
   };
   const double upper = quanta * 0x1p-26 + shift;
   const double lower = quanta - (upper - shift) * 0x1p26 + shift;

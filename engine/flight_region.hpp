@@ -78,7 +78,7 @@ public:
 
   // A step, to step number `step`, is move(), collide(), settle() and foresee().
 
-  /// Moves the deflected grains, except guests.
+  /// Moves the deflected grains. (Guests get their motion from their slices in collide().)
   void move(std::int64_t step);
   /// Looks at the candidates that are due, and computes the kicks of contacts.
   void collide(std::int64_t step);

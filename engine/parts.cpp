@@ -194,7 +194,7 @@ void Parts::learn_from_failure() {
   if (buffers < largest_buffers * state_.box.length) {
     habits_.buffer *= wider;
   } else {
-    habits_.steps = std::max(fewest_steps, habits_.steps * much_shorter);
+    habits_.steps = std::min(habits_.steps, std::max(fewest_steps, habits_.steps * much_shorter));
     habits_.steps_known = true;
   }
 }

@@ -5,6 +5,7 @@
 // The simulation does not depend on what is measured.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -38,7 +39,7 @@ public:
     const std::int64_t last = first + count - 1;
     sampled_ = on_ && last - last % steps_per_sample >= first;
     if (!sampled_) return;
-    weight_ = static_cast<double>(steps_per_sample) / static_cast<double>(count);
+    weight_ = std::max(1.0, static_cast<double>(steps_per_sample) / static_cast<double>(count));
     last_ = Clock::now();
   }
   /// Attributes the time since the last call of a member function to this phase.

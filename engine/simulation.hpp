@@ -51,9 +51,9 @@ public:
 
   /// Does `steps` steps; none if `steps` <= 0. The result does not depend on the number of threads,
   /// nor on how the steps are divided between calls. Throws RunFailure if a force is not finite or
-  /// a grain is lost, or if the system grants fewer threads than at first. In which step a lost
-  /// grain is found, and whether one that is thrown far within a few steps is, depends on the
-  /// stepping (automatic: on the clock), the threads and the calls.
+  /// far too large for a step, if a grain is lost, or if the system grants fewer threads than at
+  /// first. In which step a lost grain is found, and whether one that is thrown far within a few
+  /// steps is, depends on the stepping (automatic: on the clock), the threads and the calls.
   void advance(std::int64_t steps);
 
   const State& state() const { return state_; }

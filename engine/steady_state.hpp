@@ -23,7 +23,7 @@ enum class SteadyVerdict {
 /// of the series, whichever is longer.
 struct SteadyState {
   SteadyVerdict verdict;
-  std::size_t transient_end;    ///< index of the first sample after the transient: there is one
+  std::size_t transient_end;    ///< index of the first sample after the transient, if there is any
   double mean;                  ///< a property of the flow only if `verdict` is `steady`
   double error;                 ///< of the mean, 68 %
   double autocorrelation_time;  ///< sample intervals per independent sample

@@ -83,7 +83,8 @@ void Stepper::fail_if_in_trouble() const {
     lost = first_of(lost, slice.lost);
   }
   if (trouble && !(lost && lost->step < trouble->step))
-    throw RunFailure("the force between " + bodies_of(trouble->contact) + " is not finite "
+    throw RunFailure("the force between " + bodies_of(trouble->contact)
+                     + " is not finite, or far too large for a time step, "
                      + when(trouble->step, state_.time_step) + "; a shorter time step may help");
   if (!lost) return;
   const bool through_open_side = !lost->thrown && has_open_side(state_);

@@ -162,13 +162,14 @@ std::size_t transient_length(std::span<const double> series) {
   double least = std::numeric_limits<double>::infinity();
   Index cut = 0;
   for (Index first = means.size() - 1; first >= 0; --first) {
-    const auto count = static_cast<double>(means.size() - first);
+    const Index kept = means.size() - first;
+    const auto count = static_cast<double>(kept);
     const double step = means[first] - mean;
     mean += step / count;
     squares += step * (means[first] - mean);
 
     const double squared_error = squares / (count * count);
-    const bool in_first_half = 2 * first <= means.size();
+    const bool in_first_half = 2 * first <= means.size() && kept > 1;  // one has no error
     if (in_first_half && squared_error <= least) {
       least = squared_error;
       cut = first;
@@ -199,7 +200,7 @@ MeanEstimate estimate_mean(std::span<const double> series) {
   const ArrayXd deviations = deviations_from_mean(samples);
   if (series.size() < min_samples) {
     return {.mean = mean_of(samples),
-            .error = std::sqrt(power_of(deviations)),
+            .error = standard_deviation(series),
             .autocorrelation_time = n,
             .independent_samples = 1};
   }
@@ -222,7 +223,8 @@ double error_per_weight(std::span<const double> linear, std::span<const double> 
   const auto of_all = finite_samples(linear);
   const auto weight = finite_samples(weights);
   if ((weight >= weight.sum()).any()) return unknown;
-  const ArrayXd from_others = of_all / (1.0 - weight / weight.sum());
+  const auto n = static_cast<double>(of_all.size());
+  const ArrayXd from_others = (n - 1.0) / n * of_all / (1.0 - weight / weight.sum());
   return estimate_mean({from_others.data(), static_cast<std::size_t>(from_others.size())}).error;
 }
 

@@ -26,7 +26,7 @@ struct Evidence {
   double passages_per_visit;      ///< contacts cut short per visit to a wall
   double wall_speed_ratio;        ///< mean slip speed at the beginning of wall contacts over v_crit
   double pulling_fraction;        ///< part of the time of wall contacts with F_N < 0
-  double steps_per_contact;       ///< upper bound for the shortest twentieth of contacts
+  double steps_per_contact;       ///< 5 % quantile, which may be low by a fifth
   double energy_error_ratio;      ///< see energy_error_ratio()
   double limits_exceeded;         ///< number of exceeded user limits of the kind that only warns
   double contact_rate_times_t_col;  ///< contacts with other grains that begin per grain and t_col

@@ -9,8 +9,9 @@ namespace riesel {
 
 namespace {
 
-/// (m/s)^2, relative to the wall. In the frame of a wall at rest or at constant velocity, what the
-/// grain has lost is what was dissipated; for an oscillating wall this is an approximation.
+/// (m/s)^2, relative to the wall. In the frame of a wall at rest or at constant velocity, what a
+/// grain without rotation has lost is what was dissipated; for an oscillating wall, and for grains
+/// that rotate, this is an approximation.
 double leaving_speed_squared(const Contact& c, double mass) {
   const double entry2 = c.entry_rate * c.entry_rate + c.entry_slip * c.entry_slip;
   return std::max(entry2 - 2.0 * (c.normal_loss + c.friction_loss) / mass, 0.01 * entry2);

@@ -231,10 +231,10 @@ bool is_there(const fs::path& path) {
 void check_version(const StoredGroup& root, const fs::path& path) {
   const auto version = root.attribute<std::int64_t>("format_version");
   if (version == format_version) return;
-  throw FileError(path,
-                  fmt::format("has format version {}, but this riesel ({}) reads version {}",
-                              version, build_info().version, format_version),
-                  "use riesel " + root.text_attribute("riesel_version"));
+  throw OtherFormat(path,
+                    fmt::format("has format version {}, but this riesel ({}) reads version {}",
+                                version, build_info().version, format_version),
+                    "use riesel " + root.text_attribute("riesel_version"));
 }
 
 Checkpoint read_sealed(const fs::path& path) {
@@ -274,6 +274,8 @@ FoundCheckpoint find_checkpoint(const fs::path& path) {
   const auto previous = previous_generation(newest);
   try {
     return {.checkpoint = read_checkpoint(newest), .path = newest, .note = {}};
+  } catch (const OtherFormat&) {  // of a later riesel: the state before is out of date
+    throw;
   } catch (const FileError& error) {
     if (!is_there(previous)) throw;
     const auto note = newest.string() + ": " + error.problem();

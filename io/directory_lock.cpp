@@ -83,8 +83,7 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature s
   if (error_number != EWOULDBLOCK) {
     throw system_failure(directory, cannot_be_locked, error_number);
   }
-  throw FileError(directory, in_use_by + holder,
-                  "wait until that ends, or choose another directory");
+  throw InUse(directory, in_use_by + holder, "wait until that ends, or choose another directory");
 }
 
 void DirectoryLock::sign() const {

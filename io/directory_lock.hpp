@@ -31,8 +31,8 @@ inline constexpr auto in_use_by = "is in use by ";
 /// Holds the lock of a directory as long as it lives.
 class DirectoryLock {
 public:
-  /// Throws FileError if another process holds the lock (naming it), or if the directory cannot be
-  /// written.
+  /// Throws InUse if another process holds the lock (naming it), FileError if the directory cannot
+  /// be written.
   explicit DirectoryLock(const std::filesystem::path& directory, Signature = Signature::now);
   ~DirectoryLock();
 

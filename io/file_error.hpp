@@ -24,6 +24,18 @@ private:
   std::string remedy_;
 };
 
+/// A file whose format this riesel does not read.
+class OtherFormat : public FileError {
+public:
+  using FileError::FileError;
+};
+
+/// A directory that another process has locked.
+class InUse : public FileError {
+public:
+  using FileError::FileError;
+};
+
 /// The error for a failed system call: the problem is `action` ("cannot be written") followed by
 /// the system's text for `error_number` (an errno), which also decides the remedy.
 FileError system_failure(const std::filesystem::path& file, const std::string& action,

@@ -47,8 +47,8 @@ std::string remedy_without_scenario(const YamlNode& file, const Setting& row) {
 /// The scenario decides which table applies, so it is read before anything else is checked.
 std::string read_scenario(const YamlNode& file, const std::vector<YamlEntry>& overrides,
                           const SettingsTables& tables) {
-  Setting row = {.key = "scenario", .kind = Kind::choice};
-  for (const auto& [name, table] : tables) row.choices.push_back(name);
+  const Setting row = {
+      .key = "scenario", .kind = Kind::choice, .choices = names_of_scenarios(tables)};
 
   const YamlNode* node = nullptr;
   for (const auto* entries : {&file.entries, &overrides}) {
@@ -151,6 +151,15 @@ GivenSettings gather_settings(const YamlNode& file, const SettingsTables& tables
   gatherer.add_file(file);
   for (const auto& entry : overrides) mistakes.note([&] { gatherer.add_override(entry); });
   return gatherer.take();
+}
+
+bool may_count(const Setting& row, const GivenSettings& given, const SettingsTable& table) {
+  if (!row.only_when) return true;
+  const auto& [key, values] = *row.only_when;
+  const auto entry = given.by_key.find(key);
+  const auto condition = std::ranges::find(table, key, &Setting::key);
+  const auto value = entry != given.by_key.end() ? entry->second.value.scalar : condition->fallback;
+  return std::ranges::find(values, value) != values.end() && may_count(*condition, given, table);
 }
 
 }  // namespace riesel::io

@@ -26,4 +26,7 @@ std::vector<YamlEntry> parse_overrides(const std::vector<std::string>& texts);
 GivenSettings gather_settings(const YamlNode& file, const SettingsTables& tables,
                               const std::vector<YamlEntry>& overrides, Mistakes& mistakes);
 
+/// Whether the row applies, as far as what is given and the defaults tell.
+bool may_count(const Setting& row, const GivenSettings& given, const SettingsTable& table);
+
 }  // namespace riesel::io

@@ -156,12 +156,6 @@ Json head(const char* title) {
   return {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
 }
 
-std::vector<std::string> names_of_scenarios(const SettingsTables& tables) {
-  std::vector<std::string> names;
-  for (const auto& [name, table] : tables) names.push_back(name);
-  return names;
-}
-
 /// Of a settings file. Refers to /definitions for the schema of each scenario.
 Json file_schema(const SettingsTables& tables) {
   Json choices = Json::array();

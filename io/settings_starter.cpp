@@ -52,12 +52,8 @@ public:
   }
 
 private:
-  /// Whether the row applies as long as all choices have their defaults.
-  bool counts(const Setting& row) const {
-    if (!row.only_when) return true;
-    const auto choice = std::ranges::find(*table_, row.only_when->key, &Setting::key);
-    return std::ranges::count(row.only_when->values, choice->fallback) > 0 && counts(*choice);
-  }
+  /// All choices have their defaults.
+  bool counts(const Setting& row) const { return may_count(row, {}, *table_); }
 
   bool gives(const Setting& row) const { return counts(row) && !row.starter.empty(); }
 

@@ -112,6 +112,12 @@ bool has_section(const SettingsTable& table, const std::string& section) {
   return !section.empty() && !names_of(table, section).empty();
 }
 
+std::vector<std::string> names_of_scenarios(const SettingsTables& tables) {
+  std::vector<std::string> names;
+  for (const auto& [name, table] : tables) names.push_back(name);
+  return names;
+}
+
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section) {
   return names_below(table, key_of(section, ""));
 }

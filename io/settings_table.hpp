@@ -75,6 +75,8 @@ using SettingsTable = std::vector<Setting>;
 /// The whole table of each scenario (common rows included), by the scenario's name.
 using SettingsTables = std::map<std::string, SettingsTable>;
 
+std::vector<std::string> names_of_scenarios(const SettingsTables& tables);
+
 /// The rows of all scenarios: scenario, seed, grains.rotation, contact.*, run.*.
 SettingsTable common_settings();
 

@@ -13,16 +13,6 @@ namespace {
 
 using Shape = YamlNode::Shape;
 
-/// Whether the row applies, as far as `given` and the defaults tell.
-bool may_count(const Setting& row, const GivenSettings& given, const SettingsTable& table) {
-  if (!row.only_when) return true;
-  const auto& [key, values] = *row.only_when;
-  const auto entry = given.by_key.find(key);
-  const auto condition = std::ranges::find(table, key, &Setting::key);
-  const auto value = entry != given.by_key.end() ? entry->second.value.scalar : condition->fallback;
-  return std::ranges::find(values, value) != values.end() && may_count(*condition, given, table);
-}
-
 class AxisReader {
 public:
   AxisReader(const GivenSettings& given, const SettingsTables& tables)

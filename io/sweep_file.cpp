@@ -122,15 +122,16 @@ SweepContinuation read_continuation(const YamlNode& node, const std::vector<Swee
                       keys.empty() ? "give the sweep an axis" : "choose " + enumerate(keys));
 }
 
-/// Where each key is set: of two places that set it, one would hide the other.
+/// Where each key is set: of two places that set it, one would hide the other. So would one that
+/// takes out the section of the other.
 class Claims {
 public:
   void claim(const std::string& key, const Place& place) {
-    const auto [first, is_new] = places_.emplace(key, place);
-    if (is_new) return;
-    throw SettingsError(place, key,
-                        fmt::format("is set twice, first at {}", to_string(first->second)),
-                        "remove one of the two");
+    for (const auto& [other, first] : places_)
+      if (key == other || key.starts_with(other + ".") || other.starts_with(key + "."))
+        throw SettingsError(place, key, fmt::format("is set twice, first at {}", to_string(first)),
+                            "remove one of the two");
+    places_.emplace(key, place);
   }
 
 private:

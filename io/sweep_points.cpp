@@ -191,20 +191,36 @@ std::string hash_of_content(const std::string& path) {
   }
 }
 
+namespace {
+
+bool differs(const std::string& key, const std::vector<SweepPoint>& points) {
+  return std::ranges::any_of(points, [&](const auto& point) {
+    return point.settings.written(key) != points.front().settings.written(key);
+  });
+}
+
+}  // namespace
+
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables) {
   return Expansion(sweep, tables).points();
 }
 
 bool is_of_start(const std::string& key) { return section_of(key) == start_section; }
 
-std::vector<std::string> varied_keys(const SweepFile& sweep) {
+std::vector<std::string> varied_keys(const SweepFile& sweep, const SettingsTable& table,
+                                     const std::vector<SweepPoint>& points) {
   std::vector<std::string> keys;
   const auto add = [&](const std::string& key) {
     if (key != "seed" && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
   };
+  const auto add_section = [&](const std::string& section) {
+    for (const auto& row : table)
+      if (row.key.starts_with(section + ".") && differs(row.key, points)) add(row.key);
+  };
   for (const auto& axis : sweep.axes) std::ranges::for_each(axis.keys, add);
   for (const auto& branch : sweep.branches) {
-    for (const auto& entry : branch.overrides) add(entry.key);
+    for (const auto& entry : branch.overrides)
+      has_section(table, entry.key) ? add_section(entry.key) : add(entry.key);
   }
   keys.emplace_back("seed");
   return keys;

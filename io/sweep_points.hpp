@@ -46,7 +46,9 @@ std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tab
 /// Whether the setting concerns only the first point of a chain: the others start from neighbours.
 bool is_of_start(const std::string& key);
 
-/// The keys whose values tell the points apart, in the order of the file; `seed` comes last.
-std::vector<std::string> varied_keys(const SweepFile& sweep);
+/// The keys whose values tell the points apart, in the order of the file; `seed` comes last. For a
+/// section that a branch takes out, those of its keys that differ. `table`: of the scenario.
+std::vector<std::string> varied_keys(const SweepFile& sweep, const SettingsTable& table,
+                                     const std::vector<SweepPoint>& points);
 
 }  // namespace riesel::io

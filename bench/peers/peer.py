@@ -10,7 +10,7 @@ A peer is an object with
     write(start)         writes start["grains_state"] as the peer reads it, into start["files"][name]
     advance(start, settings, cores, warm_up, steps)
                          steps it: {"seconds" of the last `steps` steps, "too_late": how often neighbours were looked for too
-                         late, "state" after them}
+                         late, "state" after them}; Failed if it cannot
 
 `start` is what `speed state` says of a state, besides "grains_state" (State) and "files".
 """
@@ -24,6 +24,10 @@ import tempfile
 
 class NotInstalled(Exception):
     """A program that is needed is not there."""
+
+
+class Failed(RuntimeError):
+    """A program has failed."""
 
 
 def find_program(name, variable, *others):
@@ -59,7 +63,7 @@ def run(command, **environment):
     done = subprocess.run(command, check=False, env=os.environ | environment, text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT)
     if done.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}")
+        raise Failed(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}")
     return done.stdout
 
 

@@ -23,7 +23,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from compare import FORMAT_VERSION, PEERS, paired_ratio  # noqa: E402
 from lammps import Lammps, Liggghts  # noqa: E402
-from peer import NotInstalled, pinned, riesel_name  # noqa: E402
+from peer import Failed, NotInstalled, pinned, riesel_name  # noqa: E402
 from states import read_state  # noqa: E402
 from yade import Yade  # noqa: E402
 
@@ -101,12 +101,19 @@ def tuned(peer, start, steps):
     setting after the other, until no other value of any of them is better. The better of two tries counts."""
     speeds = {}
 
+    def safe_speed(settings):
+        """0 if it looks too late, which may make it lose grains and fail."""
+        try:
+            answers = [peer.advance(start, settings, cores=1, warm_up=steps // 4, steps=steps) for _ in range(2)]
+        except Failed:
+            return 0.0
+        safe = all(answer["too_late"] == 0 for answer in answers)
+        return start["grains"] * steps / min(answer["seconds"] for answer in answers) if safe else 0.0
+
     def speed_of(settings):
         key = tuple(settings.items())
         if key not in speeds:
-            answers = [peer.advance(start, settings, cores=1, warm_up=steps // 4, steps=steps) for _ in range(2)]
-            safe = all(answer["too_late"] == 0 for answer in answers)
-            speeds[key] = start["grains"] * steps / min(answer["seconds"] for answer in answers) if safe else 0.0
+            speeds[key] = safe_speed(settings)
         return speeds[key]
 
     best, before = peer.usual, None

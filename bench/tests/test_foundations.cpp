@@ -155,7 +155,7 @@ TEST_CASE("the traffic of a contact is that of the rows that change in a step") 
   CHECK(with - plain_traffic(touching) == Approx((contact - pair) / 2));
 }
 
-TEST_CASE("the scalar reference brakes at the walls as the engine does") {
+TEST_CASE("the scalar reference brakes and loses energy as the engine does") {
   const ContactModel model{
       .normal = LinearLaw{2000.0, 3000.0}, .slip = CappedSlip{}, .friction = 0.5};
   const State start = small_tube();
@@ -167,4 +167,20 @@ TEST_CASE("the scalar reference brakes at the walls as the engine does") {
   REQUIRE(simulation.state().tally.walls.begun > 5);
   REQUIRE(simulation.state().tally.grains.begun > 5);
   CHECK(std::abs(reference.mean_vy() - after) < 0.01 * std::abs(after - before));
+  const double energy = observe(simulation.state()).energies.kinetic;
+  const double lost = observe(start).energies.kinetic - energy;
+  REQUIRE(lost > 0.1 * energy);
+  CHECK(std::abs(reference.kinetic_energy() - energy) < 0.01 * lost);
+}
+
+TEST_CASE("the scalar reference refuses what it does not know") {
+  ContactModel model{.normal = LinearLaw{2000.0, 3000.0}, .slip = CappedSlip{}, .friction = 0.5};
+  State state = small_tube();
+  CHECK_NOTHROW(ScalarReference(state, model));
+  SECTION("another law") { model.slip = LiteralSlip{}; }
+  SECTION("contacts that may not pull") { model.attraction = Attraction::clip; }
+  SECTION("grains that rotate") { state.grains.inertia = 0.5; }
+  SECTION("gravity across the tube") { state.gravity.x = 1.0; }
+  SECTION("walls that move") { state.walls.front().motion.velocity = 1.0; }
+  CHECK_THROWS_AS(ScalarReference(state, model), std::invalid_argument);
 }

@@ -21,7 +21,7 @@ sys.path.insert(0, str(HERE.parent / "peers"))
 import run  # noqa: E402
 import table as peers_table  # noqa: E402
 from lammps import Lammps, Liggghts, read_answer, write_data  # noqa: E402
-from peer import riesel_name  # noqa: E402
+from peer import Failed, riesel_name  # noqa: E402
 from states import read_state  # noqa: E402
 from yade import Yade  # noqa: E402
 
@@ -218,6 +218,17 @@ class Tuning(unittest.TestCase):
 
         with contextlib.redirect_stdout(io.StringIO()):
             self.assertEqual(run.tuned(Frequent, {"grains": 10}, steps=100), ({"skin": 1.0, "every": 1}, 1000.0))
+
+    def test_a_peer_that_loses_grains_is_not_safe(self):
+        class Losing(Steady):
+            @classmethod
+            def advance(cls, start, settings, cores, warm_up, steps):
+                if settings["skin"] < 2.0:
+                    raise Failed("Lost atoms")
+                return Steady.advance(start, settings, cores, warm_up, steps)
+
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(run.tuned(Losing, {"grains": 10}, steps=100), run.tuned(Steady, {"grains": 10}, steps=100))
 
     def test_looks_that_come_too_late_are_kept(self):
         row = run.row_of("tube", "1.4k", "lammps 1", 10, 100, [{"seconds": 1.0, "too_late": 2}, {"seconds": 3.0}])

@@ -14,6 +14,10 @@ import h5py
 import yaml
 
 _SEAL_SIZE = 512  # seal_size of io/seal.hpp, bytes
+_SEAL = re.compile(rb"riesel run\nAn HDF5 file behind a block of 512 bytes\n"
+                   rb"bytes in all: (?P<size>\d{1,18})\n"
+                   rb"FNV-1a of those behind the block: [0-9a-f]{16}\n"
+                   rb"(CRC-32 of those behind the block: (?P<crc>[0-9a-f]{8})\n)?\0*")
 _RESTORE = "restore the file, or make the run again"
 
 
@@ -54,11 +58,12 @@ def part(path: pathlib.Path, name: str, if_missing: str, if_without: str,
 
 def _unsealed(path: pathlib.Path) -> io.BytesIO:
     """The content of a file whose seal is intact. The seals of riesel 0.10 and before have no
-    CRC-32: of these files all is taken. Raises ValueError."""
+    CRC-32: of these files only the length is checked. Raises ValueError."""
     image = path.read_bytes()
-    block, content = image[:_SEAL_SIZE], image[_SEAL_SIZE:]
-    crc = re.search(rb"^CRC-32 of those behind the block: ([0-9a-f]{8})$", block, re.MULTILINE)
-    if crc and int(crc[1], 16) != zlib.crc32(content):
+    seal = _SEAL.fullmatch(image[:_SEAL_SIZE])
+    if not seal or int(seal["size"]) != len(image):
+        raise ValueError("its seal is damaged, or not of its length")
+    if seal["crc"] and int(seal["crc"], 16) != zlib.crc32(image[_SEAL_SIZE:]):
         raise ValueError("its checksum is wrong")
     return io.BytesIO(image)
 

@@ -6,10 +6,14 @@ PHASES = ["fly", "build", "search", "forces", "receive", "appointments", "steppi
           "measure", "output"]
 
 
+# Long enough for each phase to be met.
+LONGER = SMALL_TUBE.replace("5 ms", "50 ms")
+
+
 class Profile(CommandTest):
 
     def profile(self, out, stepping):
-        self.write("settings.yaml", SMALL_TUBE)
+        self.write("settings.yaml", LONGER)
         result = self.riesel("run", "settings.yaml", "--out", out, "--threads", 1, "--profile",
                              "--set", f"run.stepping={stepping}")
         self.assert_done(result)
@@ -29,7 +33,7 @@ class Profile(CommandTest):
         self.assertEqual(plain["appointments"], (0.0, 0.0))
         self.assertEqual(windows["receive"], (0.0, 0.0))
         self.assertGreater(windows["appointments"][1], 0.0)
-        unprofiled = self.state_hash(self.run_small_tube("unprofiled"))
+        unprofiled = self.state_hash(self.run_small_tube("unprofiled", "--set", "run.duration=50 ms"))
         self.assertEqual({hash_of_plain, hash_of_windows}, {unprofiled})
 
     def test_a_run_that_is_at_its_end_has_none(self):

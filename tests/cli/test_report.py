@@ -1,5 +1,4 @@
-"""riesel report: a page that stands alone, shows what the run left, and is refused where there is
-nothing to show."""
+"""riesel report: a page that stands alone and shows what a flow left."""
 
 import json
 import re
@@ -9,7 +8,7 @@ import h5py
 import numpy as np
 
 from report_files import SVG, Report
-from riesel_command import IMPACT, SHIPPED, SMALL_TUBE, bytes_of_files, with_error
+from riesel_command import bytes_of_files, with_error
 
 FIGURES = {"state", "mean_vy", "granular_temperature", "contacts", "max_overlap", "energy", "visits",
            "area_fraction", "velocity", "temperature", "stress", "braking",
@@ -319,139 +318,3 @@ class OtherVersions(Report):
         self.assertIn("Suspect:", page.text)
         self.assertIn("suspect: max_overlap_ratio = ", page.text)
         self.assertIn("above 0.4", page.text)
-
-
-class Impacts(Report):
-
-    @classmethod
-    def setUpClass(cls):
-        maker = cls.maker()
-        cls.out = maker.run_to_end(SHIPPED / "wall_array.yaml", "wall", "--set",
-                                   "impact.axial_velocity={from: 0.3, to: 40, points: 9, spacing: log}")
-        cls.page = maker.report_on("wall")
-
-    def page_of(self, directory):
-        return super().page_of(self.home / directory)
-
-    def test_the_page_is_well_formed_and_has_the_curves(self):
-        self.assertEqual(self.page.mistakes, [])
-        names = {path.stem for path in (self.out / "figures").iterdir()}
-        self.assertEqual(names, {"dv_y", "contacts", "dv_x", "max_overlap"})
-        for name in names:
-            legend = self.figure(self.out, name).findall(f"{SVG}g[@class='legend']/{SVG}text")
-            self.assertEqual([text.text for text in legend],
-                             ["v_x = 0.1 m/s", "v_x = 0.3 m/s", "v_x = 0.5 m/s"])
-
-    def test_lines_go_through_all_points_and_are_dashed_where_they_are_unphysical(self):
-        lines = self.figure(self.out, "dv_y").findall(f"{SVG}g[@class='curve']/{SVG}polyline")
-        curve = self.summary(self.out)["curve"]
-        for is_dashed in (False, True):
-            drawn = sum(len(line.get("points").split()) for line in lines
-                        if (line.get("stroke-dasharray") is not None) == is_dashed)
-            bad = sum(point["verdict"] == "unphysical" for point in curve)
-            self.assertGreater(bad, 0)
-            self.assertLess(bad, len(curve))
-            # the last full point begins the dashed piece
-            self.assertEqual(drawn, bad + 3 if is_dashed else len(curve) - bad)
-        for criterion in ("more than 0.5 of the braking", "more than 0.5 of the smaller radius",
-                          "more than 0.1 of the energy"):
-            self.assertIn(criterion, self.page.text)
-
-    def test_every_point_is_in_the_table_and_the_verdicts_are_told(self):
-        curve = self.summary(self.out)["curve"]
-        for point in curve:
-            self.assertIn(f"{point['v_y']:.4g}{point['dv_y']:.4g}{point['dv_x']:.4g}",
-                          self.page.text)
-        verdicts = [point["verdict"] for point in curve]
-        self.assertIn(f"{verdicts.count('unphysical')} unphysical", self.page.text)
-        first = min(p["v_y"] for p in curve if p["v_x"] == 0.3 and p["verdict"] == "unphysical")
-        self.assertRegex(self.page.text,
-                         rf"at v_x = 0.3 m/s \d of 9 points, the first at v_y = {first:.4g} m/s")
-        self.assertIn(self.state_hash(self.out), self.page.text)
-
-
-class ImpactsOfOneVelocity(Report):
-
-    def test_they_are_drawn_as_discs_open_where_the_result_is_unphysical(self):
-        for velocity, is_open in (("1 m/s", False), ("40 m/s", True)):
-            with self.subTest(velocity):
-                out = self.run_to_end(SHIPPED / "wall_array.yaml", velocity, "--set",
-                                      f"impact.axial_velocity={velocity}")
-                self.assertEqual([point["verdict"] == "unphysical" for point in self.summary(out)["curve"]],
-                                 [is_open] * 3)
-                self.report_on(out)
-                for name in ("dv_y", "contacts", "dv_x", "max_overlap"):
-                    discs = self.figure(out, name).findall(f"{SVG}g[@class='curve']/{SVG}circle")
-                    self.assertEqual([disc.get("fill") != disc.get("stroke") for disc in discs], [is_open] * 3)
-
-
-class Refused(Report):
-
-    def assert_no_report(self, directory, *mentions):
-        before = bytes_of_files(self.home)
-        before.pop(f"{directory}/.lock", None)
-        self.assert_refused(self.riesel("report", directory), *mentions)
-        after = bytes_of_files(self.home)
-        after.pop(f"{directory}/.lock", None)
-        self.assertEqual(before, after)
-
-    def test_where_there_is_no_run(self):
-        self.assert_no_report("nowhere", "nowhere", "holds no run", "riesel run")
-        (self.home / "empty").mkdir()
-        self.assert_no_report("empty", "holds no run")
-
-    def test_a_summary_of_another_format(self):
-        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
-        summary = self.summary(out)
-        for other, told in ((None, "has format 1"), (99, "has format 99")):
-            changed = {"format": other, **{k: v for k, v in summary.items() if k != "format"},
-                       "version": "7.8.9"}
-            if other is None:
-                del changed["format"]
-            (out / "summary.json").write_text(json.dumps(changed), encoding="utf-8")
-            self.assert_no_report("out", "out/summary.json", told, "riesel 7.8.9")
-
-    def test_a_run_that_is_not_over(self):
-        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
-        (out / "summary.json").unlink()
-        self.assert_no_report("out", "its run has not finished", "riesel resume out")
-        (out / "post_mortem.h5").touch()
-        self.assert_no_report("out", "it failed", "out/post_mortem.h5", "if it has been resumed since",
-                              "riesel resume out")
-
-    def test_what_cannot_be_resumed_is_not_to_be_resumed(self):
-        for name, text in (("tube", SMALL_TUBE), ("impact", IMPACT)):
-            with self.subTest(name):
-                out = self.run_to_end(self.write(f"{name}.yaml", text), name)
-                for path in [out / "summary.json", *out.glob("checkpoint*")]:
-                    path.unlink()
-                start_again = "remove it and start the run again"
-                self.assert_no_report(name, "has not finished", start_again)
-                self.assert_refused(self.riesel("resume", name), start_again)
-
-    def test_files_that_are_damaged_or_not_of_one_run(self):
-        short = self.run_small_tube("short", "--set", "run.duration=0.1 ms")
-        longer = self.run_small_tube("longer", "--set", "run.duration=0.2 ms")
-        run_file, summary = short / "run.h5", short / "summary.json"
-        whole = {path: path.read_bytes() for path in (run_file, summary)}
-        for path, content, mention in (
-                (run_file, whole[run_file][:len(whole[run_file]) // 2], "short/run.h5: is damaged"),
-                (run_file, b"", "short/run.h5: is damaged"),
-                (run_file, (longer / "run.h5").read_bytes(), "short/run.h5: is of another run"),
-                (summary, whole[summary][:100], "short/summary.json: is not complete JSON"),
-                (summary, b"{}", "short/summary.json: is damaged")):
-            with self.subTest(mention):
-                path.write_bytes(content)
-                self.assert_no_report("short", mention)
-                path.write_bytes(whole[path])
-
-    def test_a_report_that_cannot_be_written_is_a_failure_and_leaves_the_run_alone(self):
-        out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
-        (out / "figures").write_text("in the way", encoding="utf-8")
-        before = bytes_of_files(out)
-        result = self.riesel("report", out)
-        self.assert_failed(result, "out/figures")
-        after = bytes_of_files(out)
-        del before[".lock"], after[".lock"]
-        self.assertEqual(before, after)
-

@@ -12,7 +12,7 @@ import matplotlib.image
 
 import browser
 from report_files import Report
-from riesel_command import SHIPPED, SMALL_TUBE
+from riesel_command import SHIPPED
 
 SWEEP = """\
 base: tube.yaml

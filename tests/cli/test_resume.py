@@ -8,7 +8,7 @@ import subprocess
 
 import h5py
 
-from riesel_command import COMMAND, CommandTest, bytes_of_files
+from riesel_command import COMMAND, SMALL_TUBE, CommandTest, bytes_of_files
 
 
 def settings_of(checkpoint):
@@ -80,10 +80,12 @@ class Resume(CommandTest):
     def test_the_result_does_not_depend_on_the_threads_before_and_after(self):
         rows = ["--set", "output.interval=0.1 ms"]
         long = self.run_small_tube("long", *rows, "--set", "run.duration=0.4 ms")
-        short = self.run_small_tube("short", *rows, "--set", "run.duration=0.2 ms", threads=2)
-        self.resume_to_end(short, "--threads", 3, "--set", "run.duration=0.4 ms")
-        self.assert_same_result(long, short)
-        self.assertEqual(self.summary(short)["performance"]["threads"], 3)
+        for stepping in ("plain", "windows"):
+            short = self.run_small_tube(stepping, *rows, "--set", "run.duration=0.2 ms",
+                                        "--set", f"run.stepping={stepping}", threads=2)
+            self.resume_to_end(short, "--threads", 3, "--set", "run.duration=0.4 ms")
+            self.assert_same_result(long, short)
+            self.assertEqual(self.summary(short)["performance"]["threads"], 3)
 
     def test_the_effective_settings_are_those_of_the_longer_run(self):
         long = self.run_small_tube("long")
@@ -100,6 +102,19 @@ class Resume(CommandTest):
         self.assert_same_result(as_it_was, out)
         self.assertTrue((out / "report.html").exists())
 
+    def resume_with_files_of_at_most(self, size, *change):
+        return subprocess.run([COMMAND, "resume", "out", *change], cwd=self.home, capture_output=True, text=True,
+                              check=False, preexec_fn=functools.partial(
+                                  resource.setrlimit, resource.RLIMIT_FSIZE, (size, size)))
+
+    def test_settings_of_an_interrupted_run_outlive_a_resume_that_cannot_write(self):
+        out = self.run_small_tube("out")
+        (out / "summary.json").unlink()
+        before = bytes_of_files(out)
+        result = self.resume_with_files_of_at_most(8000, "--set", "run.duration=6 ms")
+        self.assert_failed(result, "raise the limit on the size of files")
+        self.assertEqual(bytes_of_files(out) | {".lock": before[".lock"]}, before)
+
     def test_a_result_outlives_a_resume_that_cannot_write(self):
         out = self.run_small_tube("out")
         before = bytes_of_files(out)
@@ -107,10 +122,7 @@ class Resume(CommandTest):
         longer = ["--set", "run.duration=6 ms"]
         for change, size in ([], 0), (longer, 0), (longer, 8000):
             with self.subTest(change, size=size):
-                result = subprocess.run([COMMAND, "resume", "out", *change], cwd=self.home,
-                                        capture_output=True, text=True, check=False,
-                                        preexec_fn=functools.partial(
-                                            resource.setrlimit, resource.RLIMIT_FSIZE, (size, size)))
+                result = self.resume_with_files_of_at_most(size, *change)
                 self.assert_failed(result, "raise the limit on the size of files")
                 self.assertEqual(bytes_of_files(out) | {".lock": before[".lock"]}, before)
                 self.assert_done(self.riesel("report", out))
@@ -152,8 +164,10 @@ class Resume(CommandTest):
     def test_a_report_does_not_outlive_its_result(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
         self.assert_done(self.riesel("report", out))
+        (out / "figures/mine.svg").write_text("mine", encoding="utf-8")
         self.resume_to_end(out, "--set", "run.duration=0.2 ms")
         self.assertFalse((out / "report.html").exists())
+        self.assertEqual([path.name for path in (out / "figures").iterdir()], ["mine.svg"])
 
     def test_the_checkpoint_file_stands_for_its_directory(self):
         long = self.run_small_tube("long")
@@ -214,6 +228,14 @@ class ResumeRefuses(CommandTest):
         self.assert_refused(self.riesel("run", "tube.yaml", "--out", "out"), "out: holds a run already")
         self.assertEqual(bytes_of_files(out), before)
 
+    def test_a_post_mortem_without_its_run_is_kept(self):
+        self.write("tube.yaml", SMALL_TUBE)
+        (self.home / "out").mkdir()
+        self.write("out/post_mortem.h5", "of another run")
+        before = bytes_of_files(self.home)
+        self.assert_refused(self.riesel("run", "tube.yaml", "--out", "out"), "out: holds a run already")
+        self.assertEqual(bytes_of_files(self.home), before)
+
     def test_what_is_not_there(self):
         self.assert_refused(self.riesel("resume", "nowhere"), "nowhere", "check the path")
         self.assert_nothing_written({})
@@ -235,9 +257,10 @@ class ResumeRefuses(CommandTest):
     def test_a_missing_run_file(self):
         out = self.run_small_tube("out", "--set", "run.duration=0.1 ms")
         (out / "run.h5").unlink()
-        result = self.riesel("resume", out, "--set", "run.duration=0.2 ms")
-        self.assertNotEqual(result.returncode, 0)
-        self.assert_one_message(result.stderr, "out/run.h5", "restore the file")
+        before = bytes_of_files(out)
+        self.assert_refused(self.riesel("resume", out, "--set", "run.duration=0.2 ms"),
+                            "out/run.h5", "restore the file")
+        self.assertEqual(bytes_of_files(out), before)
 
 
 class DamagedCheckpoint(CommandTest):

@@ -13,7 +13,7 @@ import unittest
 
 import slurm_cluster
 from riesel_command import BAD_INPUT, DONE, FAILED, OUT_OF_TIME, PATIENCE, bytes_of_files, saved_step
-from test_sweep import ONE_FAILS, SweepTest
+from sweep_command import ONE_FAILS, SweepTest
 from test_sweep_tasks import ENDLESS
 
 FOUR = """\
@@ -166,8 +166,8 @@ class Submission(StandIns):
     def test_what_failed_is_tried_once_more(self):
         self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
         nothing = self.submit()
-        self.assert_done(nothing)
-        self.assertEqual(nothing.stdout, self.riesel("status", "out").stdout)
+        self.assertEqual((nothing.returncode, nothing.stdout),
+                         (FAILED, self.riesel("status", "out").stdout))
         self.assertEqual(self.asked("sbatch"), [])
         result = self.submit("--retry-failed")
         self.assert_done(result)

@@ -9,7 +9,7 @@ import signal
 import time
 
 from riesel_command import DONE, FAILED, PATIENCE, saved_step
-from test_sweep import SweepTest
+from sweep_command import SweepTest
 
 # Each run takes a second or so: several times as long as interrupt() waits before it stops the sweep.
 LONG = """\

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from riesel_command import DONE, FAILED, PATIENCE, bytes_of_files
-from test_sweep import CHAIN, ONE_FAILS, SweepTest
+from sweep_command import CHAIN, ONE_FAILS, SweepTest
 
 TWO = """\
 base: tube.yaml

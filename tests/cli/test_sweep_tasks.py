@@ -1,13 +1,14 @@
 """The task command of batch systems: any task runner that calls it makes the sweep that `riesel sweep`
 would make."""
 
+import json
 import os
 import shutil
 import subprocess
 import unittest
 
 from riesel_command import BAD_INPUT, COMMAND, DONE, FAILED, OUT_OF_TIME
-from test_sweep import CHAIN, GRID, ONE_FAILS, SweepTest
+from sweep_command import CHAIN, GRID, ONE_FAILS, ONE_POINT, SweepTest
 
 ENDLESS = """\
 base: tube.yaml
@@ -32,6 +33,41 @@ class Tasks(SweepTest):
         self.assert_done(self.riesel("collect", "out"))
         self.sweep_to_end(text, "local")
         self.assertEqual(self.hashes("out"), self.hashes("local"))
+
+    def test_the_points_of_a_prepared_sweep_can_be_run_one_by_one(self):
+        self.sweep_to_end(CHAIN, "whole")
+        self.assert_done(self.sweep(CHAIN, "out", "--prepare"))
+        self.assertEqual({point["status"] for point in self.points()}, {"waiting"})
+        refused = self.riesel("sweep-task", "out", 1)
+        self.assert_refused(refused, "neighbour", self.points()[0]["name"], "run that one first")
+        for index in range(5):
+            result = self.riesel("sweep-task", "out", index)
+            self.assert_done(result)
+            self.assertIn(": done", result.stdout)
+        self.assertEqual({point["status"] for point in self.points()}, {"waiting"})  # tasks leave it alone
+        self.assert_done(self.riesel("collect", "out"))
+        self.assertEqual({point["status"] for point in self.points()}, {"done"})
+        self.assertEqual(self.hashes("whole"), self.hashes("out"))
+
+    def test_what_is_done_is_known_when_more_is_prepared(self):
+        self.sweep_to_end(ONE_POINT)
+        self.assert_done(self.sweep(ONE_POINT.replace("2000 N/m", "2000 N/m, 3000 N/m"), "out", "--prepare"))
+        self.assertEqual([(point["status"], point["attempts"]) for point in self.points()],
+                         [("done", 1), ("waiting", 0)])
+
+    def test_a_task_that_fails_says_so(self):
+        self.sweep(ONE_FAILS, "out", "--prepare")
+        for options, attempts in (([], 1), ([], 1), (["--retry-failed"], 2)):
+            result = self.riesel("sweep-task", "out", 1, *options)
+            self.assertEqual(result.returncode, FAILED, result)
+            record = self.home / "out/points" / self.points()[1]["name"] / "attempts.json"
+            self.assertEqual(json.loads(record.read_text(encoding="utf-8"))["attempts"], attempts)
+
+    def test_what_is_no_point_is_refused(self):
+        self.sweep(CHAIN, "out", "--prepare")
+        self.assert_refused(self.riesel("sweep-task", "out", 5), "no point 5", "from 0 to 4")
+        for command in (["sweep-task", "nowhere", 0], ["status", "nowhere"], ["collect", "."]):
+            self.assert_refused(self.riesel(*command), "manifest.json", "'riesel sweep'")
 
     def test_the_parts_of_a_sweep_are_all_of_it_and_nothing_twice(self):
         self.prepare(GRID)

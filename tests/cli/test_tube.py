@@ -1,5 +1,7 @@
 """A small tube from end to end."""
 
+import re
+
 import h5py
 import numpy as np
 
@@ -43,6 +45,15 @@ class Tube(CommandTest):
 
     def test_five_milliseconds_are_too_short_for_a_steady_mean(self):
         self.assertEqual(self.summary(self.out)["state"], "too_short")
+
+    def test_the_manual_lists_the_series(self):
+        page = (SHIPPED.parent / "docs/series.md").read_text(encoding="utf-8")
+        listed = [tuple(row) for row in re.findall(r"^\| `(\w+)` \| ([^|]+) \| (.+) \|$", page.replace("\\|", "|"),
+                                                   re.MULTILINE)]
+        with h5py.File(self.out / "run.h5", "r") as file:
+            there = [(name, column.attrs["unit"].decode(), column.attrs["doc"].decode())
+                     for name, column in file["series"].items()]
+        self.assertEqual(sorted(listed), sorted(there))
 
     def test_the_series_have_units_and_a_row_for_each_interval(self):
         with h5py.File(self.out / "run.h5", "r") as file:
@@ -240,9 +251,10 @@ class SameBits(CommandTest):
         one = self.run_small_tube("one", *short)
         self.assertGreater(len(data_of(one, "/final/contacts")), 0)
         self.assertLess(self.summary(one)["steps"], 500)
-        for threads in (2, 3, 4):
-            self.assert_same_result(
-                one, self.run_small_tube(f"threads-{threads}", *short, threads=threads))
+        for stepping in ("plain", "windows"):  # the choice would be one thread
+            for threads in (2, 3, 4):
+                self.assert_same_result(one, self.run_small_tube(
+                    f"{stepping}-{threads}", *short, "--set", f"run.stepping={stepping}", threads=threads))
 
     def test_for_any_way_of_stepping(self):
         one = self.run_small_tube("one")

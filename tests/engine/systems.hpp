@@ -181,12 +181,17 @@ inline Grain grain_of_id(const State& state, std::int32_t id) {
   return grain_at(state, slot);
 }
 
-/// `state` after `steps` steps.
+/// `state` after `steps` steps. A test of several threads has to say how they step: few grains are
+/// stepped by one of them where the choice is free.
 inline State advanced(const State& state, const ContactModel& model, std::int64_t steps,
-                      int threads = 1, Stepping stepping = Stepping::automatic) {
+                      int threads, Stepping stepping) {
   Simulation simulation(state, model, threads, stepping);
   simulation.advance(steps);
   return simulation.state();
+}
+
+inline State advanced(const State& state, const ContactModel& model, std::int64_t steps) {
+  return advanced(state, model, steps, 1, Stepping::automatic);
 }
 
 /// What `run` fails with, or "no failure".

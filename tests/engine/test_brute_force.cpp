@@ -48,12 +48,14 @@ Events agree(const State& start, std::int64_t steps, const ContactModel& model, 
 }
 
 /// The same for all kinds of stepping on one thread. The windows are also let run without being
-/// looked at, when nothing lands the flying grains in between.
+/// looked at, when nothing lands the flying grains in between, and by two threads.
 Events agree(const State& start, std::int64_t steps, const ContactModel& model = paper_model()) {
   const Events events = agree(start, steps, model, 1, Stepping::plain);
   agree(start, steps, model, 1, Stepping::windows);
   const State plain = advanced(start, model, steps, 1, Stepping::plain);
-  CHECK(state_hash(advanced(start, model, steps, 1, Stepping::windows)) == state_hash(plain));
+  for (const int threads : {1, 2})
+    CHECK(state_hash(advanced(start, model, steps, threads, Stepping::windows))
+          == state_hash(plain));
   return events;
 }
 

@@ -119,7 +119,7 @@ TEST_CASE("samples that are not finite are refused by index", "[time_series]") {
 TEST_CASE("a handful of samples counts as one", "[time_series]") {
   const riesel::MeanEstimate of_four = riesel::estimate_mean(Series{1.0, 3.0, 1.0, 3.0});
   CHECK(of_four.mean == 2.0);
-  CHECK(of_four.error == 1.0);
+  CHECK(of_four.error == Approx(std::sqrt(4.0 / 3.0)));  // the standard deviation
   CHECK(of_four.autocorrelation_time == 4.0);
   CHECK(of_four.independent_samples == 1.0);
   CHECK(riesel::estimate_mean(Series{5.0}).mean == 5.0);
@@ -248,9 +248,9 @@ TEST_CASE("the error of a ratio whose weight lies in one sample is unknown", "[t
 
 TEST_CASE("each sample is compared with the ratio of all others", "[time_series]") {
   // Weights of 3 and 1, with 2 and 6 per weight: 3 in the mean of all. The first deviates by -3
-  // from it and by -12 from the other; for the second it is 3 and 4.
+  // from it and by -12 from the other; for the second it is 3 and 4. The jackknife takes (n - 1)/n.
   const Series linear{-3.0, 3.0}, weights{3.0, 1.0};
-  CHECK(riesel::error_per_weight(linear, weights) == Approx((4.0 + 12.0) / 2.0));
+  CHECK(riesel::error_per_weight(linear, weights) == Approx(0.5 * (4.0 + 12.0) / std::sqrt(2.0)));
 }
 
 TEST_CASE("error bars of ratios of rare events keep their word", "[time_series]") {

@@ -231,7 +231,7 @@ TEST_CASE("a run has the same visits however it is done") {
     const std::int64_t last = 600;  // threads that share a core are slow
     const State before = advanced(start, paper_model(), steps - last);
     REQUIRE(before.tally.visits.visits() < expected.tally.visits.visits());
-    check(advanced(before, paper_model(), last, 2));
+    check(advanced(before, paper_model(), last, 2, GENERATE(Stepping::plain, Stepping::windows)));
   }
   SECTION("in pieces, taken up again from each") {
     Dice dice(73);

@@ -395,6 +395,20 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
         == "the histograms have 6 samples, but there are 5 rows");
 }
 
+TEST_CASE("A newer checkpoint of another version is not passed over for an older one") {
+  const ScratchDirectory directory;
+  const auto path = directory / "c.h5";
+  write_checkpoint(path, special_checkpoint());
+  write_checkpoint(path, special_checkpoint());
+  forge(path, [](Hdf5Group& root) {
+    root.set_attribute("format_version", std::int64_t{99});
+    root.set_attribute("riesel_version", "9.9.9");
+  });
+  const auto error = message_of<FileError>([&] { find_checkpoint(path); });
+  CAPTURE(error);
+  CHECK(error.find("has format version 99") != std::string::npos);
+}
+
 TEST_CASE("The newest good generation of a checkpoint is found") {
   const ScratchDirectory directory;
   const auto path = directory / checkpoint_name;

@@ -347,7 +347,7 @@ FAULTS = [
      """.only_when = io::When{"start.kind", {"continued"}},
        .names_content = true},""", """.only_when = io::When{"start.kind", {"continued"}}},"""),
     ("a report beside another result", "app/run_directory.cpp",
-     "fs::remove(file(report_name), ignored);", ""),
+     "fs::remove(file(report_name));", ""),
     ("what grains have wandered before they were listed anew forgotten", "engine/candidates.cpp",
      "mine.wandered += std::max(0.5 * skin_, went);", "mine.wandered = 0.0 * went;"),
     ("contacts of copies counted, too", "engine/part.cpp", "  stepper_.count_only(is_own_);\n", ""),

@@ -252,6 +252,18 @@ class Faults(FaultTest):
                         self.assert_fails_with_word(result, error)
                     self.assert_goes_on_as_uninterrupted()
 
+    def test_a_call_that_fails_at_the_very_end_is_told_too(self):
+        """When the last rows, the last checkpoint and the summary are saved."""
+        for kind in KINDS:
+            for before_the_last in range(4):
+                call = self.calls.count(kind) - before_the_last
+                with self.subTest(kind=kind, call=call):
+                    self.start_again()
+                    result = self.faulty("run", "tube.yaml", "--out", "out", fault=f"{kind}:{call}:28")
+                    if kind != "close" or result.returncode != 0:
+                        self.assert_fails_with_word(result, 28)
+                    self.assert_goes_on_as_uninterrupted()
+
     def test_a_write_that_is_interrupted_by_a_signal_is_made_to_its_end(self):
         self.assert_goes_on_as_if_nothing_had_been("write")
 
