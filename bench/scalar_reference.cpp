@@ -44,7 +44,7 @@ ScalarReference::ScalarReference(const State& state, const ContactModel& model)
     mass_.push_back(g.mass);
   }
   skin_ =
-      0.2 * 2.0 * std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(n_);
+      0.3 * 2.0 * std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(n_);
   rebuild();
 }
 

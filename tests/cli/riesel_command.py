@@ -1,12 +1,14 @@
 """What all tests of the command share: calling it in a directory of its own, and reading what it
 leaves there. The command is the one that the environment variable RIESEL names."""
 
+import functools
 import itertools
 import json
 import math
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import tempfile
 import time
@@ -115,6 +117,12 @@ class CommandTest(unittest.TestCase):
         return subprocess.run([COMMAND, *map(str, arguments)], cwd=self.home, timeout=PATIENCE,
                               stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               errors="replace", env={**os.environ, **environment}, check=False)
+
+    def riesel_with_files_of_at_most(self, size, *arguments):
+        """The same where no file may have more bytes: its disk is full, as it were."""
+        limit = functools.partial(resource.setrlimit, resource.RLIMIT_FSIZE, (size, size))
+        return subprocess.run([COMMAND, *map(str, arguments)], cwd=self.home, timeout=PATIENCE,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, preexec_fn=limit)
 
     def start(self, *arguments, **streams):
         """Starts the command, which ends with the test at the latest."""

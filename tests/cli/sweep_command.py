@@ -45,9 +45,12 @@ class SweepTest(CommandTest):
         super().setUp()
         self.write("tube.yaml", SMALL_TUBE)
 
-    def sweep(self, text, out="out", *options):
+    def arguments_for(self, text, out="out", *options):
         self.write("sweep.yaml", text)
-        return self.riesel("sweep", "sweep.yaml", "--out", out, *options)
+        return ["sweep", "sweep.yaml", "--out", out, *options]
+
+    def sweep(self, text, out="out", *options):
+        return self.riesel(*self.arguments_for(text, out, *options))
 
     def sweep_to_end(self, text, out="out", *options):
         self.assert_done(self.sweep(text, out, *options))

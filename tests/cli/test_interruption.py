@@ -4,7 +4,6 @@ import fcntl
 import pathlib
 import random
 import re
-import resource
 import shutil
 import signal
 import subprocess
@@ -12,7 +11,7 @@ import time
 
 import h5py
 
-from riesel_command import (COMMAND, IMPACT, OUT_OF_TIME, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files,
+from riesel_command import (COMMAND, FAILED, IMPACT, OUT_OF_TIME, PATIENCE, SMALL_TUBE, CommandTest, bytes_of_files,
                             data_of, final_time, saved_step)
 
 # Rows of 1 ms hold about 1000 steps; the run ends long after the tests. After its first checkpoint none is due:
@@ -104,12 +103,9 @@ class Interruption(CommandTest):
 
     def test_a_limit_on_the_size_of_files_is_an_error_of_writing(self):
         """Which the system tells by a signal besides."""
-        most = 20_000  # bytes, less than run.h5 has
-        process = self.start("run", "long.yaml", "--out", "out", "--threads", 1,
-                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
-        _, stderr = process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, 1, stderr)
-        self.assert_one_message(stderr, "File too large", "raise the limit on the size of files")
+        result = self.riesel_with_files_of_at_most(20_000, "run", "long.yaml", "--out", "out", "--threads", 1)
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assert_one_message(result.stderr, "File too large", "raise the limit on the size of files")
         self.assertEqual(list(self.out.glob("*.tmp")), [])
 
     def test_one_wish_may_come_several_times(self):

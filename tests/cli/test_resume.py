@@ -1,14 +1,12 @@
 """Going on with a run: to a longer duration, from whatever checkpoint is whole, and only as the run
 that it was."""
 
-import functools
-import resource
 import shutil
 import subprocess
 
 import h5py
 
-from riesel_command import COMMAND, SMALL_TUBE, CommandTest, bytes_of_files
+from riesel_command import SMALL_TUBE, CommandTest, bytes_of_files
 
 
 def settings_of(checkpoint):
@@ -102,16 +100,11 @@ class Resume(CommandTest):
         self.assert_same_result(as_it_was, out)
         self.assertTrue((out / "report.html").exists())
 
-    def resume_with_files_of_at_most(self, size, *change):
-        return subprocess.run([COMMAND, "resume", "out", *change], cwd=self.home, capture_output=True, text=True,
-                              check=False, preexec_fn=functools.partial(
-                                  resource.setrlimit, resource.RLIMIT_FSIZE, (size, size)))
-
     def test_settings_of_an_interrupted_run_outlive_a_resume_that_cannot_write(self):
         out = self.run_small_tube("out")
         (out / "summary.json").unlink()
         before = bytes_of_files(out)
-        result = self.resume_with_files_of_at_most(8000, "--set", "run.duration=6 ms")
+        result = self.riesel_with_files_of_at_most(8000, "resume", "out", "--set", "run.duration=6 ms")
         self.assert_failed(result, "raise the limit on the size of files")
         self.assertEqual(bytes_of_files(out) | {".lock": before[".lock"]}, before)
 
@@ -122,7 +115,7 @@ class Resume(CommandTest):
         longer = ["--set", "run.duration=6 ms"]
         for change, size in ([], 0), (longer, 0), (longer, 8000):
             with self.subTest(change, size=size):
-                result = self.resume_with_files_of_at_most(size, *change)
+                result = self.riesel_with_files_of_at_most(size, "resume", "out", *change)
                 self.assert_failed(result, "raise the limit on the size of files")
                 self.assertEqual(bytes_of_files(out) | {".lock": before[".lock"]}, before)
                 self.assert_done(self.riesel("report", out))

@@ -154,6 +154,25 @@ class Failures(SweepTest):
                 obstacle.rmdir()
                 self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
 
+    def test_a_sweep_whose_disk_is_full_goes_on_when_there_is_room(self):
+        result = self.riesel_with_files_of_at_most(20_000, *self.arguments_for(ONE_POINT))
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assertIn("raise the limit on the size of files", self.rows()[0]["reason"])
+        self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
+        whole = self.sweep_to_end(ONE_POINT, "whole") / "points" / self.points()[0]["name"]
+        self.assert_same_result(whole, self.home / "out/points" / whole.name)
+
+    def test_tables_and_reports_stay_as_they_are_while_the_disk_is_full(self):
+        out = self.sweep_to_end(ONE_POINT)
+        self.assert_done(self.riesel("report", "out"))
+        before = bytes_of_files(out)
+        for command in ("collect", "report", "sweep"):
+            with self.subTest(command):
+                self.assert_failed(self.riesel_with_files_of_at_most(0, command, "out"),
+                                   "raise the limit on the size of files")
+                after = bytes_of_files(out)
+                self.assertEqual({**after, ".lock": before[".lock"]}, before)
+
     def test_a_point_out_of_reach_fails_alone(self):
         point = self.prepare_three()[0]
         aside = point.with_name("aside")
