@@ -11,9 +11,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -23,18 +26,26 @@ namespace {
 constexpr auto cannot_be_locked = "the directory cannot be locked";
 
 /// Includes the host: on a network file system the process may run elsewhere.
-std::string description_of_this_process() {
+std::string description_of_process(pid_t process) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  return fmt::format("process {} on {}", getpid(), host.data());
+  return fmt::format("process {} on {}", process, host.data());
+}
+
+/// Whether this describes a process of this host that has ended: an earlier holder.
+bool is_of_the_past(const std::string& description) {
+  int process = 0;
+  return std::sscanf(description.c_str(), "process %d ", &process) == 1
+         && description == description_of_process(process) && kill(process, 0) != 0
+         && errno == ESRCH;
 }
 
 /// What the holder has written into the lock, if it has come to that yet.
 std::string description_of_holder(int descriptor) {
   std::array<char, 512> text{};
   const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
-  if (size <= 0) return "another process";
-  return {text.data(), static_cast<std::size_t>(size)};
+  const std::string description(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  return description.empty() || is_of_the_past(description) ? "another process" : description;
 }
 
 /// is_held() takes the lock for a moment, so a lock that is held may be free a moment later.
@@ -87,7 +98,7 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature s
 }
 
 void DirectoryLock::sign() const {
-  const auto text = description_of_this_process();
+  const auto text = description_of_process(getpid());
   const bool written =
       ftruncate(descriptor_, 0) == 0 && pwrite(descriptor_, text.data(), text.size(), 0) >= 0;
   static_cast<void>(written);  // merely informs: the lock holds without it (on a full disk, say)

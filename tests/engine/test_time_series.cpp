@@ -246,6 +246,22 @@ TEST_CASE("the error of a ratio whose weight lies in one sample is unknown", "[t
   CHECK(riesel::error_per_weight(linear, weights) == 0.0);
 }
 
+TEST_CASE("of two batches none is cut off: one has no scatter to compare", "[time_series]") {
+  CHECK(riesel::transient_length(Series{1, 2, 1, 2, 1, 2, 1, 2, 1, 2}) == 0);
+}
+
+TEST_CASE("where all weights are equal the error is that of the mean", "[time_series]") {
+  for (const std::size_t n : {2, 7, 60}) {
+    const Series linear = autoregressive(n, 0.3, 11);
+    double mean = 0.0;
+    for (const double sample : linear) mean += sample / static_cast<double>(n);
+    Series deviations = linear;
+    for (double& sample : deviations) sample -= mean;
+    CHECK(riesel::error_per_weight(deviations, Series(n, 2.0))
+          == Approx(riesel::estimate_mean(linear).error));
+  }
+}
+
 TEST_CASE("each sample is compared with the ratio of all others", "[time_series]") {
   // Weights of 3 and 1, with 2 and 6 per weight: 3 in the mean of all. The first deviates by -3
   // from it and by -12 from the other; for the second it is 3 and 4. The jackknife takes (n - 1)/n.

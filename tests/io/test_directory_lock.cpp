@@ -67,6 +67,18 @@ TEST_CASE("A lock that is a pipe is refused and not waited for") {
   CHECK_FALSE(DirectoryLock::is_held(directory.path()));
 }
 
+TEST_CASE("A holder that has not signed yet is not taken for the one before it") {
+  const ScratchDirectory directory;
+  REQUIRE(in_other_process([&] {
+            const DirectoryLock lock(directory.path());
+            return 0;
+          })
+          == 0);
+  REQUIRE(contains(contents(directory / ".lock"), "process "));
+  const DirectoryLock lock(directory.path(), Signature::later);
+  CHECK(DirectoryLock::holder(directory.path()) == "another process");
+}
+
 TEST_CASE("The holder of a lock is told to those who only ask") {
   const ScratchDirectory directory;
   CHECK_FALSE(DirectoryLock::holder(directory.path()));
