@@ -6,6 +6,7 @@
 #include "app/print_sweep.hpp"
 #include "app/sweep_directory.hpp"
 #include "app/terminal.hpp"
+#include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
 #include "io/settings_text.hpp"

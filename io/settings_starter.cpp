@@ -1,5 +1,6 @@
 #include "io/settings_starter.hpp"
 
+#include "io/settings_given.hpp"
 #include "io/settings_quantity.hpp"
 #include "io/settings_value.hpp"
 #include "io/units.hpp"

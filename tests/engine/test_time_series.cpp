@@ -251,7 +251,7 @@ TEST_CASE("of two batches none is cut off: one has no scatter to compare", "[tim
 }
 
 TEST_CASE("where all weights are equal the error is that of the mean", "[time_series]") {
-  for (const std::size_t n : {2, 7, 60}) {
+  for (const std::size_t n : {2u, 7u, 60u}) {
     const Series linear = autoregressive(n, 0.3, 11);
     double mean = 0.0;
     for (const double sample : linear) mean += sample / static_cast<double>(n);
