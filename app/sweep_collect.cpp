@@ -65,6 +65,15 @@ void add_results(const fs::path& summary, std::size_t row, std::size_t columns_o
   }
 }
 
+/// Tasks leave the manifest as it is. A process that runs the whole sweep writes it itself.
+void keep(const io::Manifest& manifest, const fs::path& sweep) {
+  try {
+    const io::DirectoryLock lock(sweep);
+    io::write_durably(sweep / io::manifest_name, io::to_json(manifest));
+  } catch (const io::InUse&) {
+  }
+}
+
 }  // namespace
 
 bool write_table(io::Manifest& manifest, const fs::path& sweep) {
@@ -94,19 +103,6 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
   io::write_hdf5(sweep / io::sweep_h5_name, table, io::read_kept_text(sweep / sweep_file_name));
   return all_taken;
 }
-
-namespace {
-
-/// Tasks leave the manifest as it is. A process that runs the whole sweep writes it itself.
-void keep(const io::Manifest& manifest, const fs::path& sweep) {
-  try {
-    const io::DirectoryLock lock(sweep);
-    io::write_durably(sweep / io::manifest_name, io::to_json(manifest));
-  } catch (const io::InUse&) {
-  }
-}
-
-}  // namespace
 
 int sweep_collect(const fs::path& directory) {
   io::Manifest manifest = manifest_in(directory);
