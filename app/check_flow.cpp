@@ -229,7 +229,7 @@ void print_cost(const io::Settings& settings, const scenarios::Flow& flow) {
 
 void check_flow(const io::Settings& settings, const scenarios::Flow& flow) {
   const Observables start = observe(flow.state);
-  const double random = std::sqrt(start.granular_temperature);
+  const double random = start.sigma_vx;  // along the walls there may be a profile
   print_bodies(flow.state);
   print_contacts(settings, flow, random, start.mean_vx);
   print_brake(flow, std::hypot(random, start.mean_vx), start.mean_vy);

@@ -33,6 +33,17 @@ auto as_input(Read read) {
   }
 }
 
+/// Returns lock(), which locks a directory to work in. That another process has it counts as bad
+/// input: throws UnusableInput in place of io::InUse.
+template <class Lock>
+auto unless_in_use(Lock lock) {
+  try {
+    return lock();
+  } catch (const io::InUse& error) {
+    throw UnusableInput(error.what());
+  }
+}
+
 struct RunOptions {
   std::filesystem::path file;                      ///< the settings
   std::optional<std::filesystem::path> directory;  ///< where the results go

@@ -158,6 +158,7 @@ void Prolongation::look_ahead(io::Manifest& manifest, const fs::path& sweep) con
     point.reason = standing.reason;
     point.expected_seconds *= part_left(directory);
   }
+  note_misplaced(manifest, sweep);
 }
 
 std::vector<std::string> Prolongation::overrides_for(const fs::path& point) const {

@@ -33,7 +33,8 @@ public:
   /// trying other overrides than these does not count.
   RunStanding standing_of(const std::filesystem::path& point) const;
 
-  /// As refresh(), with these standings; reduces the expected time of each point to what is left.
+  /// As refresh() and note_misplaced(), with these standings; reduces the expected time of each
+  /// point to what is left.
   void look_ahead(io::Manifest& manifest, const std::filesystem::path& sweep) const;
 
   /// The overrides for the run of a point. None while it has not reached a plan that is longer.

@@ -40,14 +40,6 @@ bool same_settings(const std::string& a, const std::string& b) {
   return behind_first_line(a) == behind_first_line(b);
 }
 
-std::unique_ptr<io::DirectoryLock> locked(const fs::path& path, io::Signature signature) {
-  try {
-    return std::make_unique<io::DirectoryLock>(path, signature);
-  } catch (const io::InUse& error) {
-    throw UnusableInput(error.what());
-  }
-}
-
 }  // namespace
 
 fs::path place_named_after(const fs::path& file, const fs::path& parent) {
@@ -74,7 +66,8 @@ bool stopped_before_checkpoint(const fs::path& directory) {
 }
 
 RunDirectory::RunDirectory(const fs::path& path, io::Signature signature)
-    : path_(path), lock_(locked(path, signature)) {}
+    : path_(path),
+      lock_(unless_in_use([&] { return std::make_unique<io::DirectoryLock>(path, signature); })) {}
 
 namespace {
 

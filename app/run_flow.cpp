@@ -92,7 +92,7 @@ public:
 
   int run() {
     start_ = last_checkpoint_ = Clock::now();
-    if (goes_on()) take_up_directory();
+    if (goes_on()) set_aside_ = files_.directory().go_on(settings_, is_over());
     tell_beginning();
     try {
       set_out();
@@ -119,16 +119,13 @@ private:
 
   bool goes_on() const { return past_.rows > 0; }
 
-  /// Prepares the directory of a run that goes on.
-  void take_up_directory() {
-    set_aside_ = files_.directory().go_on(settings_, is_over());
-    if (!is_over() || past_.had_other_settings) files_.directory().drop_report();
-  }
-
   void set_out() {
     if (!goes_on()) begin();
     if (past_.had_other_settings) keep_settings();
-    if (goes_on()) look_where_it_stopped();
+    if (goes_on()) {
+      if (!is_over() || past_.had_other_settings) files_.directory().drop_report();
+      look_where_it_stopped();
+    }
     if (time_limit_.asks_to_save(files_.rows())) save();
   }
 
@@ -144,12 +141,12 @@ private:
   /// run is as it was.
   void keep_settings() {
     try {
-      save();
+      write_checkpoint();
     } catch (const io::FileError&) {
       if (set_aside_) files_.directory().go_back(*set_aside_);
       throw;
     }
-    save();
+    write_checkpoint();
   }
 
   bool is_over() const {
@@ -264,11 +261,15 @@ private:
             .histograms = measurements_.histograms()};
   }
 
+  void write_checkpoint() const {
+    io::write_checkpoint(files_.directory().file(io::checkpoint_name), checkpoint());
+  }
+
   /// Series and trajectory first, as the checkpoint records how many rows and frames there are.
   void save() {
     const auto start = Clock::now();
     files_.flush(simulation_.state());
-    io::write_checkpoint(files_.directory().file(io::checkpoint_name), checkpoint());
+    write_checkpoint();
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
     time_limit_.note_save(seconds_since(start), files_.rows());

@@ -138,8 +138,9 @@ std::string submit_to_slurm(const fs::path& script_file) {
     throw std::runtime_error("sbatch cannot be started; is Slurm installed on this machine?");
   if (!said->how.is_success())
     throw std::runtime_error(
-        fmt::format("sbatch refused the job (see above); change {} or the options, and try again",
-                    script_file.string()));
+        fmt::format("sbatch refused the job (see above); try again with other options (--sbatch), "
+                    "or change {0} and call 'sbatch {0}'",
+                    io::path_argument(script_file)));
   const std::size_t end = said->output.find_first_of(";\n");  // "JOB;CLUSTER"
   return said->output.substr(0, end);
 }

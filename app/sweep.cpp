@@ -109,13 +109,22 @@ void reject_directory_of_run(const fs::path& sweep) {
     throw UnusableInput(sweep.string() + ": holds a run; choose another directory with --out");
 }
 
+/// Whether there is the manifest of a sweep.
+bool holds_sweep(const fs::path& directory) {
+  try {
+    io::read_manifest(directory);
+    return true;
+  } catch (const io::FileError&) {
+    return false;
+  }
+}
+
 /// Where no sweep has been, files with the names of those of a sweep are somebody else's, unless it
 /// is this sweep that has lost its manifest.
 void reject_files_of_others(const SweepPlan& plan, const fs::path& sweep) {
-  if (fs::exists(sweep / io::manifest_name) || holds(sweep / sweep_file_name, plan.sweep_file))
-    return;
-  for (const fs::path& file :
-       {sweep / sweep_file_name, sweep / io::sweep_csv_name, sweep / io::sweep_h5_name})
+  if (holds_sweep(sweep) || holds(sweep / sweep_file_name, plan.sweep_file)) return;
+  for (const fs::path& file : {sweep / io::manifest_name, sweep / sweep_file_name,
+                               sweep / io::sweep_csv_name, sweep / io::sweep_h5_name})
     if (fs::exists(file))
       throw UnusableInput(file.string()
                           + ": is not of this sweep, and would be overwritten; move it away, or "
@@ -125,7 +134,7 @@ void reject_files_of_others(const SweepPlan& plan, const fs::path& sweep) {
 /// Locks the directory against a second sweep.
 io::DirectoryLock lock(const fs::path& sweep) {
   io::make_directories(sweep);
-  return io::DirectoryLock(sweep);
+  return unless_in_use([&] { return io::DirectoryLock(sweep); });
 }
 
 /// For --dry-run where scontrol cannot be asked: about Slurm's default MaxArraySize.

@@ -107,8 +107,8 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
 int sweep_collect(const fs::path& directory) {
   io::Manifest manifest = manifest_in(directory);
   refresh(manifest, directory);
-  keep(manifest, directory);
   const bool all_taken = write_table(manifest, directory);
+  keep(manifest, directory);
   print_status(manifest, directory);
   return all_taken ? exit_done : exit_failed;
 }

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <ranges>
 #include <system_error>
 #include <vector>
 
@@ -47,10 +48,16 @@ std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
   return "";
 }
 
+/// Whether a path leads to a file that the point was planned with, or to one of equal content.
+bool is_planned_input(const std::string& path, const io::ManifestPoint& point) {
+  return point.inputs.empty() || point.inputs.contains(path)
+         || std::ranges::count(std::views::values(point.inputs), io::hash_of_content(path)) > 0;
+}
+
 /// "seed is 2 in its effective.yaml, not 1": a setting in which the run in the directory of the
 /// point is not what was planned; "" if there is none, or if its settings cannot be read. What a
-/// run that goes on may change does not count, nor do paths, which count by what they lead to, nor
-/// the start of a chain where it is not at its first point.
+/// run that goes on may change does not count, nor does the start of a chain where it is not at its
+/// first point; paths count by what they lead to.
 std::string difference_from_plan(const io::ManifestPoint& point,
                                  const std::vector<io::VariedSetting>& varied,
                                  const fs::path& sweep) {
@@ -63,10 +70,13 @@ std::string difference_from_plan(const io::ManifestPoint& point,
     for (std::size_t i = 0; i < varied.size(); ++i) {
       const std::string& key = varied[i].key;
       const auto row = std::ranges::find(table, key, &io::Setting::key);
-      if (row == table.end() || row->names_content || may_change(key)) continue;
+      if (row == table.end() || may_change(key)) continue;
       if (!point.parent.empty() && io::is_of_start(key)) continue;
       const io::Cell found = io::cell_of(settings, key);
-      if (found != point.values[i])
+      const bool as_planned = row->names_content && settings.has(key)
+                                  ? is_planned_input(settings.text(key), point)
+                                  : found == point.values[i];
+      if (!as_planned)
         return fmt::format("{} is {} in its {}, not {}", key, text_of(found),
                            io::effective_settings_name, text_of(point.values[i]));
     }
@@ -135,8 +145,8 @@ RunStanding standing_of(const fs::path& point, const io::RunRecord& record) {
   const auto with = [&](RunStatus status, const std::string& reason = "") {
     return RunStanding{.status = status, .attempts = record.attempts, .reason = reason};
   };
+  if (has_result(point)) return with(RunStatus::done);  // 'riesel report' may hold the lock
   if (io::DirectoryLock::is_held(point)) return with(RunStatus::running);
-  if (has_result(point)) return with(RunStatus::done);
   const std::string reason = reason_to_fail(point, record);
   if (!reason.empty()) return with(RunStatus::failed, reason);
   // A damaged result is made anew from the last checkpoint.
@@ -166,9 +176,11 @@ bool has_chains(const io::Manifest& manifest) {
                              [](const auto& point) { return !point.parent.empty(); });
 }
 
-std::set<std::string> note_misplaced(io::Manifest& manifest, const fs::path& sweep) {
+std::set<std::string> note_misplaced(io::Manifest& manifest, const fs::path& sweep,
+                                     const std::vector<std::string>& names) {
   std::set<std::string> misplaced;
   for (io::ManifestPoint& point : manifest.points) {
+    if (!is_among(names, point.name)) continue;
     if (!has_result(point_directory(sweep, point.name))) continue;
     const std::string difference = difference_from_plan(point, manifest.varied, sweep);
     if (difference.empty()) continue;

@@ -62,9 +62,10 @@ void refresh(io::Manifest& manifest, const std::filesystem::path& sweep,
 /// Whether some runs start from the ends of others. Such runs cannot be extended.
 bool has_chains(const io::Manifest& manifest);
 
-/// Marks points as failed whose directories hold the results of other settings than theirs, as
-/// after a mistake in moving directories. Returns their names.
-std::set<std::string> note_misplaced(io::Manifest& manifest, const std::filesystem::path& sweep);
+/// Marks those of the points with these `names` as failed whose directories hold the results of
+/// other settings than theirs, as after a mistake in moving directories. Returns their names.
+std::set<std::string> note_misplaced(io::Manifest& manifest, const std::filesystem::path& sweep,
+                                     const std::vector<std::string>& names = {});
 
 /// Why a run of the point that begins now would not be the planned one, as a file that it reads has
 /// changed; "" if none has.

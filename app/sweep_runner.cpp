@@ -28,6 +28,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -58,6 +59,7 @@ struct Job {
   int most_threads = 1;
   RunStatus status = RunStatus::waiting;
   std::string reason;  // why it failed
+  bool is_misplaced = false;
   int starts = 0, collisions = 0;
   std::unique_ptr<ChildProcess> process;
   Clock::time_point started = {};
@@ -86,7 +88,11 @@ class Runner {
 public:
   Runner(io::Manifest& manifest, fs::path sweep, const std::vector<std::string>& names,
          const SweepRunOptions& options)
-      : manifest_(manifest), sweep_(std::move(sweep)), names_(names), options_(options) {
+      : manifest_(manifest),
+        sweep_(std::move(sweep)),
+        names_(names),
+        options_(options),
+        misplaced_(note_misplaced(manifest, sweep_, names)) {
     for (const io::ManifestPoint& point : manifest.points)
       if (is_among(names, point.name)) add(point);
     order_by_urgency();
@@ -131,13 +137,20 @@ private:
     job->seconds = point.expected_seconds * options_.prolongation.part_left(job->directory);
     job->most_threads = point.most_threads;
     look_at(*job);
-    if (job->status == RunStatus::failed && options_.retry_failed && can_begin(job->directory))
+    if (misplaced_.contains(job->name)) {  // until its directory is put back
+      job->is_misplaced = true;
+      job->status = RunStatus::failed;
+      job->reason = point.reason;
+    } else if (job->status == RunStatus::failed && options_.retry_failed
+               && can_begin(job->directory)) {
       job->status = RunStatus::interrupted;
+    }
     by_name_.emplace(job->name, job.get());
     jobs_.push_back(std::move(job));
   }
 
   void look_at(Job& job) const {
+    if (job.is_misplaced) return;
     const RunStanding standing = options_.prolongation.standing_of(job.directory);
     job.status = standing.status;
     job.reason = standing.reason;
@@ -362,6 +375,7 @@ private:
   const fs::path sweep_;
   const std::vector<std::string>& names_;
   const SweepRunOptions& options_;
+  const std::set<std::string> misplaced_;
   std::vector<std::unique_ptr<Job>> jobs_;  // a parent before its children
   std::map<std::string, Job*> by_name_;
   std::vector<Job*> by_urgency_;

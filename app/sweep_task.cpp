@@ -20,9 +20,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void reject_waiting_for_neighbour(const io::ManifestPoint& point, const fs::path& sweep) {
+void reject_waiting_for_neighbour(const io::ManifestPoint& point, io::Manifest manifest,
+                                  const fs::path& sweep) {
   if (point.parent.empty()) return;
-  if (standing_of(point_directory(sweep, point.parent)).status == RunStatus::done) return;
+  const bool is_done = standing_of(point_directory(sweep, point.parent)).status == RunStatus::done;
+  if (is_done && note_misplaced(manifest, sweep, {point.parent}).empty()) return;
   throw UnusableInput(fmt::format("{}: the point starts from its neighbour {}, which is not done; "
                                   "run that one first",
                                   point.name, point.parent));
@@ -37,7 +39,7 @@ std::vector<std::string> names_for(const SweepTaskOptions& options, const io::Ma
                                     options.index, count - 1));
   if (options.parts) return parts_of(manifest, count)[options.index];
   const io::ManifestPoint& point = manifest.points[options.index];
-  reject_waiting_for_neighbour(point, options.directory);
+  reject_waiting_for_neighbour(point, manifest, options.directory);
   return {point.name};
 }
 

@@ -54,7 +54,7 @@ double pulling_time(const Contact& contact, const ContactModel& model, double ma
       model.normal);
 }
 
-void BrakeTally::add(const Contact& contact, const ContactModel& model, double mass) {
+void BrakeTally::add(const Contact& contact, const ContactModel& model, double mass, bool smooth) {
   const double braking_impulse = std::max(0.0, -contact.impulse_y);
   ++contacts;
   braking.add(braking_impulse);
@@ -62,7 +62,7 @@ void BrakeTally::add(const Contact& contact, const ContactModel& model, double m
   entry_slip.add(std::abs(contact.entry_slip));
   duration.add(contact.duration());
   pulling.add(pulling_time(contact, model, mass));
-  if (!is_cut_short(contact, model, mass)) return;
+  if (smooth || !is_cut_short(contact, model, mass)) return;
   ++cut_short;
   braking_cut_short.add(braking_impulse);
   friction_loss_cut_short.add(contact.friction_loss);

@@ -64,7 +64,7 @@ constexpr std::array<Criterion, 9> criteria = {{
     {"wall_speed_over_v_crit", &Evidence::wall_speed_ratio, 0.5, 3.0, false,
      "grains pass the wall grains so fast that contacts push them less than rigid ones would",
      stiffer},
-    {"pulling_fraction", &Evidence::pulling_fraction, 0.2, none, false,
+    {"pulling_fraction", &Evidence::pulling_fraction, 0.15, none, false,
      "the damping makes contacts pull", "compare with contact.attraction: clip"},
     {"steps_per_contact", &Evidence::steps_per_contact, 10.0, -none, true,
      "the time step does not resolve the shortest contacts", finer},

@@ -55,7 +55,7 @@ void WallWatch::take_up(State& state) const {
   for (const Contact& contact : state.tally.ended_at_walls) {
     const double m = mass(contact.name.grain);
     const WallLattice& wall = state.wall(contact.name.wall);
-    state.tally.brakes.add(contact, model_, m);
+    state.tally.brakes.add(contact, model_, m, wall.smooth());
     visits.emplace_back(contact, visit_span(contact, m, wall.spacing(state.box), gravity));
   }
   state.tally.ended_at_walls.clear();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace riesel::io {
@@ -18,6 +20,15 @@ Interval extremes_of(std::span<const double> values, Scale scale) {
   return found;
 }
 
+/// log(high / low), where the ratio may be beyond all numbers.
+double logarithmic_length(Interval range) { return std::log(range.high) - std::log(range.low); }
+
+/// `value` exp(`room`), or the last number in that direction.
+double grown(double value, double room) {
+  using Limits = std::numeric_limits<double>;
+  return std::clamp(std::exp(std::log(value) + room), Limits::min(), Limits::max());
+}
+
 }  // namespace
 
 bool contains(Interval range, double value) { return value >= range.low && value <= range.high; }
@@ -32,8 +43,8 @@ Interval range_of(std::span<const double> values, Scale scale) {
   const auto [low, high] = extremes_of(values, scale);
   if (scale == Scale::logarithmic) {
     if (low > high) return {1.0, 10.0};
-    const double room = std::max(1.1, std::pow(high / low, 0.05));
-    return {low / room, high * room};
+    const double room = std::max(std::log(1.1), 0.05 * logarithmic_length({low, high}));
+    return {grown(low, -room), grown(high, room)};
   }
   if (low > high) return {0.0, 1.0};
   const double spread = high - low;
@@ -63,7 +74,7 @@ std::vector<double> ticks(Interval range, int most) {
 }
 
 std::vector<double> logarithmic_ticks(Interval range) {
-  const double decades = std::log10(range.high / range.low);
+  const double decades = logarithmic_length(range) / std::numbers::ln10;
   const auto stride = static_cast<int>(std::ceil(decades / 9.0));
   std::vector<double> found;
   for (auto e = static_cast<int>(std::floor(std::log10(range.low))); e < 400; ++e) {
@@ -84,15 +95,15 @@ Axis axis_for(std::string label, std::span<const double> values) {
 
 Axis with_room_above(Axis axis, double part) {
   auto& [low, high] = axis.range;
-  high =
-      axis.scale == Scale::linear ? high + part * (high - low) : high * std::pow(high / low, part);
+  high = axis.scale == Scale::linear ? high + part * (high - low)
+                                     : grown(high, part * logarithmic_length(axis.range));
   return axis;
 }
 
 double part_of(const Axis& axis, double value) {
   if (axis.scale == Scale::linear)
     return (value - axis.range.low) / (axis.range.high - axis.range.low);
-  return std::log(value / axis.range.low) / std::log(axis.range.high / axis.range.low);
+  return logarithmic_length({axis.range.low, value}) / logarithmic_length(axis.range);
 }
 
 std::vector<double> ticks_of(const Axis& axis, int most) {

@@ -182,7 +182,8 @@ io::SettingsTable start_velocity_settings(const std::string& axial, const std::s
        .unit = "m/s",
        .fallback = axial,
        .range = io::any(),
-       .doc = "Velocity of the grains' centre of mass along the walls at the start.",
+       .doc = "Velocity of the grains' centre of mass along the walls at the start. Between walls "
+              "that slide, the linear profile between their velocities is added.",
        .only_when = io::When{"start.kind", {"fresh"}}},
       {.key = "start.random_velocity",
        .unit = "m/s",

@@ -86,3 +86,5 @@ def members(path: pathlib.Path, parse: Callable[[str], Any], if_missing: str,
 def _require(path: pathlib.Path, remedy: str) -> None:
     if not path.exists():
         raise NotThere(f"{path}: is not there; {remedy}")
+    if not (path.is_file() or path.is_dir()):  # a pipe would wait for its writer
+        raise Unreadable(f"{path}: is no regular file; remove it")

@@ -100,6 +100,18 @@ class Resume(CommandTest):
         self.assert_same_result(as_it_was, out)
         self.assertTrue((out / "report.html").exists())
 
+    def test_a_result_outlives_a_resume_that_cannot_save(self):
+        out = self.run_small_tube("out")
+        self.assert_done(self.riesel("report", out))
+        (out / "checkpoint.h5.previous").unlink()
+        (out / "checkpoint.h5.previous").mkdir()
+        before = bytes_of_files(out)
+        self.assert_failed(self.riesel("resume", out, "--set", "run.duration=6 ms"), "checkpoint.h5")
+        after = bytes_of_files(out)
+        for name in (".lock", "checkpoint.h5"):  # whole, with the longer duration
+            del before[name], after[name]
+        self.assertEqual(after, before)
+
     def test_settings_of_an_interrupted_run_outlive_a_resume_that_cannot_write(self):
         out = self.run_small_tube("out")
         (out / "summary.json").unlink()

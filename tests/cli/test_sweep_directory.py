@@ -28,7 +28,7 @@ class Directory(SweepTest):
         self.assertEqual(after, before)
 
     def test_files_of_others_are_not_overwritten(self):
-        for name in ("sweep.yaml", "sweep.csv", "sweep.h5"):
+        for name in ("manifest.json", "sweep.yaml", "sweep.csv", "sweep.h5"):
             for options in ([], ["--dry-run"]):
                 with self.subTest(name, options=options):
                     (self.home / name).mkdir()

@@ -1,5 +1,6 @@
 """Points of a sweep that fail, or whose results are damaged: they are told, and do not stop the others."""
 
+import fcntl
 import json
 import re
 import shutil
@@ -90,10 +91,7 @@ class Failures(SweepTest):
                 out = self.sweep_to_end(text)
                 points = self.points()
                 one_point, other_point = (out / "points" / points[i]["name"] for i in (one, other))
-                aside = one_point.with_name("aside")
-                one_point.rename(aside)
-                other_point.rename(one_point)
-                aside.rename(other_point)
+                self.exchange(one_point, other_point)
                 for command, status in ((["collect", "out"], FAILED), (["status", "out"], DONE)):
                     result = self.riesel(*command)
                     self.assertEqual((result.returncode, result.stderr), (status, ""))
@@ -105,6 +103,52 @@ class Failures(SweepTest):
                     misplaced = row["point"] in (one_point.name, other_point.name)
                     self.assertEqual((row["status"], row["state_hash"] == ""),
                                      ("failed", True) if misplaced else ("done", False))
+
+    def exchange(self, one, other):
+        """The directories of two points."""
+        aside = self.home / "out/points/aside"
+        one.rename(aside)
+        other.rename(one)
+        aside.rename(other)
+
+    def test_chains_do_not_start_from_results_of_other_points(self):
+        text = CHAIN.replace("[0.7, 0.8, 0.9]", "[0.7, 0.8]") + "seeds: 2\n"
+        self.assert_done(self.sweep(text, "out", "--prepare"))
+        first = [i for i, point in enumerate(self.points()) if not point.get("parent")]
+        for index in first:
+            self.assert_done(self.riesel("sweep-task", "out", index))
+        directories = [self.home / "out/points" / self.points()[i]["name"] for i in first]
+        self.exchange(*directories)
+        self.assert_refused(self.riesel("sweep-task", "out", first[0] + 1), "neighbour", "not done")
+        self.assertEqual(self.riesel("sweep", "out", "--retry-failed").returncode, FAILED)
+        statuses = [point["status"] for point in self.points()]
+        self.assertEqual((statuses.count("failed"), statuses.count("waiting")), (2, 4))
+        self.exchange(*directories)
+        self.assert_done(self.riesel("sweep", "out"))
+        self.sweep_to_end(text, "ref")
+        self.assertEqual(self.hashes("out"), self.hashes("ref"))
+
+    def test_results_from_other_files_are_not_taken(self):
+        for name, velocity in (("a", 1), ("b", 2)):
+            self.write(f"{name}.csv", f"x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n2, 2, {velocity}, 0, 1\n")
+        self.write("tube.yaml", """\
+scenario: periodic_tube
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+tube: {width: 10 mm, length: 6 mm}
+start: {kind: file, from: a.csv}
+""")
+        self.sweep_to_end("base: tube.yaml\nset: {run.duration: 1 ms}\naxes: {start.from: [a.csv, b.csv]}\n")
+        self.assert_done(self.riesel("collect", "out"))
+        self.exchange(*(self.home / "out/points" / point["name"] for point in self.points()))
+        self.assertEqual(self.riesel("collect", "out").returncode, FAILED)
+        self.assertEqual([point["status"] for point in self.points()], ["failed", "failed"])
+
+    def test_a_result_that_is_being_reported_on_is_one(self):
+        out = self.sweep_to_end(ONE_POINT)
+        with open(out / "points" / self.points()[0]["name"] / ".lock", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assert_done(self.riesel("sweep", "out"))
+            self.assertEqual([row["status"] for row in self.rows()], ["done"])
 
     def test_what_is_left_takes_no_time_for_what_has_failed(self):
         self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)

@@ -207,7 +207,7 @@ axes: {contact.restitution: [0.8]}
     def test_no_two_sweeps_in_one_directory(self):
         process = self.start_sweep(ENDLESS)
         second = self.sweep(ENDLESS)
-        self.assert_failed(second, "out", "in use", str(process.pid))
+        self.assert_refused(second, "out", "in use", str(process.pid))
         status = self.riesel("status", "out")
         self.assertIn("3 points: 2 running, 1 waiting", status.stdout)
         self.assertEqual(self.stop(process, signal.SIGTERM), 143)

@@ -117,12 +117,12 @@ TEST_CASE("braking is what takes axial momentum") {
   BrakeTally tally;
   Contact contact = lasting_for(t_col());
   contact.impulse_y = -2e-7;
-  tally.add(contact, paper_model(), mass);
+  tally.add(contact, paper_model(), mass, false);
   contact.impulse_y = 5e-7;  // one that pushes downstream
-  tally.add(contact, paper_model(), mass);
+  tally.add(contact, paper_model(), mass, false);
   contact.impulse_y = -1e-7;
   contact.end = contact.begin + 0.1 * t_col();
-  tally.add(contact, paper_model(), mass);
+  tally.add(contact, paper_model(), mass, false);
 
   CHECK(tally.contacts == 3);
   CHECK(tally.cut_short == 1);
@@ -150,4 +150,12 @@ TEST_CASE("a tally hands on contacts with walls, and counts all durations") {
   both.merge(tally);
   CHECK(both.ended_at_walls.size() == 2);
   CHECK(both.grains.durations.total() == 2);
+}
+
+TEST_CASE("no contact with a smooth wall is cut short, however soon another grain ends it") {
+  BrakeTally tally;
+  tally.add(lasting_for(0.1 * t_col()), paper_model(), mass, true);
+  CHECK(tally.contacts == 1);
+  CHECK(tally.cut_short == 0);
+  CHECK(tally.braking_cut_short.value() == 0.0);
 }

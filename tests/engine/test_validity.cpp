@@ -103,8 +103,8 @@ TEST_CASE("short contacts that brake next to nothing are no passages") {
 }
 
 TEST_CASE("contacts that pull are never more than suspect") {
-  CHECK(verdict_with(&Evidence::pulling_fraction, 0.19) == Validity::valid);
-  CHECK(verdict_with(&Evidence::pulling_fraction, 0.21) == Validity::suspect);
+  CHECK(verdict_with(&Evidence::pulling_fraction, 0.14) == Validity::valid);
+  CHECK(verdict_with(&Evidence::pulling_fraction, 0.16) == Validity::suspect);
   CHECK(verdict_with(&Evidence::pulling_fraction, 1.0) == Validity::suspect);
 }
 

@@ -1,6 +1,7 @@
 """The Python package says what is not there, or cannot be read, and what to do about it."""
 
 import json
+import os
 import re
 
 import h5py
@@ -130,6 +131,13 @@ class Unreadable(CommandTest):
             bad[place] ^= 1
             path.write_bytes(bad)
             self.assert_unreadable(path, lambda: riesel.Run(path.parent).provenance, "restore")
+
+    def test_a_pipe_in_the_place_of_a_file(self):
+        directory = self.run_small_tube("run")
+        for name, read in (("run.h5", lambda run: run.provenance), ("summary.json", lambda run: run.summary)):
+            (directory / name).unlink()
+            os.mkfifo(directory / name)
+            self.assert_unreadable(directory / name, lambda read=read: read(riesel.Run(directory)), "remove it")
 
     def test_a_changed_bit_of_the_seal(self):
         path = self.run_small_tube("run") / "run.h5"
