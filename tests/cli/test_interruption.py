@@ -171,9 +171,9 @@ class Interruption(CommandTest):
         with open(self.out / ".lock", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             before = bytes_of_files(self.out)
-            self.assert_refused(self.riesel("resume", "out"), "out: is in use by process", "wait")
+            self.assert_refused(self.riesel("resume", "out"), "out: is in use by another process", "wait")
             self.assert_refused(self.riesel("run", "long.yaml", "--out", "out"),
-                                "out: is in use by process", "--out")
+                                "out: is in use by another process", "--out")
             self.assertEqual(bytes_of_files(self.out), before)
         self.assert_refused(self.riesel("resume", "out"), "remove it and start the run again")
 
