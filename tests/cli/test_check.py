@@ -157,6 +157,13 @@ class Check(CommandTest):
             needed = plain_number(text, r"steps_per_collision above (\S+)")
             self.assertAlmostEqual(needed, 50 * 1.05, delta=0.1)
 
+    def test_sliding_walls_do_not_change_the_velocities_across(self):
+        text = (SHIPPED / "shear_cell.yaml").read_text(encoding="utf-8")
+        slow, fast = (plain_number(self.check(text, "--set", "start.random_velocity=0.1 m/s", "--set",
+                                              f"cell.velocity={velocity} m/s"), r"v_crit +(\S+) m/s")
+                      for velocity in (0, 30))
+        self.assertEqual(slow, fast)
+
     def test_of_velocities_above_the_critical_one(self):
         critical = plain_number(self.check(MILD_TUBE), r"v_crit +(\S+) m/s")
         for factor, is_due in ((0.9, False), (1.1, True)):

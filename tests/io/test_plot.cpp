@@ -106,6 +106,18 @@ TEST_CASE("A logarithmic range holds all positive values and no other") {
   }
 }
 
+TEST_CASE("A logarithmic axis can show values whose ratio is beyond all numbers") {
+  const std::vector<double> values = {1e-300, 0.1, 1e300};
+  const Axis axis = with_room_above(axis_for("", values), 0.2);
+  REQUIRE(axis.scale == Scale::logarithmic);
+  CHECK(std::isfinite(axis.range.low));
+  CHECK(std::isfinite(axis.range.high));
+  CHECK(part_of(axis, 1e-300) > 0.0);
+  CHECK(part_of(axis, 0.1) == Approx(0.47).margin(0.08));
+  CHECK(part_of(axis, 1e300) < 1.0);
+  CHECK_FALSE(ticks_of(axis, 6).empty());
+}
+
 TEST_CASE("Logarithmic ticks are powers of ten, or 1, 2 and 5 times them where there are few") {
   CHECK(close(logarithmic_ticks({0.09, 20.0}), {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}));
   CHECK(close(logarithmic_ticks({0.05, 2e3}), {0.1, 1.0, 10.0, 100.0, 1e3}));
