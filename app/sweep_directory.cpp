@@ -23,7 +23,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <ranges>
 #include <system_error>
 #include <vector>
 
@@ -50,8 +49,10 @@ std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
 
 /// Whether a path leads to a file that the point was planned with, or to one of equal content.
 bool is_planned_input(const std::string& path, const io::ManifestPoint& point) {
-  return point.inputs.empty() || point.inputs.contains(path)
-         || std::ranges::count(std::views::values(point.inputs), io::hash_of_content(path)) > 0;
+  if (point.inputs.empty() || point.inputs.contains(path)) return true;
+  const std::string content = io::hash_of_content(path);
+  return std::ranges::any_of(point.inputs,
+                             [&](const auto& planned) { return planned.second == content; });
 }
 
 /// "seed is 2 in its effective.yaml, not 1": a setting in which the run in the directory of the
