@@ -102,10 +102,11 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
       fmt::print("  {} {} ({}): {}\n", point.name, point.status, coordinates_of(point, manifest),
                  point.reason);
   const auto is_to_be_tried = [&](const io::ManifestPoint& point) {
+    if (!has_status(point, RunStatus::failed)) return false;
     const std::filesystem::path directory = point_directory(sweep, point.name);
     const bool has_failed_itself = standing_of(directory).status != RunStatus::done
                                    || !io::read_run_record(directory).failure.empty();
-    return has_status(point, RunStatus::failed) && can_begin(directory) && has_failed_itself;
+    return has_failed_itself && can_begin(directory);
   };
   if (std::ranges::any_of(manifest.points, is_to_be_tried))
     fmt::print("  to run the failed points again{}: '{} --retry-failed'\n",

@@ -61,6 +61,7 @@ bool write_plan(SweepPlan& plan, const fs::path& sweep) {
   const fs::path copy = sweep / sweep_file_name;  // somebody may have written notes into it
   if (!holds(copy, plan.sweep_file)) io::write_durably(copy, plan.sweep_file, io::Previous::keep);
   refresh(plan.manifest, sweep);  // some points may be done
+  note_misplaced(plan.manifest, sweep);
   io::write_durably(sweep / io::manifest_name, io::to_json(plan.manifest));
   return all_written;
 }
@@ -109,20 +110,12 @@ void reject_directory_of_run(const fs::path& sweep) {
     throw UnusableInput(sweep.string() + ": holds a run; choose another directory with --out");
 }
 
-/// Whether there is the manifest of a sweep.
-bool holds_sweep(const fs::path& directory) {
-  try {
-    io::read_manifest(directory);
-    return true;
-  } catch (const io::FileError&) {
-    return false;
-  }
-}
-
 /// Where no sweep has been, files with the names of those of a sweep are somebody else's, unless it
 /// is this sweep that has lost its manifest.
 void reject_files_of_others(const SweepPlan& plan, const fs::path& sweep) {
-  if (holds_sweep(sweep) || holds(sweep / sweep_file_name, plan.sweep_file)) return;
+  const bool has_points = fs::is_directory(point_directory(sweep, ""));
+  const bool is_sweep = has_points && fs::exists(sweep / io::manifest_name);
+  if (is_sweep || holds(sweep / sweep_file_name, plan.sweep_file)) return;
   for (const fs::path& file : {sweep / io::manifest_name, sweep / sweep_file_name,
                                sweep / io::sweep_csv_name, sweep / io::sweep_h5_name})
     if (fs::exists(file))

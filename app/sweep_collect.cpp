@@ -65,11 +65,15 @@ void add_results(const fs::path& summary, std::size_t row, std::size_t columns_o
   }
 }
 
-/// Tasks leave the manifest as it is. A process that runs the whole sweep writes it itself.
+/// Tasks leave the manifest as it is. A process that runs the whole sweep writes it itself, and
+/// another plan may have come meanwhile.
 void keep(const io::Manifest& manifest, const fs::path& sweep) {
   try {
     const io::DirectoryLock lock(sweep);
-    io::write_durably(sweep / io::manifest_name, io::to_json(manifest));
+    const io::Manifest now = io::read_manifest(sweep);
+    if (std::ranges::equal(now.points, manifest.points, {}, &io::ManifestPoint::name,
+                           &io::ManifestPoint::name))
+      io::write_durably(sweep / io::manifest_name, io::to_json(manifest));
   } catch (const io::InUse&) {
   }
 }

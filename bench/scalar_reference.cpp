@@ -11,12 +11,16 @@ namespace {
 
 /// The state, if it is known how to step it.
 const State& known(const State& state, const ContactModel& model) {
-  const auto at_rest = [](const WallLattice& wall) { return !wall.motion.is_ever_away(); };
-  const bool is_known = std::holds_alternative<LinearLaw>(model.normal)
-                        && std::holds_alternative<CappedSlip>(model.slip)
-                        && model.attraction == Attraction::keep && !state.grains.rotate()
-                        && state.gravity.x == 0.0 && state.walls.size() == 2
-                        && std::all_of(state.walls.begin(), state.walls.end(), at_rest);
+  const auto like_first_and_at_rest = [&](const WallLattice& wall) {
+    const WallLattice& first = state.walls.front();
+    return !wall.smooth() && wall.count == first.count && wall.radius == first.radius
+           && !wall.motion.is_ever_away();
+  };
+  const bool is_known =
+      std::holds_alternative<LinearLaw>(model.normal)
+      && std::holds_alternative<CappedSlip>(model.slip) && model.attraction == Attraction::keep
+      && !state.grains.rotate() && state.gravity.x == 0.0 && state.walls.size() == 2
+      && std::all_of(state.walls.begin(), state.walls.end(), like_first_and_at_rest);
   if (!is_known)
     throw std::invalid_argument("the scalar reference knows only the tube of the paper");
   return state;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace riesel::io {
@@ -74,7 +73,7 @@ std::vector<double> ticks(Interval range, int most) {
 }
 
 std::vector<double> logarithmic_ticks(Interval range) {
-  const double decades = logarithmic_length(range) / std::numbers::ln10;
+  const double decades = std::log10(range.high) - std::log10(range.low);
   const auto stride = static_cast<int>(std::ceil(decades / 9.0));
   std::vector<double> found;
   for (auto e = static_cast<int>(std::floor(std::log10(range.low))); e < 400; ++e) {

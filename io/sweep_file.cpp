@@ -122,13 +122,13 @@ SweepContinuation read_continuation(const YamlNode& node, const std::vector<Swee
                       keys.empty() ? "give the sweep an axis" : "choose " + enumerate(keys));
 }
 
-/// Where each key is set: of two places that set it, one would hide the other. So would one that
-/// takes out the section of the other.
+/// Where each key is set, in the order in which the places are applied: of two that set it, one
+/// would hide the other. So would one that takes out the section of an earlier one.
 class Claims {
 public:
   void claim(const std::string& key, const Place& place) {
     for (const auto& [other, first] : places_)
-      if (key == other || key.starts_with(other + ".") || other.starts_with(key + "."))
+      if (key == other || other.starts_with(key + "."))
         throw SettingsError(place, key, fmt::format("is set twice, first at {}", to_string(first)),
                             "remove one of the two");
     places_.emplace(key, place);
@@ -140,11 +140,11 @@ private:
 
 void refuse_conflicts(const SweepFile& sweep) {
   Claims claims;
+  for (const auto& entry : sweep.overrides) claims.claim(entry.key, entry.key_place);
   for (const auto& axis : sweep.axes) {
     for (const auto& entry : axis.values.front()) claims.claim(entry.key, entry.key_place);
   }
   if (!sweep.seeds.empty()) claims.claim("seed", sweep.seeds.front().key_place);
-  for (const auto& entry : sweep.overrides) claims.claim(entry.key, entry.key_place);
   for (const auto& branch : sweep.branches) {
     Claims own = claims;
     for (const auto& entry : branch.overrides) own.claim(entry.key, entry.key_place);

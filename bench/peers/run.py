@@ -99,13 +99,14 @@ def agreement(riesel, peer, start, settings, cores, steps):
 def tuned(peer, start, steps):
     """The settings with which a peer is fastest without ever looking too late, and its speed then (particle-steps/s): one
     setting after the other, until no other value of any of them is better. The better of two tries counts."""
-    speeds = {}
+    speeds, failures = {}, []
 
     def safe_speed(settings):
         """0 if it looks too late, which may make it lose grains and fail."""
         try:
             answers = [peer.advance(start, settings, cores=1, warm_up=steps // 4, steps=steps) for _ in range(2)]
-        except Failed:
+        except Failed as failure:
+            failures.append(failure)
             return 0.0
         safe = all(answer["too_late"] == 0 for answer in answers)
         return start["grains"] * steps / min(answer["seconds"] for answer in answers) if safe else 0.0
@@ -122,7 +123,7 @@ def tuned(peer, start, steps):
         for name, values in peer.choices.items():
             best = max([best, *(best | {name: value} for value in values)], key=speed_of)
     if speed_of(best) == 0.0:
-        raise RuntimeError(f"no settings are safe for {peer.name}")
+        raise RuntimeError("\n".join([f"no settings are safe for {peer.name}", *map(str, failures[-1:])]))
     print(f"  {peer.name} at its best: {', '.join(f'{name} {value:g}' for name, value in best.items())} "
           f"({speed_of(best) * 1e-6:.1f} M/s while tuning)", flush=True)
     return best, speed_of(best)

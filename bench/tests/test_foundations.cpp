@@ -181,6 +181,10 @@ TEST_CASE("the scalar reference refuses what it does not know") {
   SECTION("contacts that may not pull") { model.attraction = Attraction::clip; }
   SECTION("grains that rotate") { state.grains.inertia = 0.5; }
   SECTION("gravity across the tube") { state.gravity.x = 1.0; }
+  SECTION("smooth walls") {
+    for (WallLattice& wall : state.walls) wall = WallLattice::smooth_at(wall.line);
+  }
+  SECTION("walls that differ") { state.walls.back().count *= 2; }
   SECTION("walls that move") { state.walls.front().motion.velocity = 1.0; }
   CHECK_THROWS_AS(ScalarReference(state, model), std::invalid_argument);
 }

@@ -87,9 +87,9 @@ class Journeys(CommandTest):
     def is_done(self, out):
         return (self.home / out / "summary.json").exists()
 
-    def travel(self, dice, out, settings, length):
-        """By legs until the run is done. Returns them. `length` (s) of the run in one go."""
-        first, legs = settings, []
+    def travel(self, dice, out, settings, length, legs):
+        """By legs, which are added to the list, until the run is done. `length` (s) of the run in one go."""
+        first = settings
         by_limit = False  # the last leg was ended
         while not self.is_done(out):
             arguments, stop, after = self.leg(dice, first, out, length)
@@ -107,15 +107,14 @@ class Journeys(CommandTest):
             by_limit = process.returncode == FAILED and "to go on from there, remove the limit" in stderr
             self.limited += by_limit
             ends = {0} | interrupted | ({FAILED} if by_limit else set())
-            self.assertIn(process.returncode, ends, (arguments, stderr))
+            self.assertIn(process.returncode, ends, (legs, stderr))
             complaints = [line for line in stderr.splitlines() if not PROGRESS.fullmatch(line)
                           and not line.startswith("riesel: limits.")]
-            self.assertTrue(process.returncode != 0 or not complaints, stderr)
+            self.assertTrue(process.returncode != 0 or not complaints, (legs, stderr))
             first = None
             if not by_limit and not (self.home / out / "checkpoint.h5").exists():  # it has to be started again
                 shutil.rmtree(self.home / out, ignore_errors=True)
                 first = settings
-        return legs
 
     def test_random_journeys_come_to_the_same_bits(self):
         legs = warned = 0
@@ -139,7 +138,8 @@ class Journeys(CommandTest):
                 settings += ["--set", "limits.action=stop"] if dice.random() < 0.5 else []
                 out = f"journey-{number}-{journey}"
                 with self.subTest(flow=flow.text, settings=settings):
-                    travelled = self.travel(dice, out, settings, length)
+                    travelled = []
+                    self.travel(dice, out, settings, length, travelled)
                     legs += len(travelled)
                     with self.subTest(legs=travelled):
                         if same_rows:

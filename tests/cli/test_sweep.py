@@ -98,6 +98,12 @@ class Grid(SweepTest):
         self.assertEqual(told, [["bound", "50", "0.4"], ["free", "", ""]])
         self.assertNotIn("limits.action", self.rows()[0])
 
+    def test_an_axis_may_set_again_what_is_taken_out_for_all(self):
+        self.write("tube.yaml", SMALL_TUBE + "limits: {speed: 50 m/s, overlap: 0.4}\n")
+        self.sweep_to_end("base: tube.yaml\nset: {run.duration: 1 ms, limits: }\n"
+                          "axes: {limits.speed: [60 m/s, 70 m/s]}\n")
+        self.assertEqual([row["limits.speed"] for row in self.rows()], ["60", "70"])
+
     def test_equal_points_are_one_run(self):
         self.sweep_to_end(GRID.replace("8 m/s", "1 m/s").replace("[1, 5]", "[5, 5]"))
         rows = self.rows()

@@ -171,7 +171,7 @@ class UntilInPieces(UntilTest):
             kills += process.returncode == -signal.SIGKILL
             if process.returncode == 0:
                 break
-        self.assertGreater(kills, 5)
+        self.assertGreater(kills, 0)
         self.resume_to_end(out, "--set", "output.checkpoint_interval=60 s", *slower[:2])
         self.assert_same_result(whole, out)
 
