@@ -22,24 +22,13 @@ class UnusableInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns read(). A file that it cannot use counts as bad input, not as a failed run: throws
-/// UnusableInput in place of io::FileError.
-template <class Read>
+/// Returns read(). A file that it cannot use, or a directory that another process has (io::InUse),
+/// counts as bad input, not as a failed run: throws UnusableInput in place of the Error.
+template <class Error = io::FileError, class Read>
 auto as_input(Read read) {
   try {
     return read();
-  } catch (const io::FileError& error) {
-    throw UnusableInput(error.what());
-  }
-}
-
-/// Returns lock(), which locks a directory to work in. That another process has it counts as bad
-/// input: throws UnusableInput in place of io::InUse.
-template <class Lock>
-auto unless_in_use(Lock lock) {
-  try {
-    return lock();
-  } catch (const io::InUse& error) {
+  } catch (const Error& error) {
     throw UnusableInput(error.what());
   }
 }

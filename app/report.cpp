@@ -159,7 +159,7 @@ void write(const Report& report, const fs::path& directory) {
 
 void report_on_run(const fs::path& directory) {
   require_finished_run(directory);
-  const auto lock = unless_in_use([&] { return io::DirectoryLock(directory); });
+  const auto lock = as_input<io::InUse>([&] { return io::DirectoryLock(directory); });
   write(as_input([&] { return report_of_run(directory); }), directory);
 }
 

@@ -66,8 +66,9 @@ bool stopped_before_checkpoint(const fs::path& directory) {
 }
 
 RunDirectory::RunDirectory(const fs::path& path, io::Signature signature)
-    : path_(path),
-      lock_(unless_in_use([&] { return std::make_unique<io::DirectoryLock>(path, signature); })) {}
+    : path_(path), lock_(as_input<io::InUse>([&] {
+        return std::make_unique<io::DirectoryLock>(path, signature);
+      })) {}
 
 namespace {
 

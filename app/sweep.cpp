@@ -127,7 +127,7 @@ void reject_files_of_others(const SweepPlan& plan, const fs::path& sweep) {
 /// Locks the directory against a second sweep.
 io::DirectoryLock lock(const fs::path& sweep) {
   io::make_directories(sweep);
-  return unless_in_use([&] { return io::DirectoryLock(sweep); });
+  return as_input<io::InUse>([&] { return io::DirectoryLock(sweep); });
 }
 
 /// For --dry-run where scontrol cannot be asked: about Slurm's default MaxArraySize.

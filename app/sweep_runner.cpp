@@ -59,7 +59,6 @@ struct Job {
   int most_threads = 1;
   RunStatus status = RunStatus::waiting;
   std::string reason;  // why it failed
-  bool is_misplaced = false;
   int starts = 0, collisions = 0;
   std::unique_ptr<ChildProcess> process;
   Clock::time_point started = {};
@@ -138,7 +137,6 @@ private:
     job->most_threads = point.most_threads;
     look_at(*job);
     if (misplaced_.contains(job->name)) {  // until its directory is put back
-      job->is_misplaced = true;
       job->status = RunStatus::failed;
       job->reason = point.reason;
     } else if (job->status == RunStatus::failed && options_.retry_failed
@@ -150,7 +148,7 @@ private:
   }
 
   void look_at(Job& job) const {
-    if (job.is_misplaced) return;
+    if (misplaced_.contains(job.name)) return;
     const RunStanding standing = options_.prolongation.standing_of(job.directory);
     job.status = standing.status;
     job.reason = standing.reason;

@@ -169,8 +169,8 @@ std::size_t transient_length(std::span<const double> series) {
     squares += step * (means[first] - mean);
 
     const double squared_error = squares / (count * count);
-    const bool in_first_half = 2 * first <= means.size() && kept > 1;  // one has no error
-    if (in_first_half && squared_error <= least) {
+    const bool in_first_half = 2 * first <= means.size(), has_scatter = kept > 1;
+    if (in_first_half && has_scatter && squared_error <= least) {
       least = squared_error;
       cut = first;
     }

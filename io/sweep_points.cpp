@@ -177,6 +177,12 @@ private:
   std::vector<SweepPoint> points_;
 };
 
+bool differs(const std::string& key, const std::vector<SweepPoint>& points) {
+  return std::ranges::any_of(points, [&](const auto& point) {
+    return point.settings.written(key) != points.front().settings.written(key);
+  });
+}
+
 }  // namespace
 
 std::string hash_of_content(const std::string& path) {
@@ -190,16 +196,6 @@ std::string hash_of_content(const std::string& path) {
     return "none";
   }
 }
-
-namespace {
-
-bool differs(const std::string& key, const std::vector<SweepPoint>& points) {
-  return std::ranges::any_of(points, [&](const auto& point) {
-    return point.settings.written(key) != points.front().settings.written(key);
-  });
-}
-
-}  // namespace
 
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables) {
   return Expansion(sweep, tables).points();
