@@ -146,12 +146,12 @@ template <class Numbers, Partner partner>
   const double fx = touching ? t.fx : 0.0, fy = touching ? t.fy : 0.0;
   const double x = fx * (c.per_mass[0][i] * u.kick_x);
   const double y = fy * (c.per_mass[0][i] * u.kick_y);
-  c.kick[0].set(i, {Numbers::whole(x), Numbers::whole(y)});
+  c.kick[0][i] = {Numbers::whole(x), Numbers::whole(y)};
   double size = std::abs(x) + std::abs(y);
   if constexpr (partner == Partner::grain) {
     const double other_x = -fx * (c.per_mass[1][i] * u.kick_x);
     const double other_y = -fy * (c.per_mass[1][i] * u.kick_y);
-    c.kick[1].set(i, {Numbers::whole(other_x), Numbers::whole(other_y)});
+    c.kick[1][i] = {Numbers::whole(other_x), Numbers::whole(other_y)};
     size += std::abs(other_x) + std::abs(other_y);
   }
   return size;

@@ -50,8 +50,9 @@ struct alignas(cache_line) ContactTile {
   Row<double> reach, reduced_mass;              ///< m, kg
   std::array<Row<double>, 2> per_mass, radius;  ///< 1/kg and m, of first and second
   std::array<Row<double>, life_members> life;   ///< see RIESEL_LIFE
-  std::array<Vectors, 2> kick;                  ///< of first and second, in the last step
-  std::array<Row<Fixed>, 2> spin_kick;          ///< likewise
+  std::array<Row<Fixed>, 2> spin_kick;          ///< of first and second, in the last step
+  /// Likewise. x and y stand side by side, as they are added to single grains.
+  std::array<Row<FixedVector>, 2> kick;
 };
 
 /// Index of the row of a tile's `life` that holds this member of Contact.

@@ -1,8 +1,10 @@
 #include "engine/kicks.hpp"
 
 #include "engine/contact_loop.hpp"
+#include "engine/vector_kernel.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace riesel {
 
@@ -12,6 +14,16 @@ namespace {
 bool concerns(const Slice& giver, const Slice& mine) {
   return &giver != &mine && !giver.given_away.empty() && giver.given_first < mine.end
          && giver.given_last >= mine.begin;
+}
+
+/// Both coordinates in one register: GCC 12 handles x and y one by one where vectors are looked up
+/// in random order, unless it is told. Unsigned, as sums wrap round.
+using Lanes = std::uint64_t __attribute__((vector_size(sizeof(FixedVector))));
+
+[[gnu::always_inline]] inline Lanes lanes_of(const FixedVector& v) {
+  Lanes lanes;
+  std::memcpy(&lanes, &v, sizeof(lanes));  // std::bit_cast would go by way of memory
+  return lanes;
 }
 
 /// Adds kicks to the grains of a slice. Has copies of all that a kick needs, so that the compiler
@@ -24,23 +36,45 @@ struct Receiver {
   double fastest2;        // as in the slice
   std::uint32_t* kicked;  // where the next kicked slot is written
 
-  template <class Quanta>
-  static void add(Quanta& sum, const Quanta& more) {
-    sum = wrapped_sum(sum, more);
+  /// Returns the new sum.
+  [[gnu::always_inline]] static Lanes add(FixedVector& sum, Lanes more) {
+    const Lanes now = lanes_of(sum) + more;
+    std::memcpy(&sum, &now, sizeof(sum));
+    return now;
   }
+  static void add(Fixed& sum, Fixed more) { sum = wrapped_sum(sum, more); }
 
-  [[gnu::always_inline]] void receive(std::uint32_t slot, const BodyKick& by) {
+  [[gnu::always_inline]] void operator()(std::int64_t place, const BodyKick& by) {
+    const auto slot = static_cast<std::uint32_t>(place);
     if (slot - begin >= size) return;
     *kicked++ = slot;
-    add(kick[slot], by.by);
-    add(u[slot], by.by);
+    const Lanes more = lanes_of(by.by);
+    add(kick[slot], more);
+    fastest2 = std::max(fastest2, squared(add(u[slot], more)));
     if (by.spin != 0) {
       add(spin_kick[slot], by.spin);
       add(spin[slot], by.spin);
     }
-    fastest2 = std::max(fastest2, speed.squared(u[slot]));
+  }
+
+  /// What Speedometer::squared() gives, to the last bit.
+  [[gnu::always_inline]] double squared(Lanes of_u) const {
+    using Signed = Fixed __attribute__((vector_size(sizeof(FixedVector))));
+    using Metres = double __attribute__((vector_size(sizeof(FixedVector))));
+    const Lanes relative = of_u - lanes_of(speed.drift);
+    const Metres way = __builtin_convertvector(reinterpret_cast<Signed>(relative), Metres)
+                       * Metres{speed.metre_x, speed.metre_y};
+    const Metres squares = way * way;
+    return squares[0] + squares[1];
   }
 };
+
+/// Adds the kicks by contacts of the own slice.
+RIESEL_VECTOR_KERNEL void receive_own(const LiveContacts& contacts, Receiver* receiver) {
+  Receiver mine = *receiver;
+  contacts.for_each_kick(mine);
+  *receiver = mine;
+}
 
 /// u = change(u, kick) for all grains of the slice, and likewise for the spins.
 template <class Change>
@@ -92,12 +126,11 @@ void receive_kicks(State& state, const Candidates& candidates, std::span<const S
                     .speed = candidates.speedometer(state.box),
                     .fastest2 = mine.fastest2,
                     .kicked = mine.kicked.data()};
-  for_each_kick(mine, [&](std::int64_t place, const BodyKick& kick) {
-    receiver.receive(static_cast<std::uint32_t>(place), kick);
-  });
+  receive_own(mine.pair_contacts, &receiver);
+  receive_own(mine.wall_contacts, &receiver);
   for (const Slice& giver : givers)
     if (concerns(giver, mine))
-      for (const Kick& kick : giver.given_away) receiver.receive(kick.slot, kick.by);
+      for (const Kick& kick : giver.given_away) receiver(kick.slot, kick.by);
   mine.kicked.resize(static_cast<std::size_t>(receiver.kicked - mine.kicked.data()));
   mine.fastest2 = receiver.fastest2;
 }

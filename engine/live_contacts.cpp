@@ -19,16 +19,20 @@ void see_from_the_other(Contact& contact) {
 
 /// Moves the content of a lane to another one and leaves zeros.
 void move_lane(ContactTile& from, std::size_t lane, ContactTile& to, std::size_t new_lane) {
-  using Row = ContactTile::Row<std::uint64_t>;  // all rows of a tile are of 64-bit words
-  static_assert(
-      std::is_trivially_copyable_v<ContactTile> && sizeof(ContactTile) % sizeof(Row) == 0);
+  using Row = ContactTile::Row<std::uint64_t>;  // all rows before the kicks are of 64-bit words
+  constexpr std::size_t end = offsetof(ContactTile, kick);
+  static_assert(std::is_trivially_copyable_v<ContactTile> && end % sizeof(Row) == 0);
   auto* const old_words = reinterpret_cast<std::byte*>(&from) + lane * sizeof(std::uint64_t);
   auto* const new_words = reinterpret_cast<std::byte*>(&to) + new_lane * sizeof(std::uint64_t);
-  for (std::size_t row = 0; row < sizeof(ContactTile); row += sizeof(Row)) {
+  for (std::size_t row = 0; row < end; row += sizeof(Row)) {
     std::uint64_t word = 0;
     std::memcpy(&word, old_words + row, sizeof(word));
     std::memcpy(new_words + row, &word, sizeof(word));
     std::memset(old_words + row, 0, sizeof(word));
+  }
+  for (std::size_t body = 0; body < from.kick.size(); ++body) {
+    to.kick[body][new_lane] = from.kick[body][lane];
+    from.kick[body][lane] = {};
   }
 }
 
@@ -49,7 +53,7 @@ Contact LiveContacts::contact(std::size_t i) const {
 /// is left by a run that fails can be kept and inspected.
 void LiveContacts::make_harmless(std::size_t i) {
   ContactTile& t = tile(i);
-  for (auto& kicks : t.kick) kicks.set(lane(i), {});
+  for (auto& kicks : t.kick) kicks[lane(i)] = {};
   for (auto& kicks : t.spin_kick) kicks[lane(i)] = 0;
   for (auto& member : t.life)
     if (!std::isfinite(member[lane(i)])) member[lane(i)] = 0.0;

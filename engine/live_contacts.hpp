@@ -37,7 +37,7 @@ public:
   BodyKick kick_of_second(std::size_t i) const { return kick_of(tile(i), 1, lane(i)); }
   /// Calls give(place, kick) for the kicks of all contacts; `place` is the index in Bodies.
   template <class Give>
-  void for_each_kick(Give give) const {
+  [[gnu::always_inline]] void for_each_kick(Give& give) const {
     if (turning_)
       give_kicks<true>(give);
     else
@@ -77,14 +77,16 @@ private:
   const ContactTile& tile(std::size_t i) const { return tiles_[i / ContactTile::lanes]; }
   static std::size_t lane(std::size_t i) { return i % ContactTile::lanes; }
   template <bool turning = true>
-  static BodyKick kick_of(const ContactTile& tile, std::size_t body, std::size_t lane) {
-    return {tile.kick[body].at(lane), turning ? tile.spin_kick[body][lane] : 0};
+  [[gnu::always_inline]] static BodyKick kick_of(const ContactTile& tile, std::size_t body,
+                                                 std::size_t lane) {
+    return {tile.kick[body][lane], turning ? tile.spin_kick[body][lane] : 0};
   }
   template <bool turning, class Give>
-  void give_kicks(Give give) const {
+  [[gnu::always_inline]] void give_kicks(Give& give) const {
+    const bool has_second = partner_ == Partner::grain;
     for_each_lane(std::span(tiles_), 0, size(), [&](const ContactTile& tile, std::size_t lane) {
       give(tile.body[0][lane], kick_of<turning>(tile, 0, lane));
-      if (partner_ == Partner::grain) give(tile.body[1][lane], kick_of<turning>(tile, 1, lane));
+      if (has_second) give(tile.body[1][lane], kick_of<turning>(tile, 1, lane));
     });
   }
   void make_harmless(std::size_t i);
