@@ -100,11 +100,17 @@ io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& st
                                  const std::vector<double>& velocities, double interval) {
   const auto n = static_cast<double>(state.grains.size());
   const double mass = total_mass(state.grains);
-  return {.n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
-          .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
-          .n_dot_dv_y =
-              balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), velocities, interval),
-          .gravity = state.gravity.y};
+  io::FlowSummary::Balance b{
+      .n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
+      .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
+      .n_dot_dv_y =
+          balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), velocities, interval),
+      .gravity = state.gravity.y};
+  // The ratio's own error is too wide where the momentum is bounded: see balanced().
+  const double of_quotient =
+      std::hypot(b.n_dot_dv_y.error, b.dv_y.value * b.n_dot.error) / b.n_dot.value;
+  b.dv_y.error = std::min(b.dv_y.error, of_quotient);
+  return b;
 }
 
 io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state) {

@@ -16,8 +16,8 @@ bool concerns(const Slice& giver, const Slice& mine) {
          && giver.given_last >= mine.begin;
 }
 
-/// Both coordinates in one register: GCC 12 handles x and y one by one where vectors are looked up
-/// in random order, unless it is told. Unsigned, as sums wrap round.
+/// Both coordinates in one register. By itself GCC 12 takes them apart as soon as they are to be
+/// converted to doubles. Unsigned, as sums wrap round.
 using Lanes = std::uint64_t __attribute__((vector_size(sizeof(FixedVector))));
 
 [[gnu::always_inline]] inline Lanes lanes_of(const FixedVector& v) {

@@ -18,6 +18,18 @@ tube: {width: 10 mm, length: 12 mm}
 run: {duration: 0.15 s}
 """
 
+SHEAR_CELLS = """\
+base:
+  scenario: shear_cell
+  contact: {stiffness: 20 kN/m, restitution: 0.9, restitution_of: grains, friction: 0}
+  grains: {polydispersity: 0, area_fraction: 0.4}
+  wall: {grain_diameter: 1 mm, spacing: 1.4 mm}
+  cell: {width: 10 mm, length: 10 mm, velocity: 0.5 m/s}
+  start: {random_velocity: 0.1 m/s}
+  run: {duration: 0.6 s}
+seeds: 40
+"""
+
 FINDINGS = ["max_overlap_ratio", "brake_failure_fraction", "passages_per_wall_visit",
             "wall_speed_over_v_crit", "pulling_fraction", "steps_per_contact",
             "energy_error_ratio", "limits_exceeded", "grain_contact_rate_times_t_col"]
@@ -216,6 +228,16 @@ class Balance(Validity):
                 values, errors = np.array([(each[name]["value"], each[name]["error"]) for each in ratios]).T
                 # The truth is not known, but to a sixth of a bar by the mean of all.
                 self.assert_covers((values - values.mean()) / errors, name)
+
+    def test_the_bar_of_the_loss_per_contact_is_not_too_wide_in_shear_cells(self):
+        # Two walls that pull against each other give no momentum in the mean, and what they give in one
+        # moment they take in the next. A bar that overlooks this is twice as wide as the means scatter.
+        self.write("sweep.yaml", SHEAR_CELLS)
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
+        balances = [self.summary(point)["balance"] for point in (self.home / "out/points").iterdir()]
+        off = np.array([balance["dv_y"] / balance["errors"]["dv_y"] for balance in balances])
+        self.assert_covers(off, "dv_y")
+        self.assertGreaterEqual(np.sum(np.abs(off) > 0.67), 14)  # half of 40, less two standard deviations
 
     def test_in_free_fall_they_do_not(self):
         summary, _ = self.tube("fast", start__axial_velocity="20 m/s", run__duration="0.3 s")
