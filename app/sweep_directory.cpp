@@ -55,16 +55,15 @@ bool is_planned_input(const std::string& path, const io::ManifestPoint& point) {
                              [&](const auto& planned) { return planned.second == content; });
 }
 
-/// "seed is 2 in its effective.yaml, not 1": a setting in which the run in the directory of the
-/// point is not what was planned; "" if there is none, or if its settings cannot be read. What a
-/// run that goes on may change does not count, nor does the start of a chain where it is not at its
-/// first point; paths count by what they lead to.
+/// "seed is 2 in its effective.yaml, not 1": a setting in which `file`, the settings of a run in
+/// the directory of the point, is not what was planned; "" if there is none, or if it cannot be
+/// read. What a run that goes on may change does not count, nor does the start of a chain where it
+/// is not at its first point; paths count by what they lead to.
 std::string difference_from_plan(const io::ManifestPoint& point,
                                  const std::vector<io::VariedSetting>& varied,
-                                 const fs::path& sweep) {
+                                 const fs::path& file) {
   constexpr auto start_from = "start.from";
   try {
-    const fs::path file = point_directory(sweep, point.name) / io::effective_settings_name;
     const io::Settings settings = io::Settings::from_text(io::read_kept_text(file), file.string(),
                                                           scenarios::settings_tables());
     const io::SettingsTable& table = scenarios::settings_tables().at(settings.scenario());
@@ -79,7 +78,7 @@ std::string difference_from_plan(const io::ManifestPoint& point,
                                   : found == point.values[i];
       if (!as_planned)
         return fmt::format("{} is {} in its {}, not {}", key, text_of(found),
-                           io::effective_settings_name, text_of(point.values[i]));
+                           file.filename().string(), text_of(point.values[i]));
     }
     if (point.parent.empty()) return "";
     const std::string from = settings.has(start_from) ? settings.text(start_from) : "";
@@ -87,6 +86,27 @@ std::string difference_from_plan(const io::ManifestPoint& point,
       return fmt::format("{} is not its neighbour {}", start_from, point.parent);
   } catch (const io::SettingsError&) {
   }
+  return "";
+}
+
+/// Why the run with the settings `file` is not that of the point in whose directory it is; "" if
+/// nothing tells.
+std::string misplacement(const io::ManifestPoint& point,
+                         const std::vector<io::VariedSetting>& varied, const fs::path& file) {
+  const std::string difference = difference_from_plan(point, varied, file);
+  if (difference.empty()) return "";
+  return fmt::format("{} is of another point ({}); put the directories back in their places, or "
+                     "remove this one to begin anew",
+                     file.parent_path().string(), difference);
+}
+
+/// Why a run that begins now would not be the planned one, as a file that it reads has changed; ""
+/// if none has.
+std::string changed_input(const io::ManifestPoint& point) {
+  for (const auto& [file, content] : point.inputs)
+    if (io::hash_of_content(file) != content)
+      return file + ": is not as it was when the sweep was planned; restore it, or call '"
+             + call_of("sweep") + "' with the sweep file and another --out";
   return "";
 }
 
@@ -182,24 +202,34 @@ std::set<std::string> note_misplaced(io::Manifest& manifest, const fs::path& swe
   std::set<std::string> misplaced;
   for (io::ManifestPoint& point : manifest.points) {
     if (!is_among(names, point.name)) continue;
-    if (!has_result(point_directory(sweep, point.name))) continue;
-    const std::string difference = difference_from_plan(point, manifest.varied, sweep);
-    if (difference.empty()) continue;
+    const fs::path directory = point_directory(sweep, point.name);
+    if (!has_result(directory)) continue;
+    const std::string reason =
+        misplacement(point, manifest.varied, directory / io::effective_settings_name);
+    if (reason.empty()) continue;
     misplaced.insert(point.name);
     point.status = to_string(RunStatus::failed);
-    point.reason = fmt::format("{} is of another point ({}); put the directories back in their "
-                               "places, or remove this one to begin anew",
-                               point_directory(sweep, point.name).string(), difference);
+    point.reason = reason;
   }
   return misplaced;
 }
 
-std::string changed_input(const io::ManifestPoint& point) {
-  for (const auto& [file, content] : point.inputs)
-    if (io::hash_of_content(file) != content)
-      return file + ": is not as it was when the sweep was planned; restore it, or call '"
-             + call_of("sweep") + "' with the sweep file and another --out";
-  return "";
+std::string reason_not_to_start(const io::Manifest& manifest, const io::ManifestPoint& point,
+                                const fs::path& sweep) {
+  const fs::path directory = point_directory(sweep, point.name);
+  if (can_resume(directory))
+    return misplacement(point, manifest.varied, directory / io::effective_settings_name);
+  const fs::path settings = directory / point_settings_name;
+  // A run takes its settings from a pipe, too, and would wait for its writer.
+  if (fs::exists(settings) && !fs::is_regular_file(settings))
+    return settings.string() + ": is no regular file; remove it";
+  const fs::path parent = point_directory(sweep, point.parent);
+  if (!point.parent.empty() && !has_checkpoint(parent))
+    return fmt::format("its neighbour {} has lost its checkpoint; restore that, or remove {} and "
+                       "call '{}' with the sweep file and --retry-failed",
+                       point.parent, parent.string(), call_of("sweep"));
+  const std::string change = changed_input(point);
+  return change.empty() ? misplacement(point, manifest.varied, settings) : change;
 }
 
 void reject_changed_inputs(const io::Manifest& manifest, const fs::path& sweep,

@@ -67,12 +67,14 @@ bool has_chains(const io::Manifest& manifest);
 std::set<std::string> note_misplaced(io::Manifest& manifest, const std::filesystem::path& sweep,
                                      const std::vector<std::string>& names = {});
 
-/// Why a run of the point that begins now would not be the planned one, as a file that it reads has
-/// changed; "" if none has.
-std::string changed_input(const io::ManifestPoint& point);
+/// Why a run of the point that begins or goes on now would not be the planned one, as its settings
+/// or a file that it reads have changed, or its directory is another one's; or why it could not
+/// begin. "" if nothing is seen. The neighbour that it starts from must be done.
+std::string reason_not_to_start(const io::Manifest& manifest, const io::ManifestPoint& point,
+                                const std::filesystem::path& sweep);
 
-/// Throws UnusableInput if that holds for any point, among those with these `names`, that has yet
-/// to begin.
+/// Throws UnusableInput if a file has changed that any point reads, among those with these `names`,
+/// that has yet to begin.
 void reject_changed_inputs(const io::Manifest& manifest, const std::filesystem::path& sweep,
                            const std::vector<std::string>& names);
 

@@ -215,15 +215,9 @@ private:
     const bool in_vain = job.status == RunStatus::failed && !options_.retry_failed;
     if (job.status == RunStatus::running || job.status == RunStatus::done || in_vain) return;
     ++job.starts;
-    const fs::path settings = job.directory / point_settings_name;
-    if (!can_resume(job.directory)) {
-      // A run takes its settings from a pipe, too, and would wait for its writer.
-      if (fs::exists(settings) && !fs::is_regular_file(settings))
-        return fail(job, settings.string() + ": is no regular file; remove it");
-      if (const std::string change = changed_input(*job.point); !change.empty())
-        return fail(job, change);
-      if (!cleared(job)) return;
-    }
+    if (const auto reason = reason_not_to_start(manifest_, *job.point, sweep_); !reason.empty())
+      return fail(job, reason);
+    if (!can_resume(job.directory) && !cleared(job)) return;
     const bool goes_on = can_resume(job.directory);  // another process may have begun it meanwhile
     const std::vector<std::string> changes = options_.prolongation.overrides_for(job.directory);
     const int before = io::read_run_record(job.directory).attempts;
@@ -232,7 +226,8 @@ private:
 
     const std::string directory = job.directory.string();
     std::vector<std::string> arguments = {"resume", directory};
-    if (!goes_on) arguments = {"run", settings.string(), "--out", directory};
+    if (!goes_on)
+      arguments = {"run", (job.directory / point_settings_name).string(), "--out", directory};
     arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
     for (const std::string& setting : changes)
       arguments.insert(arguments.end(), {"--set", setting});

@@ -104,6 +104,52 @@ class Failures(SweepTest):
                     self.assertEqual((row["status"], row["state_hash"] == ""),
                                      ("failed", True) if misplaced else ("done", False))
 
+    def test_runs_of_other_points_do_not_begin(self):
+        """After two directories have changed places, or a settings file was changed by hand."""
+        self.assert_done(self.sweep(GRID, "out", "--prepare"))
+        one, other, edited, *others = (self.home / "out/points" / point["name"] for point in self.points())
+        settings = edited / "point.yaml"
+        planned = settings.read_text(encoding="utf-8")
+        settings.write_text(re.sub("restitution: .*", "restitution: 0.75", planned), encoding="utf-8")
+        self.exchange(one, other)
+        result = self.riesel("sweep", "out")
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assertEqual(result.stderr.count("is of another point"), 3)
+        self.assertIn("contact.restitution is 0.75 in its point.yaml, not ", result.stderr)
+        self.assertEqual([point["status"] for point in self.points()], ["failed"] * 3 + ["done"] * len(others))
+        for point in (one, other, edited):
+            self.assertFalse((point / "run.h5").exists())
+        self.exchange(one, other)
+        settings.write_text(planned, encoding="utf-8")
+        self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
+
+    def test_a_neighbour_that_has_lost_its_checkpoint_can_be_made_anew(self):
+        out = self.sweep_to_end(CHAIN)
+        whole = self.hashes()
+        first, second, *_ = (out / "points" / point["name"] for point in self.points())
+        for lost in (*first.glob("checkpoint.h5*"), *second.glob("*.h5*"), second / "summary.json"):
+            lost.unlink()
+        result = self.riesel("sweep", "out")
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assert_one_message(result.stderr, "lost its checkpoint", f"remove out/points/{first.name}", "--retry-failed")
+        shutil.rmtree(first)
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out", "--retry-failed"))
+        self.assertEqual(self.hashes(), whole)
+
+    def test_interrupted_runs_of_other_points_do_not_go_on(self):
+        self.assert_done(self.sweep(GRID, "out", "--prepare"))
+        one, other, *_ = (self.home / "out/points" / point["name"] for point in self.points())
+        for point in (one, other):  # a run that was stopped has no result
+            self.assert_done(self.riesel("run", point / "point.yaml", "--out", point))
+            (point / "summary.json").unlink()
+        self.exchange(one, other)
+        result = self.riesel("sweep", "out")
+        self.assertEqual(result.returncode, FAILED, result)
+        self.assertEqual(result.stderr.count("in its effective.yaml, not "), 2)
+        self.assertFalse((one / "summary.json").exists() or (other / "summary.json").exists())
+        self.exchange(one, other)
+        self.assert_done(self.riesel("sweep", "out", "--retry-failed"))
+
     def exchange(self, one, other):
         """The directories of two points."""
         aside = self.home / "out/points/aside"
