@@ -2,6 +2,7 @@
 
 #include "engine/parabola.hpp"
 #include "engine/team.hpp"
+#include "engine/vector_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,20 @@ constexpr double part_ahead = 0.25, part_in_case = 0.1;
 /// With more rows of cells than this between the first and the last grain of each slice, partners
 /// are in neighbouring slices only, even of grains that have strayed by the height of a row.
 constexpr std::size_t rows_within_reach = 4;
+
+/// (m per step)^2, of the fastest of the grains with these velocities. Takes the larger speed of
+/// those with and without the kick, as either may be the next one: in a State the kick is still to
+/// be added to u, during plain stepping u has it already.
+RIESEL_VECTOR_KERNEL double largest_square(const FixedVector* u, const FixedVector* end,
+                                           const FixedVector* kick, Candidates::Speedometer speed) {
+  double fastest2 = 0.0;
+  for (; u != end; ++u, ++kick) {
+    const double without = speed.squared(lanes_of(*u));
+    const double with = speed.squared(lanes_of(*u) + lanes_of(*kick));
+    fastest2 = std::max({fastest2, without, with});
+  }
+  return fastest2;
+}
 
 /// Number of whole steps in which a body that falls from rest by `fall` (m per step^2) goes no
 /// farther than `room` (m).
@@ -351,17 +366,10 @@ void Candidates::note_wandering(const State& state, Slice& mine, std::int64_t st
 
 double Candidates::wandered() const { return largest(slices_, &Slice::wandered) + 0.5 * skin_; }
 
-/// Takes the larger speed of those with and without the kick, as either may be the next one: in a
-/// State the kick is still to be added to u, during plain stepping u has it already.
 void Candidates::measure_speeds(const State& state, Slice& mine) const {
-  const Grains& g = state.grains;
-  const Speedometer speed = speedometer(state.box);
-  mine.fastest2 = 0.0;
-  for (std::size_t i = mine.begin; i < mine.end; ++i) {
-    const double without = speed.squared(g.u[i]);
-    const double with = speed.squared(wrapped_sum(g.u[i], g.kick[i]));
-    mine.fastest2 = std::max({mine.fastest2, without, with});
-  }
+  const FixedVector *const u = state.grains.u.data(), *const kick = state.grains.kick.data();
+  mine.fastest2 =
+      largest_square(u + mine.begin, u + mine.end, kick + mine.begin, speedometer(state.box));
 }
 
 }  // namespace riesel

@@ -144,11 +144,13 @@ public:
     double metre_x, metre_y;  ///< m per quantum
 
     /// (m per step)^2, of the displacement per step `u` (quanta).
-    double squared(const FixedVector& u) const {
-      const FixedVector relative = wrapped_difference(u, drift);
-      const double vx = real(relative.x) * metre_x;
-      const double vy = real(relative.y) * metre_y;
-      return vx * vx + vy * vy;
+    [[gnu::always_inline]] double squared(Lanes u) const {
+      using Signed = Fixed __attribute__((vector_size(sizeof(Lanes))));
+      using Reals = double __attribute__((vector_size(sizeof(Lanes))));
+      const auto relative = reinterpret_cast<Signed>(u - lanes_of(drift));
+      const Reals way = __builtin_convertvector(relative, Reals) * Reals{metre_x, metre_y};
+      const Reals squares = way * way;
+      return squares[0] + squares[1];
     }
   };
   Speedometer speedometer(const Box& box) const {

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <numbers>
 
 namespace riesel {
@@ -57,6 +58,20 @@ constexpr FixedVector wrapped_difference(FixedVector a, FixedVector b) {
 
 constexpr FixedVector wrapped_product(Fixed a, FixedVector b) {
   return {wrapped_product(a, b.x), wrapped_product(a, b.y)};
+}
+
+/// Both coordinates in one register; sums wrap round. By itself GCC 12 takes a FixedVector apart as
+/// soon as it is to be converted to doubles.
+using Lanes = std::uint64_t __attribute__((vector_size(sizeof(FixedVector))));
+
+[[gnu::always_inline]] inline Lanes lanes_of(const FixedVector& v) {
+  Lanes lanes;
+  std::memcpy(&lanes, &v, sizeof(lanes));  // std::bit_cast would go by way of memory
+  return lanes;
+}
+
+[[gnu::always_inline]] inline void put(Lanes lanes, FixedVector& to) {
+  std::memcpy(&to, &lanes, sizeof(to));
 }
 
 /// The upper half of a coordinate: what the search for neighbours looks at.

@@ -4,7 +4,6 @@
 #include "engine/vector_kernel.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace riesel {
 
@@ -14,16 +13,6 @@ namespace {
 bool concerns(const Slice& giver, const Slice& mine) {
   return &giver != &mine && !giver.given_away.empty() && giver.given_first < mine.end
          && giver.given_last >= mine.begin;
-}
-
-/// Both coordinates in one register. By itself GCC 12 takes them apart as soon as they are to be
-/// converted to doubles. Unsigned, as sums wrap round.
-using Lanes = std::uint64_t __attribute__((vector_size(sizeof(FixedVector))));
-
-[[gnu::always_inline]] inline Lanes lanes_of(const FixedVector& v) {
-  Lanes lanes;
-  std::memcpy(&lanes, &v, sizeof(lanes));  // std::bit_cast would go by way of memory
-  return lanes;
 }
 
 /// Adds kicks to the grains of a slice. Has copies of all that a kick needs, so that the compiler
@@ -39,7 +28,7 @@ struct Receiver {
   /// Returns the new sum.
   [[gnu::always_inline]] static Lanes add(FixedVector& sum, Lanes more) {
     const Lanes now = lanes_of(sum) + more;
-    std::memcpy(&sum, &now, sizeof(sum));
+    put(now, sum);
     return now;
   }
   static void add(Fixed& sum, Fixed more) { sum = wrapped_sum(sum, more); }
@@ -50,22 +39,11 @@ struct Receiver {
     *kicked++ = slot;
     const Lanes more = lanes_of(by.by);
     add(kick[slot], more);
-    fastest2 = std::max(fastest2, squared(add(u[slot], more)));
+    fastest2 = std::max(fastest2, speed.squared(add(u[slot], more)));
     if (by.spin != 0) {
       add(spin_kick[slot], by.spin);
       add(spin[slot], by.spin);
     }
-  }
-
-  /// What Speedometer::squared() gives, to the last bit.
-  [[gnu::always_inline]] double squared(Lanes of_u) const {
-    using Signed = Fixed __attribute__((vector_size(sizeof(FixedVector))));
-    using Metres = double __attribute__((vector_size(sizeof(FixedVector))));
-    const Lanes relative = of_u - lanes_of(speed.drift);
-    const Metres way = __builtin_convertvector(reinterpret_cast<Signed>(relative), Metres)
-                       * Metres{speed.metre_x, speed.metre_y};
-    const Metres squares = way * way;
-    return squares[0] + squares[1];
   }
 };
 

@@ -38,7 +38,7 @@ void SkinGuard::start_over(SlotRange slots, double room) {
   const Grains& g = state_.grains;
   const auto speed = candidates_.speedometer(state_.box);
   for (std::size_t slot = slots.begin; slot < slots.end; ++slot)
-    fastest2_ = std::max(fastest2_, speed.squared(g.u[slot]));
+    fastest2_ = std::max(fastest2_, speed.squared(lanes_of(g.u[slot])));
   const std::int64_t steps = Forecast::whole_steps(room_ / std::sqrt(fastest2_));
   hold_until_ = std::min(candidates_.hold_until(), courses_.sorted_at() + steps - 1);
 }

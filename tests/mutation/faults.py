@@ -145,7 +145,7 @@ FAULTS = [
      "if (meeting.name.wall == no_wall) slice.inner.take_back(slice.pairs, meeting.candidate);",
      "if (meeting.candidate == slice.pairs.size()) slice.inner.take_back(slice.pairs, 0);"),
     ("new speeds not noted", "engine/kicks.cpp",
-     "fastest2 = std::max(fastest2, speed.squared(u[slot]));", ""),
+     "fastest2 = std::max(fastest2, speed.squared(add(u[slot], more)));", "add(u[slot], more);"),
     ("velocities that keep the kicks of the last step", "engine/plain_steps.cpp",
      "for (const Slice& mine : share) give_back_kicks(state_.grains, mine);", ""),
     ("kicks of the last step not forgotten", "engine/kicks.cpp",
