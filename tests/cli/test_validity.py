@@ -9,25 +9,13 @@ import math
 import h5py
 import numpy as np
 
-from riesel_command import DONE, SMALL_TUBE, CommandTest
+from riesel_command import DONE, SHIPPED, SMALL_TUBE, CommandTest
 
 TUBE = """\
 scenario: periodic_tube
 contact: {stiffness: 2000 N/m, restitution: 0.92}
 tube: {width: 10 mm, length: 12 mm}
 run: {duration: 0.15 s}
-"""
-
-SHEAR_CELLS = """\
-base:
-  scenario: shear_cell
-  contact: {stiffness: 20 kN/m, restitution: 0.9, restitution_of: grains, friction: 0}
-  grains: {polydispersity: 0, area_fraction: 0.4}
-  wall: {grain_diameter: 1 mm, spacing: 1.4 mm}
-  cell: {width: 10 mm, length: 10 mm, velocity: 0.5 m/s}
-  start: {random_velocity: 0.1 m/s}
-  run: {duration: 0.6 s}
-seeds: 40
 """
 
 FINDINGS = ["max_overlap_ratio", "brake_failure_fraction", "passages_per_wall_visit",
@@ -232,7 +220,9 @@ class Balance(Validity):
     def test_the_bar_of_the_loss_per_contact_is_not_too_wide_in_shear_cells(self):
         # Two walls that pull against each other give no momentum in the mean, and what they give in one
         # moment they take in the next. A bar that overlooks this is twice as wide as the means scatter.
-        self.write("sweep.yaml", SHEAR_CELLS)
+        self.write("sweep.yaml", f"base: {SHIPPED}/shear_cell.yaml\nseeds: 40\n"
+                                 "set: {contact.restitution: 0.9, cell.width: 10 mm, cell.length: 10 mm,"
+                                 " cell.velocity: 0.5 m/s, run.duration: 0.6 s}\n")
         self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out"))
         balances = [self.summary(point)["balance"] for point in (self.home / "out/points").iterdir()]
         off = np.array([balance["dv_y"] / balance["errors"]["dv_y"] for balance in balances])
