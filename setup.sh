@@ -4,14 +4,17 @@ set -euo pipefail
 
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 
+# All that the program needs.
 build_packages=(
   cmake ninja-build g++ git
   libeigen3-dev libhdf5-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev
-  libudunits2-dev zlib1g-dev librandom123-dev catch2
-  python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib)
-# Read what riesel writes, in the tests only; a shell that completes its command line; what runs the
-# tasks of a sweep.
-test_packages=(python3-netcdf4 python3-jsonschema zsh parallel)
+  libudunits2-dev zlib1g-dev librandom123-dev)
+# Besides, what those need who work on riesel: for the tests and the scripts of docs and bench; who reads
+# what riesel writes; a shell that completes its command line; what runs the tasks of a sweep; what
+# finds out on which libraries a Debian package depends.
+test_packages=("${build_packages[@]}" catch2
+  python3 python3-numpy python3-h5py python3-yaml python3-scipy python3-matplotlib
+  python3-netcdf4 python3-jsonschema zsh parallel dpkg-dev file)
 # clang-tidy reads the compiler's command lines: libomp-dev is Clang's <omp.h>.
 lint_packages=(clang-format clang-tidy libomp-dev shellcheck doxygen mypy)
 # Shows the pages of riesel report to the tests, which are skipped without it.
@@ -49,7 +52,7 @@ Usage: ./setup.sh COMMAND
   coverage   build for it, run the tests and tell which lines they do not reach: fails if a
              test does, or below 95 % of engine or of io; further arguments go to ctest
   format     let clang-format rewrite the C++ sources
-  packages   install the Debian packages that are missing
+  packages   install the Debian packages that are missing for all that test does
   peers      install LAMMPS, LIGGGHTS and YADE too, for bench/peers/run.py, xsimd and Highway,
              for bench/simd
   browser    install Chromium too: the pages of reports are tested in it
@@ -148,7 +151,7 @@ lint_units() {
   local rooms
   rooms=$(IFS='|'; echo "$*")
   sed -n 's/.*"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | sort -u |
-    cut -c "$((${#PWD} + 2))-" | grep -E "^(build/lint/)?($rooms)/"
+    while read -r file; do echo "${file#"$PWD"/}"; done | grep -E "^(build/lint/)?($rooms)/"
 }
 
 # As many processes as there are processors, each with the next file.
@@ -223,7 +226,7 @@ case $command in
     run_scenario
     ;;
   test)
-    install_packages "${build_packages[@]}" "${test_packages[@]}"
+    install_packages "${test_packages[@]}"
     build ci
     sync # what has been built: tests with limits on the clock would wait for it
     say "Testing"
@@ -234,12 +237,12 @@ case $command in
     build release
     ;;
   lint)
-    install_packages "${build_packages[@]}" "${lint_packages[@]}"
+    install_packages "${test_packages[@]}" "${lint_packages[@]}"
     if (($# == 0)); then set -- "${rooms[@]}"; fi
     lint "$@"
     ;;
   analyze)
-    install_packages "${build_packages[@]}" "${lint_packages[@]}"
+    install_packages "${test_packages[@]}" "${lint_packages[@]}"
     analyze
     ;;
   api)
@@ -248,22 +251,22 @@ case $command in
     say "See build/api/html/index.html"
     ;;
   coverage)
-    install_packages "${build_packages[@]}" "${coverage_packages[@]}"
+    install_packages "${test_packages[@]}" "${coverage_packages[@]}"
     coverage "$@"
     ;;
   format)
     install_packages "${lint_packages[@]}"
     cpp_files | xargs clang-format -i
     ;;
-  packages) install_packages "${build_packages[@]}" ;;
-  browser) install_packages "${build_packages[@]}" "${browser_packages[@]}" ;;
+  packages) install_packages "${test_packages[@]}" ;;
+  browser) install_packages "${test_packages[@]}" "${browser_packages[@]}" ;;
   look)
-    install_packages "${build_packages[@]}" "${test_packages[@]}" "${look_packages[@]}"
+    install_packages "${test_packages[@]}" "${look_packages[@]}"
     build ci --target riesel
     ctest --preset ci -R 'cli/test_(trajectory|paraview|film)'
     ;;
-  cluster) install_packages "${build_packages[@]}" "${cluster_packages[@]}" ;;
-  peers) install_packages "${build_packages[@]}" "${peer_packages[@]}" ;;
+  cluster) install_packages "${test_packages[@]}" "${cluster_packages[@]}" ;;
+  peers) install_packages "${test_packages[@]}" "${peer_packages[@]}" ;;
   help | -h | --help) usage ;;
   *)
     usage >&2

@@ -15,7 +15,7 @@ namespace riesel::app {
 int check(const CheckOptions& options) {
   const auto settings =
       io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
-  const scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  const scenarios::Problem problem = scenarios::problem_of(settings);
   fmt::print("{}: {}\n", options.file.string(), settings.scenario());
   if (const auto* flow = std::get_if<scenarios::Flow>(&problem))
     check_flow(settings, *flow);

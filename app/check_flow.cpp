@@ -149,24 +149,25 @@ void warn_of_low_chute(const State& state) {
          highest, lost);
 }
 
-/// For grains of mean mass and size, as in the summary of a run. `random`: m/s, root mean square of
+/// For grains of mean mass, as in the summary of a run; overlaps over the radius of the smallest,
+/// as in its verdict. `random`: m/s, root mean square of
 /// the random velocities at the start, per component; `mean_vx`: m/s, which all grains share, so
 /// that it counts in collisions with walls only.
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random,
                     double mean_vx) {
   const State& state = flow.state;
   const double mass = mean_mass(state.grains);
-  const double radius = 0.5 * mean_diameter(state.grains);
+  const double smallest = std::ranges::min(state.grains.radius);
   // In a normal distribution grains are rarely faster than four standard deviations.
   const double fastest = std::max(4.0 * random, 1e-3);
   const double both_fastest = std::numbers::sqrt2 * fastest;
-  const double smaller = state.walls.front().smaller_radius(radius);
   const HeadOnContact grains{
-      .reduced_mass = 0.5 * mass, .speed = both_fastest, .smaller_radius = radius};
+      .reduced_mass = 0.5 * mass, .speed = both_fastest, .smallest_radius = smallest};
   const double fastest_at_wall =
       fastest + std::abs(mean_vx) + state.walls.front().motion.fastest_oscillation();
-  const HeadOnContact wall{
-      .reduced_mass = mass, .speed = fastest_at_wall, .smaller_radius = smaller};
+  const HeadOnContact wall{.reduced_mass = mass,
+                           .speed = fastest_at_wall,
+                           .smallest_radius = state.walls.front().smaller_radius(smallest)};
   print_contact("grain and grain", flow.model, grains.reduced_mass, grains.speed);
   print_contact("grain and wall", flow.model, wall.reduced_mass, wall.speed);
   print_contacts_of_sizes(flow.model, state.grains, both_fastest);

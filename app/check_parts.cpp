@@ -40,12 +40,12 @@ void print_contact(const char* what, const ContactModel& model, double reduced_m
 
 double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact) {
   return elastic_max_overlap(elastic_line(normal), contact.reduced_mass, contact.speed)
-         / contact.smaller_radius;
+         / contact.smallest_radius;
 }
 
 void warn_of_overlap(double ratio, double speed) {
   line("expected overlap",
-       "up to {:.2g} of the radius of the smaller body, in an impact of {:.3g} m/s", ratio, speed);
+       "up to {:.2g} of the radius of the smallest body, in an impact of {:.3g} m/s", ratio, speed);
   if (ratio > suspect_overlap_ratio)
     warn("overlaps over {:.3g} of the radius make the run suspect; raise contact.stiffness by a "
          "factor {:.2g}",

@@ -28,13 +28,13 @@ void print_contact(const char* what, const ContactModel& model, double reduced_m
 
 /// The most violent head-on contact to be expected between two kinds of bodies.
 struct HeadOnContact {
-  double reduced_mass;    ///< kg
-  double speed;           ///< m/s
-  double smaller_radius;  ///< m
+  double reduced_mass;     ///< kg
+  double speed;            ///< m/s
+  double smallest_radius;  ///< m, of all bodies of the smaller kind
 };
 
-/// The largest overlap over the radius of the smaller body, as the verdict on the run measures it;
-/// without damping.
+/// The largest overlap over the smallest radius, as the verdict on the run measures it; without
+/// damping.
 double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact);
 
 /// Prints the largest such ratio and the speed (m/s) of its impact, with a warning if it is too

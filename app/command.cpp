@@ -16,6 +16,7 @@
 #include "io/file_error.hpp"
 #include "io/settings_error.hpp"
 #include "io/settings_names.hpp"
+#include "io/settings_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -206,7 +207,7 @@ private:
         ->transform(app::whole_number(1, most_tasks))
         ->needs(slurm);
     sweep.add_option("--threads", sweep_.slurm.threads, "Threads of each task of Slurm [1]")
-        ->transform(app::whole_number(1, most_jobs))
+        ->transform(app::whole_number(1, io::most_threads))
         ->needs(slurm);
     sweep
         .add_option("--sbatch", sweep_.slurm.for_sbatch,
@@ -226,7 +227,7 @@ private:
     task->add_option("--of", task_.parts, "Split the sweep into this many parts; INDEX is the part")
         ->transform(app::whole_number(1, most_tasks));
     task->add_option("--threads", task_.threads, "Threads [as many as cores]")
-        ->transform(app::whole_number(1, most_jobs));
+        ->transform(app::whole_number(1, io::most_threads));
     add_max_walltime(*task, task_.max_walltime,
                      "Stop with checkpoints before this much wall-clock time has passed");
     task->add_flag("--retry-failed", task_.retry_failed, "Run it again if it failed");
@@ -349,8 +350,7 @@ int tell_if_not_printed(int status) {
 
 /// OpenMP crashes where there is no memory for so many threads as OMP_NUM_THREADS may ask for.
 void limit_threads() {
-  constexpr int most = most_jobs;
-  if (omp_get_max_threads() > most) omp_set_num_threads(most);
+  if (omp_get_max_threads() > io::most_threads) omp_set_num_threads(io::most_threads);
 }
 
 /// Reads the command line and does what it says.

@@ -13,8 +13,8 @@ class FlowMeasurements {
 public:
   /// For a flow that begins with `start`.
   explicit FlowMeasurements(const State& start);
-  /// For a flow that goes on from `start`, with the sums so far. Throws std::invalid_argument if
-  /// they do not fit.
+  /// For a flow that goes on from `start`, with the sums so far, of as many columns as there are
+  /// strips. Throws std::invalid_argument if those of the histograms do not fit.
   FlowMeasurements(const State& start, TimeBlocks profiles, TimeBlocks histograms);
 
   /// Updates last() only.

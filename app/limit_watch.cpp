@@ -23,7 +23,7 @@ std::string contact_with(const LargestOverlap& largest, const State& state) {
 }
 
 std::string overlap_exceeded(const State& state, const LargestOverlap& largest) {
-  return fmt::format("an overlap of {:.3g} m, {:.3g} of the radius of the smaller body, {}; raise "
+  return fmt::format("an overlap of {:.3g} m, {:.3g} of the radius of the smallest body, {}; raise "
                      "contact.stiffness",
                      largest.overlap, largest.ratio, contact_with(largest, state));
 }

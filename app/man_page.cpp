@@ -56,6 +56,7 @@ std::string man_page(const CLI::App& program) {
       ".TP\n.B {}\nout of time (\\-\\-max\\-walltime); the run can be resumed\n"
       ".TP\n.B 129, 130, 143\ninterrupted by a signal, after a checkpoint\n"
       ".SH ENVIRONMENT\n"
+      ".TP\n.B OMP_NUM_THREADS\nThe most threads that run.threads: auto and a sweep take.\n"
       ".TP\n.B NO_COLOR\nIf set, no colours on terminals.\n"
       ".TP\n.B UDUNITS2_XML_PATH\nThe database of units, if not the one of UDUNITS\\-2.\n"
       ".SH SEE ALSO\n\\fBriesel settings\\fR prints the reference of all settings.\n",

@@ -59,7 +59,7 @@ double threshold(const io::FlowSummary& summary, std::string_view finding, doubl
   return found == nullptr ? unknown : found->*which;
 }
 
-/// Converts thresholds, which refer to the radius of the smaller body, to those of the axis, which
+/// Converts thresholds, which refer to the radius of the smallest body, to those of the axis, which
 /// refers to the sum of the radii.
 std::vector<HistogramMark> marks_of_overlaps(const io::FlowSummary& summary,
                                              const io::FinalState& state, bool of_walls) {

@@ -78,7 +78,7 @@ private:
     for (const Finding& f : v.findings)
       if (f.verdict != Validity::valid)
         reasons.push_back(fmt::format("{}: {}", name(f.verdict), explanation(f)));
-    // limits_exceeded, the last finding, only counts them.
+    // The finding limits_exceeded only counts them.
     const auto& warnings = summary().validity.warnings;
     reasons.insert(reasons.end(), warnings.begin(), warnings.end());
     if (!reasons.empty()) page().list(reasons);

@@ -33,9 +33,9 @@ void reject_what_is_no_run(const std::filesystem::path& path) {
     throw UnusableInput(path.string() + ": does not exist; check the path");
   const auto post_mortem = path / post_mortem_name;
   const auto holder = io::DirectoryLock::holder(path);
-  if (holder && stopped_before_checkpoint(path))
+  if (holder && has_only_begun(path))
     throw UnusableInput(path.string() + ": " + io::in_use_by + *holder + "; wait until that ends");
-  if (stopped_before_checkpoint(path))
+  if (has_only_begun(path))
     throw UnusableInput(path.string()
                         + ": was stopped before its first checkpoint; remove it and start the run "
                           "again"

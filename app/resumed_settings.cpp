@@ -2,24 +2,26 @@
 
 #include "io/settings_error.hpp"
 #include "io/settings_given.hpp"
+#include "io/settings_names.hpp"
 #include "io/settings_table.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/walls.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <set>
 
 namespace riesel::app {
 
-bool may_change(const std::string& key) {
-  // Names of keys, and of sections of which all keys may change.
-  static const std::set<std::string> names = {"run.duration", "run.until",
-                                              "run.threads",  "run.stepping",
-                                              "limits",       "output.checkpoint_interval"};
-  return names.contains(key) || names.contains(io::section_of(key));
-}
-
 namespace {
+
+/// What may change when a run is resumed: keys, and sections of which all keys may.
+const std::vector<std::string>& changeable() {
+  static const std::vector<std::string> names = {"run.duration", "run.until",
+                                                 "run.threads",  "run.stepping",
+                                                 "limits",       "output.checkpoint_interval"};
+  return names;
+}
 
 /// Whether any scenario has it. If none has, the error comes when the settings are read.
 bool is_known(const std::string& key) {
@@ -38,12 +40,18 @@ bool takes_out_nothing(const std::string& override, const io::Settings& from) {
 
 }  // namespace
 
+bool may_change(const std::string& key) {
+  return std::ranges::any_of(changeable(), [&](const std::string& name) {
+    return name == key || name == io::section_of(key);
+  });
+}
+
 void reject_overrides_of_the_physics(const std::vector<std::string>& overrides) {
   for (const io::YamlEntry& setting : io::parse_overrides(overrides)) {
     if (is_known(setting.key) && !may_change(setting.key))
       throw io::SettingsError(setting.key_place, setting.key, "cannot change when a run is resumed",
-                              "only run.duration, run.until, run.threads, run.stepping, limits and "
-                              "output.checkpoint_interval can; for anything else start a new run");
+                              fmt::format("only {} can; for anything else start a new run",
+                                          io::enumerate(changeable())));
   }
 }
 

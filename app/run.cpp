@@ -38,7 +38,7 @@ void reject_place_of_input(const fs::path& file, const fs::path& place) {
 int run(const RunOptions& options, const Arguments& arguments) {
   const auto settings =
       io::Settings::from_file(options.file, scenarios::settings_tables(), options.overrides);
-  scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  scenarios::Problem problem = scenarios::problem_of(settings);
   if (!std::holds_alternative<scenarios::Flow>(problem))
     reject_flow_options(options.flow, settings.scenario());
   const fs::path place =

@@ -60,7 +60,7 @@ bool holds_own_settings(const fs::path& directory) {
          == settings_mark;
 }
 
-bool stopped_before_checkpoint(const fs::path& directory) {
+bool has_only_begun(const fs::path& directory) {
   return holds_own_settings(directory) && !has_checkpoint(directory)
          && !fs::exists(directory / io::summary_name);
 }
@@ -75,13 +75,13 @@ namespace {
 /// Of a run that has not come to its first checkpoint yet, nothing but its lock tells that it goes
 /// on.
 void reject_run_that_begins(const fs::path& path) {
-  if (!stopped_before_checkpoint(path)) return;
+  if (!has_only_begun(path)) return;
   if (const auto holder = io::DirectoryLock::holder(path))
     throw UnusableInput(path.string() + ": " + io::in_use_by + *holder
                         + "; wait until that ends, or choose another directory with --out");
 }
 
-void reject_directory_in_use(const fs::path& path) {
+void reject_occupied_directory(const fs::path& path) {
   if (fs::exists(path) && !fs::is_directory(path))
     throw UnusableInput(path.string() + ": is no directory; choose another one with --out");
   if (fs::exists(path / io::manifest_name))
@@ -90,7 +90,7 @@ void reject_directory_in_use(const fs::path& path) {
       fs::exists(path / io::run_file_name) || fs::exists(path / io::trajectory_name)
       || fs::exists(path / io::trajectory_index_name) || fs::exists(path / post_mortem_name)
       || fs::exists(path / io::summary_name) || has_checkpoint(path);
-  if (holds_run && stopped_before_checkpoint(path))
+  if (holds_run && has_only_begun(path))
     throw UnusableInput(path.string()
                         + ": holds a run that was stopped before its first checkpoint; "
                           "remove it, or choose another directory with --out");
@@ -110,10 +110,10 @@ void reject_directory_in_use(const fs::path& path) {
 
 RunDirectory RunDirectory::create(const fs::path& path, const io::Settings& settings) {
   reject_run_that_begins(path);
-  reject_directory_in_use(path);
+  reject_occupied_directory(path);
   io::make_directories(path);
   RunDirectory directory(path, io::Signature::now);
-  reject_directory_in_use(path);  // again: before it was locked, another run may have begun in it
+  reject_occupied_directory(path);  // again: before it was locked, another run may have begun in it
   io::write_durably(directory.file(io::effective_settings_name), text_of(settings));
   return directory;
 }

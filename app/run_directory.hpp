@@ -30,7 +30,7 @@ bool has_checkpoint(const std::filesystem::path& directory);
 bool holds_own_settings(const std::filesystem::path& directory);
 
 /// Whether it holds a run that has begun, but has neither a checkpoint nor a result.
-bool stopped_before_checkpoint(const std::filesystem::path& directory);
+bool has_only_begun(const std::filesystem::path& directory);
 
 class RunDirectory {
 public:

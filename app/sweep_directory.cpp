@@ -6,6 +6,7 @@
 #include "app/resumed_settings.hpp"
 #include "app/run_directory.hpp"
 #include "io/checkpoint.hpp"
+#include "io/content_hash.hpp"
 #include "io/directory_lock.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
@@ -57,8 +58,8 @@ bool is_planned_input(const std::string& path, const io::ManifestPoint& point) {
 
 /// "seed is 2 in its effective.yaml, not 1": a setting in which `file`, the settings of a run in
 /// the directory of the point, is not what was planned; "" if there is none, or if it cannot be
-/// read. What a run that goes on may change does not count, nor does the start of a chain where it
-/// is not at its first point; paths count by what they lead to.
+/// read. What changes no result or may change when a run goes on does not count, nor does the start
+/// of a chain where it is not at its first point; paths count by what they lead to.
 std::string difference_from_plan(const io::ManifestPoint& point,
                                  const std::vector<io::VariedSetting>& varied,
                                  const fs::path& file) {
@@ -70,7 +71,7 @@ std::string difference_from_plan(const io::ManifestPoint& point,
     for (std::size_t i = 0; i < varied.size(); ++i) {
       const std::string& key = varied[i].key;
       const auto row = std::ranges::find(table, key, &io::Setting::key);
-      if (row == table.end() || may_change(key)) continue;
+      if (row == table.end() || !row->matters || may_change(key)) continue;
       if (!point.parent.empty() && io::is_of_start(key)) continue;
       const io::Cell found = io::cell_of(settings, key);
       const bool as_planned = row->names_content && settings.has(key)

@@ -25,10 +25,7 @@ using scenarios::ColumnCurve;
 using scenarios::Flow;
 using scenarios::ImpactCurve;
 using scenarios::Problem;
-
-Problem problem_of(const io::Settings& settings) {
-  return scenarios::named(settings.scenario()).prepare(settings);
-}
+using scenarios::problem_of;
 
 /// The amount of work, in a unit that fits the kind of problem: particle-steps, impacts, or falling
 /// beads.
@@ -44,7 +41,7 @@ double work_of(const io::Settings& settings, const Problem& problem) {
 double seconds_per_work(const io::Settings& settings) {
   constexpr double seconds_to_measure = 0.05;
   constexpr std::size_t impacts_to_measure = 20, drops_to_measure = 2;
-  const Problem problem = problem_of(settings);
+  const Problem problem = scenarios::named(settings.scenario()).prepare(settings);
   if (const auto* flow = std::get_if<Flow>(&problem))
     return 1.0 / measured_speed(settings, *flow, 1, seconds_to_measure);
   if (const auto* column = std::get_if<ColumnCurve>(&problem))
@@ -73,7 +70,8 @@ struct Cost {
   double work = 0.0;     // see work_of
   double seconds = 0.0;  // on one thread
   int most_threads = 1;
-  bool has_seed = false;  // whether its result depends on the seed
+  bool has_seed = false;                   // whether its result depends on the seed
+  std::vector<double> swings_across = {};  // m, of the walls of a flow
 };
 
 /// Sorts the runs by work and cuts them into a few groups. Measures one of each, and takes the
@@ -96,6 +94,15 @@ void estimate_seconds(std::vector<Cost*> costs) {
     for (Cost* const cost : parts[part]) cost->seconds = rates[part] * cost->work;
 }
 
+/// Of a point that starts from its neighbour, whose state is not known yet, prepared as if it
+/// started like the first of its chain. Throws io::SettingsError.
+Problem continued_problem(const io::SweepPoint& point, const std::vector<double>& swings_before) {
+  Problem problem = scenarios::named(point.settings.scenario()).prepare(point.settings);
+  scenarios::reject_other_swing_across(point.settings, swings_before,
+                                       std::get<Flow>(problem).state);
+  return problem;
+}
+
 /// By the name of the run. Throws io::SettingsError for settings that cannot be run.
 std::map<std::string, Cost> costs_of(const std::vector<io::SweepPoint>& points) {
   std::map<std::string, Cost> costs;
@@ -103,11 +110,15 @@ std::map<std::string, Cost> costs_of(const std::vector<io::SweepPoint>& points) 
   for (const io::SweepPoint& point : points) {
     const auto [entry, is_new] = costs.try_emplace(point.name);
     if (!is_new) continue;
-    const Problem problem = problem_of(point.settings);
+    const Problem problem =
+        point.parent ? continued_problem(point, costs.at(points[*point.parent].name).swings_across)
+                     : problem_of(point.settings);
     entry->second = {.point = &point,
                      .work = work_of(point.settings, problem),
                      .most_threads = most_threads_of(point.settings, problem),
                      .has_seed = draws_numbers(point.settings, problem)};
+    if (const auto* flow = std::get_if<Flow>(&problem))
+      entry->second.swings_across = scenarios::swings_across(flow->state);
     in_order.push_back(&entry->second);
   }
   estimate_seconds(in_order);

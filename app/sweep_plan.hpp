@@ -1,5 +1,5 @@
-// From a sweep file to the plan of the sweep. Every point is checked as its run would check it, and
-// its cost is estimated.
+// From a sweep file to the plan of the sweep. Every point is checked as its run would check it,
+// except for the state of a neighbour that it will start from, and its cost is estimated.
 #pragma once
 
 #include "io/sweep_manifest.hpp"

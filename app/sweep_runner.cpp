@@ -121,7 +121,9 @@ public:
     if (options_.on_change) options_.on_change(manifest_);
     if (interrupting_signal() != 0) return 128 + interrupting_signal();
     if (count(RunStatus::done) == jobs_.size()) return exit_done;
-    return passed_on_ ? exit_out_of_time : exit_failed;
+    const bool is_out_of_time =
+        passed_on_ && std::ranges::any_of(jobs_, [](auto& job) { return can_go_on(*job); });
+    return is_out_of_time ? exit_out_of_time : exit_failed;
   }
 
 private:
@@ -174,6 +176,12 @@ private:
     const bool open = job.status == RunStatus::waiting || job.status == RunStatus::interrupted;
     const bool may_start = job.parent == nullptr || job.parent->status == RunStatus::done;
     return open && may_start && job.starts < most_starts && !job.process;
+  }
+
+  /// Whether another sweep would go on with it, or wait for it.
+  static bool can_go_on(const Job& job) {
+    if (job.status == RunStatus::done || job.status == RunStatus::failed) return false;
+    return job.parent == nullptr || job.parent->status == RunStatus::done || can_go_on(*job.parent);
   }
 
   /// Starts what is ready while there is room. Returns whether there is anything left to wait for,
@@ -343,7 +351,7 @@ private:
   void show_progress() {
     const std::size_t failed = count(RunStatus::failed);
     progress_.show(fraction_done(),
-                   fmt::format("{}/{} points done, {} running{}", count(RunStatus::done),
+                   fmt::format("{}/{} runs done, {} running{}", count(RunStatus::done),
                                jobs_.size(), running_,
                                failed > 0 ? fmt::format(", {} failed", failed) : ""));
   }

@@ -98,7 +98,7 @@ void start_up(const std::string& case_name, const std::string& size, int threads
   Json memory;
   const double seconds = seconds_of([&] {
     const io::Settings settings = settings_of(flow_case(case_name), size_named(size));
-    auto flow = std::get<scenarios::Flow>(scenarios::named(settings.scenario()).prepare(settings));
+    auto flow = std::get<scenarios::Flow>(scenarios::problem_of(settings));
     grains = flow.state.grains.size();
     Simulation simulation(std::move(flow.state), flow.model,
                           threads > 0 ? threads : useful_threads(grains));

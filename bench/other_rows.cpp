@@ -24,8 +24,7 @@ constexpr auto fresh_tube = "tube_start";
 void measure_impacts(const ImpactCase& one, const Effort& effort, Results& results) {
   const auto settings =
       io::Settings::from_text(one.settings, one.name, scenarios::settings_tables());
-  const auto curve =
-      std::get<scenarios::ImpactCurve>(scenarios::named(settings.scenario()).prepare(settings));
+  const auto curve = std::get<scenarios::ImpactCurve>(scenarios::problem_of(settings));
   const int rounds = std::max(1, static_cast<int>(one.rounds * effort.work));
 
   const std::array threads = {1, 2};

@@ -25,7 +25,7 @@ io::Settings read_settings(const FlowCase& one, const std::vector<std::string>& 
 }
 
 scenarios::Flow fresh(const io::Settings& settings) {
-  return std::get<scenarios::Flow>(scenarios::named(settings.scenario()).prepare(settings));
+  return std::get<scenarios::Flow>(scenarios::problem_of(settings));
 }
 
 std::uint64_t fingerprint(const FlowCase& one, const io::Settings& settings) {

@@ -6,7 +6,7 @@ namespace riesel::bench {
 
 double plain_traffic(const State& state) {
   State copy = state;
-  Candidates candidates(copy, CappedSlip{}, 1, Candidates::plain_stepping);
+  Candidates candidates(copy, CappedSlip{}, 1, Candidates::plain_stepping, 1);
   Slice& all = candidates.slices().front();
   PackedPositions positions;
   positions.copy_all(candidates.when_sorted());

@@ -22,7 +22,7 @@ double memory_of(const State& state) {
 
 }  // namespace
 
-bool Askew::pays(const State& state) const { return memory_of(state) >= least; }
+bool Askew::pays(const State& state) const { return memory_of(state) >= least_bytes; }
 
 std::int64_t Askew::most_steps(const State& state) const { return pays(state) ? steps : 1; }
 
@@ -31,16 +31,16 @@ std::size_t Askew::slices_per_thread(const State& state, int threads, bool by_fl
   // More than slices need, so that they have enough even where grains are denser than elsewhere.
   constexpr double rows_per_slice = 10.0;
   if (!pays(state)) return 1;
-  const double size = by_flights ? of_flights * slice : slice;
+  const double size = by_flights ? of_flights * bytes_of_slice : bytes_of_slice;
   const double all = std::min(memory_of(state) / size, Candidates::rows(state) / rows_per_slice);
   const auto slices = static_cast<std::size_t>(all / threads);
   return slices * static_cast<std::size_t>(threads) < 3 ? 1 : slices;
 }
 
-bool Askew::flights_gain(std::size_t contact_count, std::size_t grains, bool now) const {
+bool Askew::flights_gain(std::size_t contacts, std::size_t grains, bool now) const {
   constexpr double ample = 0.6;
-  const double enough = (now ? ample : 1.0) * contacts * static_cast<double>(grains);
-  return static_cast<double>(contact_count) >= enough;
+  const double enough = (now ? ample : 1.0) * contacts_per_grain * static_cast<double>(grains);
+  return static_cast<double>(contacts) >= enough;
 }
 
 }  // namespace riesel

@@ -24,16 +24,18 @@ struct Askew {
   /// Bytes of a slice in plain stepping (more where the box is wide): so few that as many slices as
   /// one may be ahead in steps fit into a part of the last cache. Flights, which touch less of a
   /// slice in a step, have slices twice as large.
-  double slice = 0.35e6;
+  double bytes_of_slice = 0.35e6;
   std::int64_t steps = 12;  ///< by which one slice may be ahead of another
   /// Bytes of the whole system: smaller ones fit into the caches, and do each step together.
-  double least = 30e6;
+  double least_bytes = 30e6;
   /// Contacts per grain: with fewer, flights have one slice for each thread, as a step touches so
   /// little memory that slices only cost.
-  double contacts = 0.02;
+  double contacts_per_grain = 0.02;
 
   /// All slices do each step together, whatever memory the system takes.
-  static constexpr Askew never() { return {.least = std::numeric_limits<double>::infinity()}; }
+  static constexpr Askew never() {
+    return {.least_bytes = std::numeric_limits<double>::infinity()};
+  }
 
   /// Whether the state takes so much memory that slices go askew, if they can.
   bool pays(const State& state) const;
@@ -43,7 +45,7 @@ struct Askew {
   std::size_t slices_per_thread(const State& state, int threads, bool by_flights) const;
   /// Whether flights with so many contacts gain by going askew. If they do so `now`, somewhat fewer
   /// contacts are enough, so that the answer does not flip back and forth.
-  bool flights_gain(std::size_t contact_count, std::size_t grains, bool now) const;
+  bool flights_gain(std::size_t contacts, std::size_t grains, bool now) const;
 };
 
 /// The last step of which a slice has done a certain part, for other threads to see. What its

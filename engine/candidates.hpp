@@ -54,13 +54,13 @@ public:
 
   /// Sorts `state` and takes over its contacts. Throws std::invalid_argument if the box is too
   /// short for the nearest image to be unique, wall grains are too close together, or a contact of
-  /// the state is between bodies that are no candidates.
+  /// the state is between bodies that are no candidates, and RunFailure as as_a_team() does.
   Candidates(State& state, const SlipLaw& slip, int threads, const Purpose& purpose,
-             std::size_t slices_per_thread = 1);
+             std::size_t slices_per_thread);
 
   /// Starts anew, as the constructor does, from a `state` that has changed: another one of the same
   /// system or of a part of it. If `drift` is given (quanta per step along y), it is the common
-  /// motion from which displacements are measured from now on.
+  /// motion from which displacements are measured from now on. Throws as the constructor.
   void start_from(State& state, std::optional<Fixed> drift);
 
   /// About how many rows of cells plain stepping has.

@@ -15,8 +15,8 @@
 namespace riesel {
 
 /// Sixteen contacts. Contact number i has lane i of each row: so all that a loop needs of a vector
-/// of contacts is close together, at constant offsets. Lanes without a contact hold zeros, except
-/// in `body`, which names a body that may be read.
+/// of contacts is close together, at constant offsets. Lanes without a contact begin with zeros,
+/// except in `body`, which names a body that may be read; what the loop makes of them is not used.
 struct alignas(cache_line) ContactTile {
   static constexpr std::size_t lanes = 16;
   template <class T>

@@ -40,14 +40,14 @@ Paths paths_of(const Grains& g) {
   return {.position = g.position.data(), .u = g.u.data(), .radius = g.radius.data()};
 }
 
-struct Metres {
+struct MetresPerQuantum {
   double x, y;  // per quantum
 };
 
 struct ForesightLoop {
   template <class Numbers>
-  [[gnu::always_inline]] static void run(std::size_t count, Metres metres, double tolerance,
-                                         Forecast* forecast) {
+  [[gnu::always_inline]] static void run(std::size_t count, MetresPerQuantum metres,
+                                         double tolerance, Forecast* forecast) {
     Forecast& f = *forecast;
 #pragma omp simd
     for (std::size_t k = 0; k < count; ++k) {
@@ -144,7 +144,7 @@ void sift(const Slice& slice, PairRange range, const State& state, std::int64_t 
 void foresee(const Slice& slice, std::span<const std::uint32_t> which, const State& state,
              const Courses& courses, std::int64_t now, double tolerance, Forecast& result) {
   gather(slice, which, state, courses, now, result);
-  const Metres metres{state.box.quantum_x(), state.box.quantum_y()};
+  const MetresPerQuantum metres{state.box.quantum_x(), state.box.quantum_y()};
   constexpr std::size_t few = 4;  // so soon, a vector load would wait for the scalar stores
   if (which.size() <= few)
     ForesightLoop::run<ByConversion>(which.size(), metres, tolerance, &result);

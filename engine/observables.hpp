@@ -1,4 +1,5 @@
-// What can be read off a state at one moment. SI units; the same bits for any order of the grains.
+// What can be read off a state at one moment. SI units; but for largest_sum() the same bits for any
+// order of the grains.
 #pragma once
 
 #include "engine/density_waves.hpp"

@@ -3,7 +3,8 @@
 //
 // The kernel of the contact loop is compiled once for each law of the library, and once for all
 // laws from outside. That version calls functions for each contact and is not vectorised: for the
-// cost see docs/extending.md. Laws of the library pay nothing for it.
+// cost see docs/extending.md. Laws of the library pay nothing for it. The kernel also computes
+// lanes in which no bodies touch, and discards what comes out: for these nothing is called.
 #pragma once
 
 #include "engine/elastic_line.hpp"
@@ -26,11 +27,13 @@ public:
     std::memcpy(values_.data(), &law, sizeof(Law));
   }
 
-  double elastic(double xi) const { return functions_->elastic(values_, xi); }
+  double elastic(double xi) const { return xi > 0.0 ? functions_->elastic(values_, xi) : 0.0; }
   double damping(double xi, double rate, double m_red) const {
-    return functions_->damping(values_, xi, rate, m_red);
+    return xi > 0.0 ? functions_->damping(values_, xi, rate, m_red) : 0.0;
   }
-  double stored_energy(double xi) const { return functions_->stored_energy(values_, xi); }
+  double stored_energy(double xi) const {
+    return xi > 0.0 ? functions_->stored_energy(values_, xi) : 0.0;
+  }
   ElasticLine elastic_line() const { return functions_->elastic_line(values_); }
 
 private:

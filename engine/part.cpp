@@ -66,7 +66,7 @@ bool Part::knows(const ContactName& name) const {
 }
 
 void Part::advance(std::int64_t last, Fixed drift) {
-  stepper_.start_from(state_, drift);
+  stepper_.start_over(drift);
   stepper_.count_only(is_own_);
   stepper_.advance(last);
   find_slots();

@@ -1,7 +1,9 @@
 // The forces of the contacts of a state at its step.
 //
 // A state keeps the lives of its contacts, but no forces. Between two advances these are computed
-// anew, by the law that also steps the contacts.
+// anew, by the law that also steps the contacts. The velocities that damping and friction need are
+// taken from the kicks of this step, which stepping does not know yet: a difference of second order
+// in the time step.
 #pragma once
 
 #include "engine/contact_law.hpp"

@@ -27,7 +27,7 @@ State ready(State state) {
 
 Askew sound(const Askew& askew) {
   constexpr std::int64_t most_steps = 1'000'000;
-  require(askew.slice > 0.0 && askew.steps > 0 && askew.steps <= most_steps,
+  require(askew.bytes_of_slice > 0.0 && askew.steps > 0 && askew.steps <= most_steps,
           "slices need memory and steps, not too many");
   return askew;
 }
@@ -170,9 +170,10 @@ void Simulation::advance_piece(std::int64_t last) {
 Simulation::Preparation Simulation::wanted() const {
   const auto [by_flights, threads, apart] = choice_.way();
   const Slices& slices = by_flights ? slices_of_flights_ : slices_;
-  const bool before = prepared_ && prepared_->manner.slices_per_thread > 1;
+  const bool now =
+      prepared_ && prepared_->manner.by_flights && prepared_->manner.slices_per_thread > 1;
   const bool askew =
-      !by_flights || askew_.flights_gain(state_.contacts.size(), state_.grains.size(), before);
+      !by_flights || askew_.flights_gain(state_.contacts.size(), state_.grains.size(), now);
   const std::size_t many = threads == 1 ? slices.alone : slices.together;
   return {{by_flights, threads, askew ? many : 1}, apart};
 }

@@ -75,7 +75,7 @@ struct LostGrain {
 };
 
 /// A slice. The members that other threads read in each step start on a cache line of their own, so
-/// that a thread that writes to the others does not take these lines away.
+/// that a thread that writes to the others does not take these lines away (except inner.use()).
 struct alignas(cache_line) Slice {
   std::size_t begin = 0, end = 0;  ///< slots
   CandidatePairs pairs;            ///< their first grain is in the slice, the second anywhere

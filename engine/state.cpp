@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 namespace riesel {
@@ -113,6 +114,8 @@ void add_grain(State& state, const Grain& grain) {
               && std::abs(grain.vy) * dt < 0.5 * state.box.length && std::isfinite(grain.y),
           "a grain beyond the space of the box, or one that crosses half of it in a step");
   Grains& g = state.grains;
+  require(!g.rotate() || std::abs(grain.spin) * dt < std::numbers::pi,
+          "a grain that makes half a turn in a step");
   const std::size_t i = g.size();
   g.resize(i + 1);
   g.position[i].x = state.box.fixed_x(grain.x);

@@ -88,7 +88,7 @@ struct Gravity {
 
 struct State {
   Box box{};
-  std::vector<WallLattice> walls;
+  std::vector<WallLattice> walls;  ///< in the order of x: of two, the first is the left one
   Gravity gravity;
   double time_step = 0.0;  ///< s
   std::int64_t step = 0;   ///< steps done
@@ -121,7 +121,7 @@ struct Grain {
 /// Adds a grain without contacts or kick; its id is the number of grains before it. At step 0 only.
 /// The box, the gravity, the time step and the inertia of the state must have been set. Throws
 /// std::invalid_argument for a grain 4 widths from x = 0 or farther, or one that would move by 4
-/// widths or half of the length in a step.
+/// widths or half of the length in a step, or make half a turn.
 void add_grain(State& state, const Grain& grain);
 
 /// The grains of a state in SI units; cheaper than grain_at() for many grains. Keeps a reference to

@@ -53,6 +53,8 @@ std::string flaw_of_walls(const State& state) {
       return joined("wall ", i, " moves too far or too fast");
     if (!wall.sound())
       return joined("wall ", i, " has ", wall.count, " grains of radius ", wall.radius);
+    if (i > 0 && wall.line < state.walls[i - 1].line)
+      return joined("wall ", i, " is to the left of the one before");
   }
   return {};
 }

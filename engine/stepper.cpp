@@ -34,10 +34,10 @@ Stepper::Stepper(State& state, const ContactModel& model, bool by_flights)
 
 Stepper::~Stepper() = default;
 
-void Stepper::start_from(State& state, Fixed drift) {
+void Stepper::start_over(Fixed drift) {
   Profile& profile = candidates_.slices().front().profile;
   profile.begin_build();
-  candidates_.start_from(state, drift);
+  candidates_.start_from(state_, drift);
   if (flights_)
     flights_->start_over();
   else

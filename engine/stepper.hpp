@@ -38,9 +38,8 @@ public:
   Stepper& operator=(const Stepper&) = delete;
   ~Stepper();
 
-  /// To be called when the state has changed: as Candidates::start_from(). `state` must be the
-  /// object that was given to the constructor.
-  void start_from(State& state, Fixed drift);
+  /// To be called when the state has changed: as Candidates::start_from().
+  void start_over(Fixed drift);
 
   /// Steps up to step `last`, or until the run cannot go on, or until flights had better go on with
   /// other slices because their contacts have become many or few: that is decided when they sort.

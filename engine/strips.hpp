@@ -4,8 +4,8 @@
 // its area to the strips that it covers. A contact acts along the line between the two centres, and
 // each strip gets the part of the line that lies in it (Irving and Kirkwood, J. Chem. Phys. 18, 817
 // (1950)). So the momentum that flying grains and contacts carry from strip to strip is accounted
-// for exactly: the stresses satisfy the balance of momentum up to the walls, without free
-// parameters.
+// for (but for PresentForce, to second order in the time step): the stresses satisfy the balance of
+// momentum up to the walls, without free parameters.
 //
 // All that is kept of a moment are sums over grains and contacts, so that means over time are means
 // of these numbers; nonlinear quantities (temperatures) are computed from the means.

@@ -19,7 +19,7 @@ constexpr Estimate not_known{unknown, unknown};
 
 /// One of the sums that a quantity depends on: the derivative of the quantity with respect to the
 /// mean of this sum.
-struct Part {
+struct LinearTerm {
   StripSum sum;
   double derivative;
   std::optional<std::size_t> strip = std::nullopt;  // none: the sum over all strips of the zone
@@ -38,24 +38,24 @@ public:
   double mean(StripSum sum, std::size_t strip) const { return mean_of(means(sum, strip)); }
 
   /// A sum with this value; its error is that of its linear part, which `parts` describe.
-  Estimate sum(double value, std::span<const Part> parts) const {
+  Estimate sum(double value, std::span<const LinearTerm> parts) const {
     return {value, mean_with_error(linear(parts)).error};
   }
-  Estimate sum(double value, std::initializer_list<Part> parts) const {
+  Estimate sum(double value, std::initializer_list<LinearTerm> parts) const {
     return sum(value, std::span(parts));
   }
   /// The same for a mean over the grains of the zone.
-  Estimate mean_over_grains(double value, std::span<const Part> parts) const {
+  Estimate mean_over_grains(double value, std::span<const LinearTerm> parts) const {
     return {value, error_per_weight(linear(parts), means(StripSum::grains))};
   }
-  Estimate mean_over_grains(double value, std::initializer_list<Part> parts) const {
+  Estimate mean_over_grains(double value, std::initializer_list<LinearTerm> parts) const {
     return mean_over_grains(value, std::span(parts));
   }
 
 private:
-  std::vector<double> linear(std::span<const Part> parts) const {
+  std::vector<double> linear(std::span<const LinearTerm> parts) const {
     std::vector<double> total(size_, 0.0);
-    for (const Part& part : parts) {
+    for (const LinearTerm& part : parts) {
       const std::vector<double> of_blocks =
           part.strip ? means(part.sum, *part.strip) : means(part.sum);
       for (std::size_t i = 0; i < size_; ++i) total[i] += part.derivative * of_blocks[i];
@@ -111,7 +111,7 @@ constexpr Moments of_mass{StripSum::mass, StripSum::mass_w, StripSum::mass_w2};
 /// derivatives.
 struct RandomPart {
   double sum = 0.0;
-  std::vector<Part> parts;
+  std::vector<LinearTerm> parts;
 };
 
 RandomPart random_part(const ZoneBlocks& b, const Moments& moments) {
@@ -134,7 +134,7 @@ Estimate variance_of_w(const ZoneBlocks& b) {
   RandomPart random = random_part(b, of_grains);
   const double variance = random.sum / grains;
   random.parts.push_back({StripSum::grains, -variance});
-  for (Part& part : random.parts) part.derivative /= grains;
+  for (LinearTerm& part : random.parts) part.derivative /= grains;
   return b.mean_over_grains(variance, random.parts);
 }
 
@@ -144,7 +144,7 @@ Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
   const double contact = with_contacts ? 1.0 : 0.0;
   const double sum = random.sum + contact * b.mean(StripSum::contact_yy);
   random.parts.push_back({StripSum::contact_yy, contact});
-  for (Part& part : random.parts) part.derivative /= area;
+  for (LinearTerm& part : random.parts) part.derivative /= area;
   return b.sum(sum / area, random.parts);
 }
 

@@ -21,7 +21,7 @@ enum class Validity {
 
 /// What the verdict rests on. NaN means not known, and counts as suspect.
 struct Evidence {
-  double max_overlap_ratio;       ///< largest overlap over the radius of the smaller body
+  double max_overlap_ratio;       ///< largest overlap over the radius of the smallest body
   double brake_failure_fraction;  ///< of the braking by walls, done by contacts cut short
   double passages_per_visit;      ///< contacts cut short per visit to a wall
   double wall_speed_ratio;        ///< mean slip speed at the beginning of wall contacts over v_crit

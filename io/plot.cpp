@@ -203,8 +203,7 @@ void Plot::legend(std::string_view shared, const std::vector<std::pair<std::stri
     y += row;
   }
   for (const auto& [name, look] : entries) {
-    svg_.line({left, y}, {left + sample, y},
-              {.stroke = look.colour, .stroke_width = 1.5, .dashes = look.dashes});
+    svg_.line({left, y}, {left + sample, y}, {.stroke = look.colour, .stroke_width = 1.5});
     if (with_symbols) draw_symbol({left + 0.5 * sample, y}, look, true);
     svg_.text({left + sample + 8.0, y + 4.0}, name);
     y += row;

@@ -25,7 +25,6 @@ enum class Symbol { disc, square, triangle, diamond };
 struct Look {
   std::string_view colour;
   Symbol symbol = Symbol::disc;
-  std::string_view dashes{};
 };
 
 /// A different one for each index below 8; then they begin again.

@@ -98,6 +98,11 @@ void write_grains(Hdf5Group& group, const State& state) {
   if (state.grains.rotate()) write_column<double>(group, "spin", "rad/s", spin);
 }
 
+void write_window(Hdf5Group& group, const Window& window) {
+  group.set_attribute("since", window.since);
+  group.set_attribute("state", name(window.state));
+}
+
 void write_profile(Hdf5Group& group, const TubeProfile& profile) {
   const std::string name(profile.name), unit(profile.unit);
   std::vector<double> values, errors;
@@ -272,18 +277,19 @@ void RunFile::write_final_state(const State& state) {
 }
 
 void RunFile::write_profiles(const Strips& strips, const std::vector<TubeProfile>& profiles,
-                             double since) {
+                             const Window& window) {
   auto group = replace_group(contents_->root(), "profiles");
-  group.set_attribute("since", since);
+  write_window(group, window);
   group.set_attribute("strip_width", strips.width);
   write_column<double>(group, "x", "m", strips.middles())
       .set_attribute("doc", "Middle of the strip; the wall lines are at 0 and at the width.");
   for (const TubeProfile& profile : profiles) write_profile(group, profile);
 }
 
-void RunFile::write_histograms(const std::vector<HistogramTable>& histograms, double since) {
+void RunFile::write_histograms(const std::vector<HistogramTable>& histograms,
+                               const Window& window) {
   auto group = replace_group(contents_->root(), "histograms");
-  group.set_attribute("since", since);
+  write_window(group, window);
   for (const HistogramTable& histogram : histograms) write_histogram(group, histogram);
 }
 

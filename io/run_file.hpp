@@ -11,6 +11,7 @@
 
 #include "engine/histogram_blocks.hpp"
 #include "engine/state.hpp"
+#include "engine/steady_state.hpp"
 #include "engine/tube_profiles.hpp"
 #include "engine/validity.hpp"
 #include "io/provenance.hpp"
@@ -37,6 +38,13 @@ inline constexpr auto run_file_name = "run.h5";
 
 /// The kind that its seal names, see seal.hpp.
 inline constexpr auto run_file_kind = "run";
+
+/// The time over which means are taken, and whether they are those of a steady state: attributes of
+/// the groups that hold them.
+struct Window {
+  double since;         ///< s, to the end
+  SteadyVerdict state;  ///< of the flow
+};
 
 class RunFile {
 public:
@@ -73,14 +81,14 @@ public:
   void write_final_state(const State& state);
 
   /// Replaces the profiles across the tube in /profiles: `x`, the middles of the strips, and for
-  /// each profile NAME and NAME_error, a value per strip. Samples count from the time `since` (s)
-  /// on.
-  void write_profiles(const Strips& strips, const std::vector<TubeProfile>& profiles, double since);
+  /// each profile NAME and NAME_error, a value per strip.
+  void write_profiles(const Strips& strips, const std::vector<TubeProfile>& profiles,
+                      const Window& window);
 
   /// Replaces the histograms of contacts and visits in /histograms: for each a group with the lower
-  /// edges of its bins, the counts since the start, and the rates since the time `since` (s) with
-  /// their errors.
-  void write_histograms(const std::vector<HistogramTable>& histograms, double since);
+  /// edges of its bins, the counts since the start, and the rates over the window with their
+  /// errors.
+  void write_histograms(const std::vector<HistogramTable>& histograms, const Window& window);
 
   /// Replaces the verdict on validity in /validity: an attribute for the verdict, and one for the
   /// value of each finding.

@@ -143,7 +143,7 @@ SettingsTable run_settings() {
       {.key = "run.threads",
        .kind = Kind::integer_or_auto,
        .fallback = "auto",
-       .range = between(1, 1024),
+       .range = between(1, most_threads),
        .doc = "Threads to use; `auto` uses as many as are worthwhile for the number of "
               "grains. The results do not depend on it.",
        .matters = false},

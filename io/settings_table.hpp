@@ -80,6 +80,9 @@ std::vector<std::string> names_of_scenarios(const SettingsTables& tables);
 /// The rows of all scenarios: scenario, seed, grains.rotation, contact.*, run.*.
 SettingsTable common_settings();
 
+/// The most that `run.threads` accepts.
+inline constexpr int most_threads = 1024;
+
 /// Throws std::logic_error if a row contradicts itself or another one (a mistake in the code, not
 /// in a user's file).
 void verify_table(const SettingsTable& table);

@@ -35,8 +35,6 @@ public:
   /// `description` is for readers who cannot see the drawing.
   Svg(double width, double height, std::string_view description);
 
-  double width() const { return width_; }
-
   /// Makes the drawing higher by `height`, at its lower end.
   void extend(double height) { height_ += height; }
 

@@ -1,16 +1,11 @@
 #include "io/sweep_points.hpp"
 
-#include "engine/hash.hpp"
-#include "io/checkpoint.hpp"
-#include "io/file_error.hpp"
-#include "io/whole_file.hpp"
+#include "io/content_hash.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <system_error>
 #include <utility>
 
 namespace riesel::io {
@@ -39,12 +34,6 @@ std::vector<Combination> combinations_of(const std::vector<std::size_t>& counts)
   return all;
 }
 
-std::string hash_text(std::string_view text) {
-  Hash hash;
-  hash.add_text(text);
-  return fmt::format("{:016x}", hash.value());
-}
-
 class Expansion {
 public:
   Expansion(const SweepFile& sweep, const SettingsTables& tables) : sweep_(sweep), tables_(tables) {
@@ -70,9 +59,13 @@ public:
 
 private:
   void check_number() const {
-    std::size_t number = 2;  // legs
-    for (const auto count : counts_) number = std::min(number * count, 2 * most_sweep_points + 1);
-    if (number <= 2 * most_sweep_points) return;
+    std::size_t number = 1;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      const bool both_ways = sweep_.continuation && sweep_.continuation->axis == i;
+      number =
+          std::min(number * (both_ways ? 2 * counts_[i] - 1 : counts_[i]), most_sweep_points + 1);
+    }
+    if (number <= most_sweep_points) return;
     throw SettingsError({sweep_.source, 1, 1}, "axes",
                         fmt::format("the sweep has more than {} points", most_sweep_points),
                         "split it");
@@ -136,7 +129,7 @@ private:
     auto yaml = settings.effective_yaml();
     points_.push_back({.settings = std::move(settings),
                        .yaml = std::move(yaml),
-                       .name = hash_text(identity.text),
+                       .name = hash_of_text(identity.text),
                        .parent = {},
                        .branch = branch_of(combination),
                        .leg = "",
@@ -153,7 +146,7 @@ private:
     yaml += fmt::format("\n{}:\n  kind: continued\n  from: ../{}\n", start_section, parents_name);
     points_.push_back({.settings = std::move(settings),
                        .yaml = std::move(yaml),
-                       .name = hash_text(identity.text + "continued from " + parents_name),
+                       .name = hash_of_text(identity.text + "continued from " + parents_name),
                        .parent = parent,
                        .branch = branch_of(combination),
                        .leg = leg,
@@ -184,18 +177,6 @@ bool differs(const std::string& key, const std::vector<SweepPoint>& points) {
 }
 
 }  // namespace
-
-std::string hash_of_content(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  try {
-    const auto content = read_whole_file(
-        fs::is_directory(path, ignored) ? fs::path(path) / checkpoint_name : fs::path(path));
-    return hash_text({content.data(), content.size()});
-  } catch (const FileError&) {
-    return "none";
-  }
-}
 
 std::vector<SweepPoint> expand(const SweepFile& sweep, const SettingsTables& tables) {
   return Expansion(sweep, tables).points();

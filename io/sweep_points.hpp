@@ -32,10 +32,6 @@ struct SweepPoint {
   std::map<std::string, std::string> inputs = {};
 };
 
-/// Hash of the content of a file, or of the checkpoint in a run's directory; "none" if it cannot be
-/// read, which the run will report.
-std::string hash_of_content(const std::string& path);
-
 constexpr std::size_t most_sweep_points = 10'000;
 
 /// All points, a parent before its children. The order is that of the sweep file: axes first, then

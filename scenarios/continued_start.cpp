@@ -3,14 +3,15 @@
 #include "engine/encounter.hpp"
 #include "engine/observables.hpp"
 #include "io/checkpoint.hpp"
+#include "io/content_hash.hpp"
 #include "io/file_error.hpp"
-#include "scenarios/scenario.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <variant>
 #include <vector>
@@ -41,6 +42,17 @@ io::Checkpoint checkpoint_of(const io::Settings& settings) {
   return std::move(found.checkpoint);
 }
 
+/// Whether the earlier run was set the same. Files count by their contents, as far as they are
+/// still there: the earlier run gives what it has read from them.
+bool is_as_before(const io::Setting& row, const io::Settings& settings,
+                  const io::Settings& earlier) {
+  if (settings.written(row.key) == earlier.written(row.key)) return true;
+  if (!row.names_content || !settings.has(row.key)) return false;
+  const std::string& before = earlier.text(row.key);
+  return !std::filesystem::exists(before)
+         || io::hash_of_content(settings.text(row.key)) == io::hash_of_content(before);
+}
+
 /// Rejects settings that differ from those of the earlier run, but would have no effect as the
 /// earlier run gives what they set.
 void reject_other_grains_or_tube(const io::Settings& settings, const io::Settings& earlier) {
@@ -48,7 +60,7 @@ void reject_other_grains_or_tube(const io::Settings& settings, const io::Setting
     const std::string section = io::section_of(row.key);
     const bool carried_over = std::ranges::count(carried_sections, section) > 0;
     if (!carried_over || can_continue_along(row.key) || !earlier.has(row.key)  // it used a file
-        || settings.written(row.key) == earlier.written(row.key))
+        || is_as_before(row, settings, earlier))
       continue;
     settings.reject(row.key,
                     fmt::format("is {} here and {} in the run to be continued",
@@ -141,11 +153,22 @@ State earlier_state(const io::Settings& settings, const State& empty) {
   return std::move(checkpoint.state);
 }
 
-void reject_other_swing_across(const io::Settings& settings, const State& earlier,
+std::vector<double> swings_across(const State& state) {
+  std::vector<double> swings;
+  for (const WallLattice& wall : state.walls) swings.push_back(wall.motion.amplitude_x);
+  return swings;
+}
+
+Flow::Earlier to_be_continued(const State& state) {
+  return {.swings_across = swings_across(state),
+          .elastic_energy = observe(state).energies.elastic,
+          .random_energy = energy_of_fluctuations(state)};
+}
+
+void reject_other_swing_across(const io::Settings& settings, const std::vector<double>& earlier,
                                const State& state) {
   for (std::size_t wall = 0; wall < state.walls.size(); ++wall)
-    if (const double before = earlier.walls[wall].motion.amplitude_x,
-        now = state.walls[wall].motion.amplitude_x;
+    if (const double before = earlier[wall], now = state.walls[wall].motion.amplitude_x;
         !alike(now, before))
       settings.reject(
           "wall.shake_amplitude",
@@ -155,11 +178,11 @@ void reject_other_swing_across(const io::Settings& settings, const State& earlie
           "make the transverse amplitudes equal (by amplitude and angle), or start afresh");
 }
 
-void reject_released_energy(const io::Settings& settings, const State& earlier,
+void reject_released_energy(const io::Settings& settings, const Flow::Earlier& earlier,
                             const State& state) {
-  const double before = observe(earlier).energies.elastic;
+  const double before = earlier.elastic_energy;
   const double now = observe(state).energies.elastic;
-  const double had = before + energy_of_fluctuations(earlier);
+  const double had = before + earlier.random_energy;
   if (now - before <= had) return;
   settings.reject("contact.stiffness",
                   fmt::format("the overlaps of the run to be continued hold {:.3g} J with this "

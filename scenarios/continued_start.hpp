@@ -13,6 +13,7 @@
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
 #include "io/settings.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <string>
 #include <vector>
@@ -23,15 +24,22 @@ namespace riesel::scenarios {
 /// scenario, grains or box are not those of the settings, or its walls not those of `empty`.
 State earlier_state(const io::Settings& settings, const State& empty);
 
-/// Rejects walls of `state` that are shaken across (along x) with another amplitude than those of
-/// `earlier`: they would have to jump, perhaps into the grains.
-void reject_other_swing_across(const io::Settings& settings, const State& earlier,
+/// m, of each wall
+std::vector<double> swings_across(const State& state);
+
+/// What a flow that continues `state` must fit.
+Flow::Earlier to_be_continued(const State& state);
+
+/// Rejects walls of `state` that are shaken across (along x) with other amplitudes (m) than those
+/// of the run to be continued: they would have to jump, perhaps into the grains.
+void reject_other_swing_across(const io::Settings& settings, const std::vector<double>& earlier,
                                const State& state);
 
-/// Rejects a contact law so much stiffer than that of `earlier` that the overlaps which `state` has
+/// Rejects a contact law so much stiffer than the earlier one that the overlaps which `state` has
 /// taken over hold more additional energy than there was in overlaps and random motion: the flow
 /// would be thrown apart, and heated by what no balance shows.
-void reject_released_energy(const io::Settings& settings, const State& earlier, const State& state);
+void reject_released_energy(const io::Settings& settings, const Flow::Earlier& earlier,
+                            const State& state);
 
 /// The grains of `earlier`, with the velocities and spins that a state with this time step (s)
 /// holds for them: those of half a step earlier, as the last kicks are not yet in them.

@@ -8,7 +8,7 @@ io::SettingsTable run_limits_settings() {
        .unit = "1",
        .example = "0.5",
        .range = io::positive(),
-       .doc = "Limit of the largest overlap of a contact over the radius of the smaller body "
+       .doc = "Limit of the largest overlap of a contact over the radius of the smallest body "
               "(docs/validity.md). By default there is none."},
       {.key = "limits.energy_error",
        .unit = "1",

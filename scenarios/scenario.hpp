@@ -13,6 +13,7 @@
 #include "engine/state.hpp"
 #include "io/settings.hpp"
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,8 +24,15 @@ namespace riesel::scenarios {
 /// settings of such a scenario must include common_flow_settings(), and `grains.diameter` and
 /// `grains.mass`, which are means.
 struct Flow {
+  /// Of the last state of the run that it continues, what its own start must fit.
+  struct Earlier {
+    std::vector<double> swings_across;  ///< m, amplitudes along x with which the walls are shaken
+    double elastic_energy;              ///< J, of the overlaps under its contact law
+    double random_energy;               ///< J, of the motion relative to the mean velocity
+  };
   State state;
   ContactModel model;
+  std::optional<Earlier> continues = {};
 };
 
 /// Single grains thrown at a wall; each point of the curve is the mean over its impacts, which have
@@ -52,9 +60,10 @@ using Problem = std::variant<Flow, ImpactCurve, ColumnCurve>;
 
 struct Scenario {
   std::string name;
-  std::string summary;                      ///< one sentence, which says what it reproduces
-  io::SettingsTable own_settings;           ///< besides the common ones
-  Problem (*prepare)(const io::Settings&);  ///< throws io::SettingsError for unusable settings
+  std::string summary;             ///< one sentence, which says what it reproduces
+  io::SettingsTable own_settings;  ///< besides the common ones
+  /// Throws io::SettingsError for unusable settings. Does not look at Flow::continues.
+  Problem (*prepare)(const io::Settings&);
 };
 
 /// The settings that every flow must have: `run.duration`, `run.until`, `limits`, `output`.
@@ -80,6 +89,10 @@ const std::vector<Scenario>& all();
 
 /// The scenario with this name. Throws std::logic_error if there is none.
 const Scenario& named(const std::string& name);
+
+/// What the settings ask for. Throws io::SettingsError for unusable settings, and for a flow that
+/// would be thrown apart as it does not fit the one that it continues.
+Problem problem_of(const io::Settings& settings);
 
 /// For each scenario the table of all its settings, common rows included, as io::Settings takes it.
 const io::SettingsTables& settings_tables();

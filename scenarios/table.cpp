@@ -1,3 +1,4 @@
+#include "scenarios/continued_start.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <algorithm>
@@ -73,6 +74,15 @@ const Scenario& named(const std::string& name) {
   const Scenario* found = find(all(), name);
   if (found == nullptr) throw std::logic_error("no scenario '" + name + "' in the table");
   return *found;
+}
+
+Problem problem_of(const io::Settings& settings) {
+  Problem problem = named(settings.scenario()).prepare(settings);
+  if (const auto* flow = std::get_if<Flow>(&problem); flow != nullptr && flow->continues) {
+    reject_other_swing_across(settings, flow->continues->swings_across, flow->state);
+    reject_released_energy(settings, *flow->continues, flow->state);
+  }
+  return problem;
 }
 
 void add(Scenario scenario) { add_to(registry().scenarios, std::move(scenario)); }

@@ -33,7 +33,7 @@ State state_of_a_small_tube() {
                                                 "start: {random_velocity: 2 m/s}\n"
                                                 "run: {duration: 5 ms}\n",
                                                 "tube.yaml", scenarios::settings_tables());
-  auto problem = scenarios::named(settings.scenario()).prepare(settings);
+  auto problem = scenarios::problem_of(settings);
   auto& flow = std::get<scenarios::Flow>(problem);
   Simulation simulation(std::move(flow.state), flow.model, 1);
   do simulation.advance(100);
@@ -69,14 +69,14 @@ void write_small_run_file(const fs::path& path) {
   file.write_final_state(state_of_a_small_tube());
   file.write_profiles({.width = 1e-3, .length = 0.1, .count = 2},
                       profiles_like({.name = {}, .unit = "1", .meaning = "m", .zones = {{}, {}}}),
-                      0.1);
+                      {.since = 0.1, .state = SteadyVerdict::steady});
   file.write_histograms(histograms_like({.name = {},
                                          .unit = "1",
                                          .meaning = "m",
                                          .lower_edges = {1.0, 2.0},
                                          .counts = {1, 0},
                                          .rates = {{}, {}}}),
-                        0.1);
+                        {.since = 0.1, .state = SteadyVerdict::steady});
   file.flush();
 }
 

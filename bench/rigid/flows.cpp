@@ -48,7 +48,7 @@ io::Settings settings_of(const FlowsOptions& options, const Point& point) {
 /// A row of the table.
 std::string run(const FlowsOptions& options, const Point& point) {
   const io::Settings settings = settings_of(options, point);
-  const scenarios::Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  const scenarios::Problem problem = scenarios::problem_of(settings);
   const auto* flow = std::get_if<scenarios::Flow>(&problem);
   if (flow == nullptr) throw std::runtime_error(settings.scenario() + " is no flow");
   RigidFlow rigid(flow->state, flow->model, point.shortest_interval);

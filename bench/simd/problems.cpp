@@ -24,7 +24,7 @@ std::array<double, 9> life_of(const LiveContacts& live, std::size_t i) {
 Original::Original(State state, const ContactModel& model)
     : state_(std::move(state)),
       model_(model),
-      candidates_(state_, model_.slip, 1, Candidates::plain_stepping),
+      candidates_(state_, model_.slip, 1, Candidates::plain_stepping, 1),
       units_(state_) {
   positions_.copy_all(candidates_.when_sorted());
   if (!std::holds_alternative<LinearLaw>(model.normal)

@@ -6,7 +6,7 @@ import json
 import math
 import os
 import pathlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from .estimate import Estimate
 from .files import NotThere, Unreadable, members, part
+from .names import there_is
 from .table import Table, table_of, text
 from .trajectory import Trajectory
 from .tree import Tree
@@ -124,7 +125,16 @@ class Run:
                              (name, f"{section}.errors.{last}")):
             if value in self.summary and error in self.summary:
                 return Estimate(_known(self.summary[value]), _known(self.summary[error]))
-        raise KeyError(f"{name}: the summary has no such value with an error")
+        raise KeyError(f"{name}: the summary has no such value with an error; "
+                       f"{there_is(name, self._names_of_estimates())}")
+
+    def _names_of_estimates(self) -> Iterator[str]:
+        """What estimate() accepts."""
+        for name in self.summary:
+            if name.endswith(".error"):
+                yield name.removesuffix(".error")
+            elif ".errors." in name:
+                yield name.replace(".errors.", ".")
 
     @cached_property
     def validity(self) -> Validity:

@@ -98,8 +98,9 @@ class Sweep:
 
     @cached_property
     def table(self) -> Table:
-        """The table of `riesel collect`: a row per point, done or not, with its settings and all
-        single values of its summary, NaN or "" where there is none."""
+        """The table of the last `riesel sweep` or `riesel collect`: a row per point, done or not,
+        with its settings and all single values of its summary, NaN or "" where there is none. It
+        does not know what points have become since, by `riesel resume` for one."""
         remedy = f"make it with 'riesel collect {self.directory}'"
         with part(self.directory / "sweep.h5", "points", remedy, remedy, remedy) as group:
             return table_of(group)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
+
+from .names import there_is
 
 
 class Table(Mapping[str, NDArray[Any]]):
@@ -27,8 +28,7 @@ class Table(Mapping[str, NDArray[Any]]):
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Raises KeyError, which lists the names most like this one."""
         if name not in self._columns:
-            alike = difflib.get_close_matches(str(name), self._columns) or sorted(self._columns)
-            raise KeyError(f"{name}: there is no such column; there is {', '.join(alike)}")
+            raise KeyError(f"{name}: there is no such column; {there_is(name, self._columns)}")
         return self._columns[name]
 
     def __iter__(self) -> Iterator[str]:

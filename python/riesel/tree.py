@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from .names import there_is
+
 
 class Tree(Mapping[str, Any]):
     """tree["contact.friction"] is the value; tree["contact"] is the Tree of that section. As a
@@ -14,10 +16,11 @@ class Tree(Mapping[str, Any]):
         self._values = values
 
     def __getitem__(self, name: str) -> Any:
+        """Raises KeyError, which lists the names most like this one."""
         value: Any = self._values
         for part in name.split("."):
             if not isinstance(value, Mapping) or part not in value:
-                raise KeyError(name)
+                raise KeyError(f"{name}: there is no such value; {there_is(name, self)}")
             value = value[part]
         return Tree(value) if isinstance(value, Mapping) else value
 

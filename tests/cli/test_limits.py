@@ -123,7 +123,7 @@ class Limits(CommandTest):
         shutil.rmtree(self.home / "overlap", ignore_errors=True)
         result = self.tube("overlap", "limits.overlap=0.02", f"output.interval={interval}")
         self.assert_stopped("overlap", result, "limits.overlap", "contact.stiffness")
-        told = re.search(r"an overlap of (\S+) m, (\S+) of the radius of the smaller body, ([^;]+) (since|from) t = ([^;]+) s;",
+        told = re.search(r"an overlap of (\S+) m, (\S+) of the radius of the smallest body, ([^;]+) (since|from) t = ([^;]+) s;",
                          result.stderr)
         self.when = told[5]
         return float(told[1]), float(told[2]), told[3]

@@ -126,6 +126,20 @@ class Grid(SweepTest):
                 self.assertEqual([row["state_hash"] != "" for row in self.rows()], [True, False, True])
                 self.assertIn("summary.json", self.rows()[1]["reason"])
 
+    def test_a_chain_may_go_where_its_first_start_could_not(self):
+        self.write("tube.yaml", SMALL_TUBE.replace("area_fraction: 0.3", "area_fraction: 0.6"))
+        self.run_to_end("tube.yaml", "soft", "--set", "contact.stiffness=200 N/m", "--set", "start.random_velocity=4 m/s")
+        chain = ("base: tube.yaml\nset: {run.duration: 1 ms, start: , start.kind: continued, start.from: soft}\n"
+                 "axes: {contact.stiffness: [200 N/m, 2 kN/m, 20 kN/m]}\n")
+        self.assert_refused(self.sweep(chain, "out", "--dry-run"), "would release more energy")
+        self.sweep_to_end(chain + "continue_along: contact.stiffness\n")
+        self.assertEqual([row["status"] for row in self.rows()], ["done"] * 5)
+
+    def test_a_chain_is_refused_if_its_neighbours_shake_differently(self):
+        chain = ("base: tube.yaml\nset: {run.duration: 1 ms, wall.shake_frequency: 50, wall.shake_angle: 90 degrees}\n"
+                 "axes: {wall.shake_amplitude: [0.1 mm, 0.2 mm]}\ncontinue_along: wall.shake_amplitude\n")
+        self.assert_refused(self.sweep(chain, "out", "--dry-run"), "shakes the walls across with amplitude 0.0002 m")
+
     def test_large_numbers_are_told_with_all_their_digits(self):
         listed = self.sweep(CHAIN.replace("continue_along: contact.restitution", "seeds: [20240101, 20240102]"), "out",
                             "--dry-run")

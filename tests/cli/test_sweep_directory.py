@@ -64,6 +64,14 @@ class Directory(SweepTest):
             self.assertEqual((out / "sweep.yaml").read_text(encoding="utf-8"), ONE_POINT)
             self.assertEqual((out / "sweep.yaml.previous").read_text(encoding="utf-8"), notes)
 
+    def test_trajectories_that_are_asked_for_later_change_no_point(self):
+        branches = "base: tube.yaml\nset: {run.duration: 2 ms}\nbranches: {slow: {start.axial_velocity: 1 m/s%s}, fast: {}}\n"
+        out = self.sweep_to_end(branches % "")
+        before = bytes_of_files(out / "points")
+        self.sweep_to_end(branches % ", output.trajectory_interval: 1 ms")
+        self.assertEqual([row["status"] for row in self.rows()], ["done", "done"])
+        self.assertEqual(bytes_of_files(out / "points"), before)
+
     def test_runs_begin_from_the_files_of_the_plan_only(self):
         self.write("grains.csv", "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n2, 2, 1, 0, 1\n")
         self.write("tube.yaml", """\

@@ -5,7 +5,7 @@ import json
 import re
 import shutil
 
-from riesel_command import DONE, FAILED, bytes_of_files
+from riesel_command import DONE, FAILED, OUT_OF_TIME, bytes_of_files
 from sweep_command import CHAIN, GRID, ONE_FAILS, ONE_POINT, SweepTest
 
 
@@ -205,6 +205,13 @@ start: {kind: file, from: a.csv}
         for options, told in (([], "1 s"), (["--retry-failed"], "10.0 h")):
             result = self.riesel("sweep", "out", "--dry-run", *options)
             self.assertIn(f"3 runs, about {told} with ", result.stdout)
+
+    def test_a_sweep_is_not_out_of_time_if_nothing_is_left_to_do(self):
+        self.assertEqual(self.sweep(ONE_FAILS).returncode, FAILED)
+        again = self.riesel("sweep", "out", "--max-walltime", "1 ms")
+        self.assertEqual((again.returncode, "interrupted" in again.stdout + again.stderr), (FAILED, False), again)
+        retried = self.riesel("sweep", "out", "--max-walltime", "1 ms", "--retry-failed")
+        self.assertEqual(retried.returncode, OUT_OF_TIME, retried)
 
     def test_failed_chains_are_not_to_be_run_with_changes(self):
         out = self.sweep_to_end(CHAIN)

@@ -44,7 +44,7 @@ class Terminal(CommandTest):
         self.assertRegex(result.stdout, r"(?m)^  wall collisions +not known, gravity 10 m/s\^2$")
 
     def test_that_there_are_no_collisions_is_told(self):
-        self.write("tube.yaml", SMALL_TUBE.replace("area_fraction: 0.5", "area_fraction: 0.01"))
+        self.write("tube.yaml", SMALL_TUBE.replace("area_fraction: 0.3", "area_fraction: 0.01"))
         result = self.riesel("run", "tube.yaml", "--set", "run.duration=30 us", "--set", "output.interval=1 us",
                              "--set", "start.random_velocity=0.01 m/s")
         self.assertRegex(result.stdout, r"(?m)^  wall collisions +none after the transient, gravity 10 m/s\^2$")

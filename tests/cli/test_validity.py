@@ -104,10 +104,12 @@ class Verdicts(Validity):
                             run__duration="60 ms")[0]["state"] for speed in (12, -12)]
         self.assertEqual(states[0], states[1])
 
-    def test_the_verdict_stands_in_the_run_file(self):
+    def test_both_verdicts_stand_in_the_run_file(self):
         summary, _ = self.tube("run", run__duration="20 ms")
         with h5py.File(self.home / "run/run.h5", "r") as file:
             attributes = dict(file["validity"].attrs)
+            states = {file[group].attrs["state"].decode() for group in ("profiles", "histograms")}
+        self.assertEqual(states, {summary["state"]})
         self.assertEqual(attributes["verdict"].decode(), summary["validity"]["verdict"])
         for finding in summary["validity"]["findings"]:
             value = attributes[finding["name"]]
@@ -164,6 +166,31 @@ class WallVisits(Validity):
         self.assertGreaterEqual(min(count.sum() for count, _ in histograms), 20)
         shortest = [edges[np.argmax(np.cumsum(count) > 0.05 * count.sum())] for count, edges in histograms]
         self.assertAlmostEqual(found["steps_per_contact"] / (min(shortest) / time_step), 1.0, delta=1e-9)
+
+    def test_contacts_are_measured_by_the_closed_forms(self):
+        k, gamma = 2000.0, 1e4
+        summary, _ = self.tube("run", contact__restitution="", contact__damping=gamma, contact__stiffness=k)
+        validity = summary["validity"]
+        found = {finding["name"]: finding["value"] for finding in validity["findings"]}
+        with h5py.File(self.home / "run/run.h5", "r") as file:
+            mass, radius = (file["final"][name][()] for name in ("mass", "radius"))
+            wall_radius = file["final/walls/radius"][0]
+        t_grains, t_walls = (math.pi / math.sqrt(k / reduced - gamma**2 / 4) for reduced in (mass.mean() / 2, mass.mean()))
+        reach = radius.mean() + wall_radius
+        depth = summary["fluctuations"]["sigma_vx"]["value"] * t_walls / math.pi
+        v_crit = 2 * math.sqrt(reach**2 - (reach - depth) ** 2) / t_walls
+        gained = self.gained_after_the_transient(summary, self.series("run"))
+        rate = 2 * gained["grain_contacts"] / len(mass) / gained["time"]
+        overlap = max(self.series("run")["max_overlap"])
+        for name, value, expected in (("t_col.grains", validity["t_col"]["grains"], t_grains),
+                                      ("t_col.walls", validity["t_col"]["walls"], t_walls),
+                                      ("v_crit", validity["v_crit"], v_crit),
+                                      ("rate", found["grain_contact_rate_times_t_col"], rate * t_grains)):
+            with self.subTest(name):
+                self.assertAlmostEqual(value / expected, 1.0, delta=1e-6)
+        # Over the smallest radius, of grains or of walls.
+        self.assertIn(round(found["max_overlap_ratio"] / overlap * radius.min(), 6),
+                      (1.0, round(radius.min() / min(wall_radius, radius.min()), 6)))
 
     def test_visits_lose_what_contacts_lose(self):
         # Per visit and per contact, of two sets of contacts that differ by the open visits only.

@@ -19,12 +19,14 @@ using same_states::same;
 namespace {
 
 /// Of some 40 grains.
-constexpr Askew small_slices{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = 0.0};
+constexpr Askew small_slices{
+    .bytes_of_slice = 4e3, .steps = 8, .least_bytes = 0.0, .contacts_per_grain = 0.0};
 
 State askew(const State& state, const ContactModel& model, std::int64_t steps, int threads,
             const Askew& how = small_slices, Stepping stepping = Stepping::plain) {
   Askew of_as_many_grains = how;
-  if (stepping == Stepping::windows) of_as_many_grains.slice *= 0.5;  // flights have larger ones
+  if (stepping == Stepping::windows)
+    of_as_many_grains.bytes_of_slice *= 0.5;  // flights have larger ones
   Simulation simulation(state, model, threads, stepping, of_as_many_grains);
   simulation.advance(steps);
   return simulation.state();
@@ -121,7 +123,8 @@ void add_blow(State& state, double x, double y, bool across) {
 }
 
 /// Slices of some 20 grains.
-constexpr Askew long_lead{.slice = 2e3, .steps = 16, .least = 0.0, .contacts = 0.0};
+constexpr Askew long_lead{
+    .bytes_of_slice = 2e3, .steps = 16, .least_bytes = 0.0, .contacts_per_grain = 0.0};
 
 State blows(bool across) {
   State state = at_rest();
@@ -184,10 +187,12 @@ TEST_CASE("slices do each step together where pairs may be of slices that are no
 
 TEST_CASE("slices without memory or steps are refused") {
   const State tube = long_tube(0.1);
-  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 0.0, .steps = 8, .least = 0.0}),
-                  std::invalid_argument);
-  CHECK_THROWS_AS(askew(tube, paper_model(), 1, 1, {.slice = 4e3, .steps = 0, .least = 0.0}),
-                  std::invalid_argument);
+  CHECK_THROWS_AS(
+      askew(tube, paper_model(), 1, 1, {.bytes_of_slice = 0.0, .steps = 8, .least_bytes = 0.0}),
+      std::invalid_argument);
+  CHECK_THROWS_AS(
+      askew(tube, paper_model(), 1, 1, {.bytes_of_slice = 4e3, .steps = 0, .least_bytes = 0.0}),
+      std::invalid_argument);
 }
 
 TEST_CASE("each thread has one slice where slices could not go askew") {
@@ -206,14 +211,14 @@ TEST_CASE("slices go askew sooner, and are of fewer grains, where grains are clo
   State dilute = dense;
   dilute.box.length *= 10.0;
   const auto grains = static_cast<double>(dense.grains.size());
-  constexpr Askew large_slices{.slice = 10e3, .least = 0.0};
+  constexpr Askew large_slices{.bytes_of_slice = 10e3, .least_bytes = 0.0};
   CHECK(large_slices.slices_per_thread(dense, 1, false)
         > large_slices.slices_per_thread(dilute, 1, false));
   CHECK(large_slices.slices_per_thread(dense, 1, true)
         == large_slices.slices_per_thread(dense, 1, false) / 2);
-  CHECK(Askew{.least = 120.0 * grains}.pays(dense));
-  CHECK_FALSE(Askew{.least = 120.0 * grains}.pays(dilute));
-  CHECK(Askew{.least = 100.0 * grains}.pays(dilute));
+  CHECK(Askew{.least_bytes = 120.0 * grains}.pays(dense));
+  CHECK_FALSE(Askew{.least_bytes = 120.0 * grains}.pays(dilute));
+  CHECK(Askew{.least_bytes = 100.0 * grains}.pays(dilute));
   CHECK_FALSE(Askew::never().pays(dense));
 }
 
@@ -223,7 +228,8 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
   Dice dice(83);
   throw_grains(start, 200,
                {.left = 0.0, .right = 12e-3, .low = 100e-3, .high = 125e-3, .speed = 3.0}, dice);
-  constexpr Askew tiny_slices{.slice = 600.0, .steps = 8, .least = 0.0, .contacts = 0.0};
+  constexpr Askew tiny_slices{
+      .bytes_of_slice = 600.0, .steps = 8, .least_bytes = 0.0, .contacts_per_grain = 0.0};
   REQUIRE(tiny_slices.slices_per_thread(start, 1, false) > 25);
   REQUIRE(steps_ready(start, tiny_slices.slices_per_thread(start, 1, false)) == 1);
   const State expected = advanced(start, paper_model(), 500, 1, Stepping::plain);
@@ -234,7 +240,8 @@ TEST_CASE("slices without neighbours in time go together with the same bits") {
 }
 
 TEST_CASE("flights go askew while they have contacts enough") {
-  constexpr Askew with_contacts{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = 0.1};
+  constexpr Askew with_contacts{
+      .bytes_of_slice = 4e3, .steps = 8, .least_bytes = 0.0, .contacts_per_grain = 0.1};
   CHECK_FALSE(with_contacts.flights_gain(39, 400, false));
   CHECK(with_contacts.flights_gain(40, 400, false));
   CHECK(with_contacts.flights_gain(24, 400, true));  // with somewhat fewer, if they do already
@@ -246,7 +253,8 @@ TEST_CASE("flights stop, at a whole step, where their contacts become many or fe
   const int threads = GENERATE(1, 2);
   const ContactModel model = paper_model();
   const auto stopped_at = [&](State& state, double contacts, std::size_t slices) {
-    const Askew how{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = contacts};
+    const Askew how{
+        .bytes_of_slice = 4e3, .steps = 8, .least_bytes = 0.0, .contacts_per_grain = contacts};
     Stepper stepper(state, model,
                     {.by_flights = true, .threads = threads, .slices_per_thread = slices}, how);
     stepper.advance(steps);
@@ -273,7 +281,8 @@ TEST_CASE("flights stop, at a whole step, where their contacts become many or fe
 
 TEST_CASE("a long advance by flights that now go askew and now do not comes to the same bits") {
   const int threads = GENERATE(1, 3);
-  const Askew how{.slice = 4e3, .steps = 8, .least = 0.0, .contacts = 4.0 / 400.0};
+  const Askew how{
+      .bytes_of_slice = 4e3, .steps = 8, .least_bytes = 0.0, .contacts_per_grain = 4.0 / 400.0};
   CHECK(same(askew(long_tube(0.1), paper_model(), 6000, threads, how, Stepping::windows),
              advanced(long_tube(0.1), paper_model(), 6000, 1, Stepping::plain)));
 }
@@ -308,8 +317,9 @@ TEST_CASE("calls that end at any step, and any lead, give the same bits") {
   const State expected = advanced(start, paper_model(), 300, 1, Stepping::plain);
   const std::int64_t lead = GENERATE(2, 3, 16);
   const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
-  Simulation simulation(start, paper_model(), 2, stepping,
-                        {.slice = 4e3, .steps = lead, .least = 0.0, .contacts = 0.0});
+  Simulation simulation(
+      start, paper_model(), 2, stepping,
+      {.bytes_of_slice = 4e3, .steps = lead, .least_bytes = 0.0, .contacts_per_grain = 0.0});
   for (const std::int64_t steps : {1, 2, 7, 8, 9, 23, 50, 200}) simulation.advance(steps);
   CHECK(same(simulation.state(), expected));
 }

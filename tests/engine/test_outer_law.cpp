@@ -4,6 +4,10 @@
 #include "tests/engine/same_states.hpp"
 #include "tests/engine/systems.hpp"
 
+#include <cmath>
+#include <stdexcept>
+#include <variant>
+
 using namespace systems;
 using same_states::same;
 
@@ -20,7 +24,39 @@ void check_functions(const Law& law) {
   CHECK(outer.elastic_line().exponent == law.elastic_line().exponent);
 }
 
+/// As a law that looks its forces up in a table might: it may be asked for real overlaps only.
+struct StrictLaw {
+  LinearLaw law;
+
+  static void demand(bool sound) {
+    if (!sound) throw std::logic_error("a law is asked for a contact that is none");
+  }
+  double elastic(double xi) const {
+    demand(xi > 0.0);
+    return law.elastic(xi);
+  }
+  double damping(double xi, double rate, double m_red) const {
+    demand(xi > 0.0 && std::isfinite(rate) && m_red > 0.0);
+    return law.damping(xi, rate, m_red);
+  }
+  double stored_energy(double xi) const {
+    demand(xi > 0.0);
+    return law.stored_energy(xi);
+  }
+  ElasticLine elastic_line() const { return law.elastic_line(); }
+};
+
 }  // namespace
+
+TEST_CASE("a law from outside is called for bodies that touch, and for no others") {
+  const Stepping stepping = GENERATE(Stepping::plain, Stepping::windows);
+  ContactModel inside = paper_model(), outside = paper_model();
+  outside.normal = OuterLaw(StrictLaw{std::get<LinearLaw>(inside.normal)});
+  const State start = small_tube(31);
+  const State end = advanced(start, inside, 600, 1, stepping);
+  CHECK(end.tally.grains.ended > 20);
+  CHECK(same(advanced(start, outside, 600, 1, stepping), end));
+}
 
 TEST_CASE("a law from outside has the functions of its type") {
   check_functions(LinearLaw{2000.0, 1e4});

@@ -213,7 +213,7 @@ TEST_CASE("no grain wanders farther than the candidates tell") {
   State state = start;
   Stepper stepper(state, model, {.by_flights = flights, .threads = 1, .slices_per_thread = 1},
                   Askew{});
-  stepper.start_from(state, drift);
+  stepper.start_over(drift);
   stepper.advance(steps);
   const Fixed way = wrapped_sum(wrapped_product(steps, drift),
                                 wrapped_product(sum_of_steps(0, steps), fall_per_step(start).y));

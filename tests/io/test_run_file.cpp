@@ -281,12 +281,13 @@ TEST_CASE("A run file holds the last profiles across the tube") {
                       .unit = "kg/m^2",
                       .meaning = "Mass per area.",
                       .zones = {{.value = 1.0, .error = 0.1}, {.value = 2.0, .error = 0.2}}};
-  file.write_profiles(strips, {profile}, 0.0);
+  file.write_profiles(strips, {profile}, {.since = 0.0, .state = SteadyVerdict::too_short});
   profile.zones[1].error = std::nan("");
-  file.write_profiles(strips, {profile}, 0.25);
+  file.write_profiles(strips, {profile}, {.since = 0.25, .state = SteadyVerdict::steady});
   file.flush();
   const auto group = Hdf5File::open(path).root().group("profiles");
   CHECK(group.attribute<double>("since") == 0.25);
+  CHECK(group.text_attribute("state") == "steady");
   CHECK(read<double>(group, "x") == std::vector{0.5e-3, 1.5e-3});
   CHECK(read<double>(group, "density") == std::vector{1.0, 2.0});
   CHECK(group.data("density").text_attribute("unit") == "kg/m^2");
@@ -307,11 +308,13 @@ TEST_CASE("A run file holds the last histograms, with rates and their errors") {
       .lower_edges = {1.0, 2.0},
       .counts = {3, 40},
       .rates = {{.value = 0.5, .error = 0.1}, {.value = 7.0, .error = std::nan("")}}};
-  file.write_histograms({}, 0.0);
-  file.write_histograms({table}, 0.25);  // replaces
+  file.write_histograms({}, {.since = 0.0, .state = SteadyVerdict::too_short});
+  file.write_histograms({table},
+                        {.since = 0.25, .state = SteadyVerdict::accelerating});  // replaces
   file.flush();
   const auto all = Hdf5File::open(path).root().group("histograms");
   CHECK(all.attribute<double>("since") == 0.25);
+  CHECK(all.text_attribute("state") == "accelerating");
   const auto group = all.group("fall_duration");
   CHECK(group.text_attribute("doc") == "How long falls last.");
   CHECK(group.data("lower_edge").text_attribute("unit") == "s");

@@ -38,14 +38,16 @@ std::vector<HistogramTable> histograms() {
        .rates = {{.value = 0.5, .error = 0.1}, {.value = std::nan(""), .error = std::nan("")}}});
 }
 
+const Window window{.since = 0.1, .state = SteadyVerdict::steady};
+
 RunFile write_run(const fs::path& path, const State& state) {
   auto file = RunFile::create(
       path, {{"date", "today"}, {"command", "riesel run"}, {"settings", "a: 1"}, {"run", "1f"}},
       columns);
   for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0 / (i + 1)});
   file.write_final_state(state);
-  file.write_profiles(strips, profiles(), 0.1);
-  file.write_histograms(histograms(), 0.1);
+  file.write_profiles(strips, profiles(), window);
+  file.write_histograms(histograms(), window);
   file.flush();
   return file;
 }
@@ -113,8 +115,8 @@ TEST_CASE("Each resume of a run is told of") {
   for (const std::string day : {"tomorrow", "later"}) {
     auto file = RunFile::reopen(path, {{"date", day}, {"run", "1f"}}, columns, 3);
     file.write_final_state(special_state());
-    file.write_profiles(strips, profiles(), 0.1);
-    file.write_histograms(histograms(), 0.1);
+    file.write_profiles(strips, profiles(), window);
+    file.write_histograms(histograms(), window);
     file.flush();
   }
   const auto run = read_run_file(path);
@@ -162,7 +164,7 @@ TEST_CASE("Histograms that cannot be are refused") {
     auto file = write_run(directory / name, special_state());
     auto spoilt = histograms();
     spoil(spoilt[2]);
-    file.write_histograms(spoilt, 0.1);
+    file.write_histograms(spoilt, window);
     file.flush();
     return complaint(directory / name).find("grain_contact_overlap has impossible bins")
            != std::string::npos;

@@ -246,6 +246,14 @@ TEST_CASE("a base that is a path is relative to the sweep file") {
   CHECK(expand(sweep, sweep_tables()).at(0).name == name(""));
 }
 
+TEST_CASE("the points of a chain count, there and back") {
+  const std::string chain = "axes: {gravity: {from: 1, to: 2, points: 5001}}\n";
+  const std::string too_many = "s.yaml:1:1: axes: the sweep has more than 10000 points";
+  CHECK(error_of(chain + "continue_along: gravity\n").starts_with(too_many));
+  CHECK(error_of(chain + "seeds: 2\n").starts_with(too_many));
+  CHECK(points(chain).size() == 5001);
+}
+
 TEST_CASE("what cannot be a sweep is refused with its place") {
   CHECK(error_of("axes: {tube.width: [1 m, 1 kg]}\n").starts_with("s.yaml:2:26: tube.width: "));
   CHECK(error_of("axes: {gravity: [-1, 1]}\nbranches: {a: {tube.width: x}}\n")

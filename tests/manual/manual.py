@@ -12,8 +12,8 @@ COMMAND = pathlib.Path(os.environ["RIESEL"]).resolve()
 BUILD = COMMAND.parents[1]
 PATIENCE = 250.0  # s
 
-PROGRAM = re.compile(r"(\w+=\S+ )*(riesel|cmake|cpack|ctest|export|for (?=\w+ in )\w+|mkdir|python3|seq|timeout|valgrind|"
-                     r"(\./|build/|docs/|tests/|bench/)\S+) ")
+PROGRAM = re.compile(r"(\w+=\S+ )*(riesel|cmake|cpack|ctest|\(?cd|eval|export|for (?=\w+ in )\w+|mkdir|python3|seq|source|"
+                     r"timeout|valgrind|(/usr/bin/|\./|build/|docs/|tests/|bench/)\S+) ")
 
 
 def shown_files(text):

@@ -1,4 +1,4 @@
-"""Every command of the README and of the manual is run: as it stands, or in a shorter form."""
+"""The commands in the indented lines of the README and of the manual are run: as they stand, or in a shorter form."""
 
 import re
 
@@ -32,32 +32,45 @@ SHORTER = [
     (r"bench/compare\.py A\.json B\.json (.*)", rf"bench/compare.py {KEPT} {KEPT} \1"),
     (r"bench/goals\.py FILE\.json\.\.\.", f"bench/goals.py {KEPT}"),
     (r"bench/peers/run\.py", "/usr/bin/python3 bench/peers/run.py --help"),
-    (r"RIESEL_KILLS=\w+ (python3 -m unittest -v test_faults)", "test -f tests/reliability/test_faults.py"),
+    (r"RIESEL_KILLS=\w+ /usr/bin/python3 -m unittest -v test_faults", "test -f tests/reliability/test_faults.py"),
+    (r"RIESEL_JOURNEYS=.* /usr/bin/python3 -m unittest test_journeys", "test -f tests/cli/test_journeys.py"),
     (r"(build/ci/tests/reliability/every_bit).*", r"\1 9973"),
     (r"mkdir .* build/fuzz/tests/fuzz/fuzz_yaml -dict=(\S+) .* (tests/fuzz/corpus/yaml)", r"test -f \1 -a -d \2"),
     (r"(build/ci/tests/properties set-ups) .*", r"\1 1001 2"),
     (r"tests/mutation/mutate\.py.*", "tests/mutation/mutate.py --help"),
     (r"valgrind .* (build/ci/app/riesel) run .*", r"test -x \1"),
-    (r"(tests/reliability/soak\.py).*", r"/usr/bin/python3 \1 --help"),
+    (r"OMP_WAIT_POLICY=passive (/usr/bin/python3 tests/reliability/soak\.py) .*", r"\1 --help"),
+    (r"cd build/ci && RIESEL_SLURM=1 ctest -V -R cli/(\w+)", r"test -f tests/cli/\1.py"),
+    (r"\(cd build/release && cpack\)", "test -f build/release/CPackConfig.cmake"),
+    (r"source <\((riesel completion zsh)\)", r"\1"),  # of another shell
 ]
 
 
 def short_form(command):
-    for stands, runs in SHORTER:
-        if match := re.fullmatch(stands, command):
-            return match.expand(runs)
-    return command
+    """And the rule that makes it; None for a command as it stands."""
+    for rule in SHORTER:
+        if match := re.fullmatch(rule[0], command):
+            return match.expand(rule[1]), rule
+    return command, None
+
+
+def pages():
+    return [page for page in sorted((HOME / "docs").glob("*.md")) if page.name not in OWN_TESTS]
 
 
 class Commands(ManualTest):
     def check(self, page):
         text = page.read_text()
         self.put_files(text)
-        return len([self.execute(short_form(command)) for command, _ in commands(text)])
+        return len([self.execute(short_form(command)[0]) for command, _ in commands(text)])
 
     def test_readme(self):
         self.assertGreater(self.check(HOME / "README.md"), 5)
 
     def test_the_pages_of_the_manual(self):
-        pages = [page for page in sorted((HOME / "docs").glob("*.md")) if page.name not in OWN_TESTS]
-        self.assertGreater(sum(self.check(page) for page in pages), 30)
+        self.assertGreater(sum(self.check(page) for page in pages()), 30)
+
+    def test_each_shorter_form_is_that_of_a_command(self):
+        used = [short_form(command)[1] for page in [HOME / "README.md", *pages()]
+                for command, _ in commands(page.read_text())]
+        self.assertEqual([rule for rule in SHORTER if rule not in used], [])

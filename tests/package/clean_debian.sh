@@ -6,7 +6,7 @@
 set -euo pipefail
 
 if (($# == 0)) || [[ "$1" == --help ]]; then
-  sed -n 's/^# \{0,1\}//; 2,6p' "$0"
+  sed -n 's/^# \{0,1\}//; 2,5p' "$0"
   exit 2
 fi
 if ((EUID != 0)); then

@@ -38,16 +38,19 @@ struct Errors {
 
 /// For about this many steps per collision: never a whole number, for which begin and end would
 /// have the same phase and their errors cancel.
-Errors errors(double mass_2, double gamma, double steps_per_collision) {
+Errors errors(double mass_2, double gamma, double steps_per_collision,
+              Attraction attraction = Attraction::keep) {
   const double v = 1.0;
   HeadOn h{.mass_1 = mass, .mass_2 = mass_2, .speed = v, .dt = 0.0};
-  const LinearContact contact{stiffness, gamma, h.reduced_mass()};
+  const LinearContact contact{stiffness, gamma, h.reduced_mass(), attraction};
+  ContactModel model = frictionless(gamma);
+  model.attraction = attraction;
   constexpr int phases = 32;
   Errors sum;
   for (int i = 0; i < phases; ++i) {
     h.phase = (i + 0.5) / phases;
     h.dt = contact.collision_time() / (steps_per_collision + std::fmod(std::numbers::phi * i, 1.0));
-    const Rebound r = head_on(h, frictionless(gamma));
+    const Rebound r = head_on(h, model);
     const double e = r.restitution / contact.restitution() - 1.0;
     const double t = r.contact_time / contact.collision_time() - 1.0;
     const double xi = r.max_overlap / max_overlap(contact, v) - 1.0;
@@ -92,11 +95,12 @@ TEST_CASE("no phase of the contact's begin costs more than one step of damping")
 TEST_CASE("head-on collisions converge at second order in the time step") {
   const double partner = GENERATE(as<double>{}, wall, 1e-6, 3e-6);
   const double gamma = GENERATE(0.0, 1e4);
-  CAPTURE(partner, gamma);
+  const Attraction attraction = GENERATE(Attraction::keep, Attraction::clip);
+  CAPTURE(partner, gamma, attraction == Attraction::clip);
   std::array<double, 5> restitution{}, time{}, overlap{};
   double steps = 25.0;
   for (std::size_t i = 0; i < 5; ++i, steps *= 2.0) {
-    const Errors e = errors(partner, gamma, steps);
+    const Errors e = errors(partner, gamma, steps, attraction);
     restitution[i] = gamma > 0.0 ? std::abs(e.mean_restitution) : e.worst_restitution;
     time[i] = e.worst_time;
     overlap[i] = e.worst_overlap;

@@ -32,9 +32,10 @@ struct Leg {
     static constexpr std::array names{"plain", "windows", "automatic"};
     return std::string(names.at(static_cast<std::size_t>(stepping))) + " x "
            + std::to_string(threads)
-           + (askew.least == 0.0 ? ", askew by " + std::to_string(askew.steps) + " in slices of "
-                                       + std::to_string(std::llround(askew.slice)) + " bytes"
-                                 : "")
+           + (askew.least_bytes == 0.0
+                  ? ", askew by " + std::to_string(askew.steps) + " in slices of "
+                        + std::to_string(std::llround(askew.bytes_of_slice)) + " bytes"
+                  : "")
            + (sharing == Sharing::apart ? ", apart" : "") + (shuffle ? ", shuffled" : "")
            + (observe ? ", observed" : "") + (profile ? ", profiled" : "")
            + (through_file ? ", through a file" : "") + ", " + std::to_string(steps) + " steps";
@@ -53,13 +54,13 @@ Leg random_leg(Dice& dice, std::int64_t left) {
   leg.profile = dice.below(4) == 0;
   leg.through_file = dice.below(6) == 0;
   if (dice.below(2) == 0)
-    leg.askew = {.slice = 200.0 * static_cast<double>(1 + dice.below(60)),
+    leg.askew = {.bytes_of_slice = 200.0 * static_cast<double>(1 + dice.below(60)),
                  .steps = 2 + dice.below(10),
-                 .least = 0.0,
-                 .contacts = 0.0};
+                 .least_bytes = 0.0,
+                 .contacts_per_grain = 0.0};
   // Without slices that go askew most teams are apart.
   leg.sharing = dice.below(4) == 0 ? Sharing::together : Sharing::automatic;
-  if (leg.askew.least > 0.0 && dice.below(2) == 0) leg.sharing = Sharing::apart;
+  if (leg.askew.least_bytes > 0.0 && dice.below(2) == 0) leg.sharing = Sharing::apart;
   leg.steps = dice.below(3) == 0 ? left : 1 + dice.below(left);
   return leg;
 }

@@ -11,7 +11,7 @@ from riesel_command import COMMAND, DONE, SHIPPED, CommandTest
 
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/python.md"
 # Numbers are those of one machine type; where a line ends in "...", the rest may be anything.
-OPTIONS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL | doctest.NORMALIZE_WHITESPACE
+OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
 def blocks(page, language):

@@ -51,9 +51,10 @@ class Flow(CommandTest):
         self.assertEqual(len(summary), len(flat))
         self.assertEqual(summary["balance.errors"]["n_dot"], flat["balance.errors.n_dot"])
 
-    def test_an_unknown_name_is_a_key_error(self):
-        for name in ("grain", "balance.x", "grains.x"):
-            with self.assertRaises(KeyError):
+    def test_an_unknown_name_is_a_key_error_with_those_like_it(self):
+        for name, meant in (("grain", "grains"), ("balance.x", "balance.n_dot"), ("grains.x", "grains"),
+                            ("mean_velocity", "mean_axial_velocity.value")):
+            with self.assertRaisesRegex(KeyError, f"{name}: there is no such value; there is .*{meant}"):
                 self.run_of_it.summary[name]
 
     def test_estimates_have_errors_and_unknown_ones_are_not_a_number(self):
@@ -75,6 +76,12 @@ class Flow(CommandTest):
     def test_an_estimate_of_what_has_no_error_is_a_key_error(self):
         for name in ("grains", "state", "balance", "balance.gravity", "balance.x", "x"):
             with self.assertRaisesRegex(KeyError, f"{name}: .*no such value with an error"):
+                self.run_of_it.estimate(name)
+        for name in ("mean_velocity", "mean_axial_velocity.value"):
+            with self.assertRaisesRegex(KeyError, "there is mean_axial_velocity'"):
+                self.run_of_it.estimate(name)
+        for name in ("balance.ndot", "balance.n_dot_dvy"):
+            with self.assertRaisesRegex(KeyError, "there is .*balance.n_dot"):
                 self.run_of_it.estimate(name)
 
     def test_settings_are_the_effective_ones_in_si_units(self):

@@ -44,18 +44,14 @@ inline io::Settings read(const std::string& yaml, const Overrides& overrides = {
   return io::Settings::from_text(yaml, "test.yaml", scenarios::settings_tables(), overrides);
 }
 
-inline scenarios::Problem problem(const io::Settings& settings) {
-  return scenarios::named(settings.scenario()).prepare(settings);
-}
-
 inline scenarios::Flow flow(const std::string& yaml, const Overrides& overrides = {}) {
-  return std::get<scenarios::Flow>(problem(read(yaml, overrides)));
+  return std::get<scenarios::Flow>(scenarios::problem_of(read(yaml, overrides)));
 }
 
 inline scenarios::Flow tube(const Overrides& overrides = {}) { return flow(tube_yaml, overrides); }
 
 inline scenarios::ImpactCurve curve(const std::string& yaml, const Overrides& overrides = {}) {
-  return std::get<scenarios::ImpactCurve>(problem(read(yaml, overrides)));
+  return std::get<scenarios::ImpactCurve>(scenarios::problem_of(read(yaml, overrides)));
 }
 
 inline std::vector<Grain> grains_of(const State& state) {
@@ -69,7 +65,7 @@ inline std::vector<Grain> grains_of(const State& state) {
 /// What the user is told about settings that cannot be; "accepted" if they can.
 inline std::string complaint(const std::string& yaml, const Overrides& overrides = {}) {
   try {
-    (void)problem(read(yaml, overrides));
+    (void)scenarios::problem_of(read(yaml, overrides));
   } catch (const io::SettingsError& error) {
     return error.what();
   }

@@ -13,7 +13,7 @@ contact: {stiffness: 2000 N/m, damping: 1e4 1/s}
 )";
 
 scenarios::ColumnCurve column(const Overrides& overrides = {}) {
-  return std::get<scenarios::ColumnCurve>(problem(read(column_yaml, overrides)));
+  return std::get<scenarios::ColumnCurve>(scenarios::problem_of(read(column_yaml, overrides)));
 }
 
 }  // namespace

@@ -196,6 +196,28 @@ TEST_CASE("A continued start is refused where the earlier run does not fit") {
   check_mentions(complaint(yaml, {"start.kind=continued"}), {"start.from", "is missing"});
 }
 
+TEST_CASE("The table of sizes of a run that is continued counts by its content") {
+  const ScratchDirectory directory;
+  const auto table = [&](const char* name, const char* second) {
+    const auto path = directory / name;
+    io::write_durably(path,
+                      std::string("diameter (mm),number fraction\n0.9,0.5\n") + second + ",0.5\n");
+    return "grains.sizes_from=" + path.string();
+  };
+  const auto from_table = [](const std::string& sizes) {
+    return Overrides{"grains.size_distribution=file", sizes};
+  };
+  const std::string first = table("first.csv", "1.1");
+  const EarlierRun earlier(from_table(first));
+  const std::string continued = continued_yaml(earlier.directory());
+  CHECK(complaint(continued, from_table(first)) == "accepted");
+  CHECK(complaint(continued, from_table(table("copy.csv", "1.1"))) == "accepted");
+  check_mentions(complaint(continued, from_table(table("other.csv", "1.2"))),
+                 {"grains.sizes_from", "make both equal"});
+  std::filesystem::remove(directory / "first.csv");
+  CHECK(complaint(continued, from_table(table("again.csv", "1.1"))) == "accepted");
+}
+
 TEST_CASE("A continued start is refused if its overlaps would release more than there was") {
   const EarlierRun earlier;
   const std::string continued = continued_yaml(earlier.directory());

@@ -101,9 +101,9 @@ void check_comes_back(const io::Settings& settings) {
   CHECK(again.effective_yaml() == effective);
   std::visit(
       [&](const auto& first) {
-        check_same(first, std::get<std::decay_t<decltype(first)>>(problem(again)));
+        check_same(first, std::get<std::decay_t<decltype(first)>>(scenarios::problem_of(again)));
       },
-      problem(settings));
+      scenarios::problem_of(settings));
 }
 
 }  // namespace
