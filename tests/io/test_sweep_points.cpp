@@ -247,7 +247,7 @@ TEST_CASE("a base that is a path is relative to the sweep file") {
 }
 
 TEST_CASE("the points of a chain count, there and back") {
-  const std::string chain = "axes: {gravity: {from: 1, to: 2, points: 5001}}\n";
+  const std::string chain = "axes: {gravity: {from: 1, to: 2, points: 5001, spacing: linear}}\n";
   const std::string too_many = "s.yaml:1:1: axes: the sweep has more than 10000 points";
   CHECK(error_of(chain + "continue_along: gravity\n").starts_with(too_many));
   CHECK(error_of(chain + "seeds: 2\n").starts_with(too_many));

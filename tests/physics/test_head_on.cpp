@@ -22,8 +22,9 @@ namespace {
 
 constexpr double wall = std::numeric_limits<double>::infinity();  // mass of a wall grain
 
-/// xi_max of eq. (1), where d(xi)/dt = 0 for the first time.
-double max_overlap(const LinearContact& c, double v) {
+/// xi_max of eq. (1), where d(xi)/dt = 0 for the first time: before any attraction.
+double max_overlap(LinearContact c, double v) {
+  c.attraction = Attraction::keep;
   const double omega = pi / c.collision_time();
   const double t = std::atan2(omega, 0.5 * c.gamma_n) / omega;
   return v / omega * std::exp(-0.5 * c.gamma_n * t) * std::sin(omega * t);
@@ -121,9 +122,9 @@ TEST_CASE("an elastic collision conserves energy, and at random phases without b
 }
 
 TEST_CASE("head-on collisions of all laws are those of the reference") {
-  // Steps of t / 2000. What is left is of second order for eq. (1): 5e-7; of order 3/2 for
-  // Hertz-Kuwabara-Kono, whose damping begins as a square root: 1e-5; and where a clipped force
-  // jumps: gamma dt ~ 4e-4 at worst.
+  // Steps of t / 2000. What is left is of second order for eq. (1): 2e-6 at most; and of order 3/2
+  // for Hertz-Kuwabara-Kono, whose damping begins as a square root: 1e-5.
+  constexpr double tolerance = 2e-5;
   for (const reference::Row& row : reference::table("head_on")) {
     const bool linear = row.text("law") == "linear", clip = row.text("attraction") == "clip";
     const double k = row("k"), gamma = row("gamma");
@@ -137,10 +138,9 @@ TEST_CASE("head-on collisions of all laws are those of the reference") {
                                .dt = row("contact_time") / 2000.0,
                                .phase = 0.5},
                               model);
-    const double tolerance = clip ? 4e-4 : 2e-5;
     CHECK(std::abs(r.restitution / row("restitution") - 1.0) < tolerance);
     CHECK(std::abs(r.contact_time / row("contact_time") - 1.0) < tolerance);
-    CHECK(std::abs(r.max_overlap / row("max_overlap") - 1.0) < 2e-5);
+    CHECK(std::abs(r.max_overlap / row("max_overlap") - 1.0) < tolerance);
   }
 }
 

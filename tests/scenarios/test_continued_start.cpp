@@ -200,8 +200,7 @@ TEST_CASE("The table of sizes of a run that is continued counts by its content")
   const ScratchDirectory directory;
   const auto table = [&](const char* name, const char* second) {
     const auto path = directory / name;
-    io::write_durably(path,
-                      std::string("diameter (mm),number fraction\n0.9,0.5\n") + second + ",0.5\n");
+    io::write_durably(path, std::string("diameter (mm)\n0.9\n") + second + "\n");
     return "grains.sizes_from=" + path.string();
   };
   const auto from_table = [](const std::string& sizes) {
