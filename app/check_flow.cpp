@@ -150,9 +150,9 @@ void warn_of_low_chute(const State& state) {
 }
 
 /// For grains of mean mass, as in the summary of a run; overlaps over the radius of the smallest,
-/// as in its verdict. `random`: m/s, root mean square of
-/// the random velocities at the start, per component; `mean_vx`: m/s, which all grains share, so
-/// that it counts in collisions with walls only.
+/// as in its verdict. `random`: m/s, root mean square of the random velocities at the start, per
+/// component; `mean_vx`: m/s, which all grains share, so that it counts in collisions with walls
+/// only.
 void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, double random,
                     double mean_vx) {
   const State& state = flow.state;

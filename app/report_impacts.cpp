@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <utility>
 
 namespace riesel::app {
@@ -12,8 +13,9 @@ namespace riesel::app {
 namespace {
 
 void tell_result(const io::CurveSummary& summary, io::HtmlPage& page) {
+  const auto points = static_cast<std::int64_t>(summary.curve.size());
   page.paragraph(
-      fmt::format("{} points, each the mean over its starting places.", summary.curve.size()));
+      fmt::format("{}, each the mean over its starting places.", so_many(points, "point")));
   page.paragraph("Validity of the points: " + count_of_verdicts(summary) + ".",
                  class_of(worst_of(summary.curve)));
   for (const CurveReason& reason : reasons_of(summary)) {

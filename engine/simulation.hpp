@@ -67,6 +67,7 @@ public:
   const Profile& profile() const { return profile_; }
 
 private:
+  /// What has been built for a Way: a Stepper of this manner, or Parts of so many threads.
   struct Preparation {
     Stepper::Manner manner;
     bool apart;

@@ -20,7 +20,7 @@ class Flights;
 
 class Stepper {
 public:
-  /// How steps are done; constant for a Stepper.
+  /// How one Stepper does all its steps.
   struct Manner {
     bool by_flights;
     int threads;

@@ -18,7 +18,7 @@
 
 namespace riesel {
 
-/// How steps are done.
+/// What the choice is between.
 struct Way {
   bool by_flights;
   int threads;

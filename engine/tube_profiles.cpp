@@ -37,28 +37,28 @@ public:
   double mean(StripSum sum) const { return mean_of(means(sum)); }
   double mean(StripSum sum, std::size_t strip) const { return mean_of(means(sum, strip)); }
 
-  /// A sum with this value; its error is that of its linear part, which `parts` describe.
-  Estimate sum(double value, std::span<const LinearTerm> parts) const {
-    return {value, mean_with_error(linear(parts)).error};
+  /// A sum with this value; its error is that of its linear part, which `terms` describe.
+  Estimate sum(double value, std::span<const LinearTerm> terms) const {
+    return {value, mean_with_error(linear(terms)).error};
   }
-  Estimate sum(double value, std::initializer_list<LinearTerm> parts) const {
-    return sum(value, std::span(parts));
+  Estimate sum(double value, std::initializer_list<LinearTerm> terms) const {
+    return sum(value, std::span(terms));
   }
   /// The same for a mean over the grains of the zone.
-  Estimate mean_over_grains(double value, std::span<const LinearTerm> parts) const {
-    return {value, error_per_weight(linear(parts), means(StripSum::grains))};
+  Estimate mean_over_grains(double value, std::span<const LinearTerm> terms) const {
+    return {value, error_per_weight(linear(terms), means(StripSum::grains))};
   }
-  Estimate mean_over_grains(double value, std::initializer_list<LinearTerm> parts) const {
-    return mean_over_grains(value, std::span(parts));
+  Estimate mean_over_grains(double value, std::initializer_list<LinearTerm> terms) const {
+    return mean_over_grains(value, std::span(terms));
   }
 
 private:
-  std::vector<double> linear(std::span<const LinearTerm> parts) const {
+  std::vector<double> linear(std::span<const LinearTerm> terms) const {
     std::vector<double> total(size_, 0.0);
-    for (const LinearTerm& part : parts) {
+    for (const LinearTerm& term : terms) {
       const std::vector<double> of_blocks =
-          part.strip ? means(part.sum, *part.strip) : means(part.sum);
-      for (std::size_t i = 0; i < size_; ++i) total[i] += part.derivative * of_blocks[i];
+          term.strip ? means(term.sum, *term.strip) : means(term.sum);
+      for (std::size_t i = 0; i < size_; ++i) total[i] += term.derivative * of_blocks[i];
     }
     return total;
   }
@@ -111,7 +111,7 @@ constexpr Moments of_mass{StripSum::mass, StripSum::mass_w, StripSum::mass_w2};
 /// derivatives.
 struct RandomPart {
   double sum = 0.0;
-  std::vector<LinearTerm> parts;
+  std::vector<LinearTerm> terms;
 };
 
 RandomPart random_part(const ZoneBlocks& b, const Moments& moments) {
@@ -120,9 +120,9 @@ RandomPart random_part(const ZoneBlocks& b, const Moments& moments) {
     const double weight = b.mean(moments.zeroth, strip);
     const double mean = weight > 0.0 ? b.mean(moments.first, strip) / weight : 0.0;
     random.sum += b.mean(moments.second, strip) - weight * mean * mean;
-    random.parts.push_back({moments.second, 1.0, strip});
-    random.parts.push_back({moments.first, -2.0 * mean, strip});
-    random.parts.push_back({moments.zeroth, mean * mean, strip});
+    random.terms.push_back({moments.second, 1.0, strip});
+    random.terms.push_back({moments.first, -2.0 * mean, strip});
+    random.terms.push_back({moments.zeroth, mean * mean, strip});
   }
   return random;
 }
@@ -133,9 +133,9 @@ Estimate variance_of_w(const ZoneBlocks& b) {
   if (grains == 0.0) return not_known;
   RandomPart random = random_part(b, of_grains);
   const double variance = random.sum / grains;
-  random.parts.push_back({StripSum::grains, -variance});
-  for (LinearTerm& part : random.parts) part.derivative /= grains;
-  return b.mean_over_grains(variance, random.parts);
+  random.terms.push_back({StripSum::grains, -variance});
+  for (LinearTerm& term : random.terms) term.derivative /= grains;
+  return b.mean_over_grains(variance, random.terms);
 }
 
 /// The kinetic stress along the tube, with that of the contacts if asked for.
@@ -143,9 +143,9 @@ Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
   RandomPart random = random_part(b, of_mass);
   const double contact = with_contacts ? 1.0 : 0.0;
   const double sum = random.sum + contact * b.mean(StripSum::contact_yy);
-  random.parts.push_back({StripSum::contact_yy, contact});
-  for (LinearTerm& part : random.parts) part.derivative /= area;
-  return b.sum(sum / area, random.parts);
+  random.terms.push_back({StripSum::contact_yy, contact});
+  for (LinearTerm& term : random.terms) term.derivative /= area;
+  return b.sum(sum / area, random.terms);
 }
 
 struct Quantity {

@@ -132,6 +132,16 @@ class Check(CommandTest):
         stiffer = softer.replace("0.2 kN/m", f"{0.2 * 1.05 * factor} kN/m")
         self.assertNotIn("overlaps over", self.check(stiffer))
 
+    def test_overlaps_are_relative_to_the_smallest_grain(self):
+        settings = MILD_TUBE.replace("{area_fraction: 0.3, polydispersity: 0}", "{}") + (
+            "start: {kind: file, from: grains.csv}\nwall: {surface: smooth}\n")
+        ratios = []
+        for diameters in ((1.0, 1.0), (0.5, 1.5)):
+            self.write("grains.csv", "x (mm),y (mm),vx (m/s),vy (m/s),diameter (mm),mass (mg)\n"
+                                     "3,3,1,0,%g,1\n7,7,-1,0,%g,1\n" % diameters)
+            ratios.append(plain_number(self.check(settings), r"overlap +up to (\S+) of the radius of the smallest body"))
+        self.assertAlmostEqual(ratios[1] / ratios[0], 2.0, delta=0.05)
+
     def test_of_more_rows_than_anybody_reads(self):
         """And with the interval that the warning tells there is none."""
         many = ["--set", "run.duration=10 s", "--set", "output.interval=2 us"]

@@ -146,11 +146,13 @@ class Tasks(SweepTest):
     @unittest.skipIf(shutil.which("parallel") is None, "there is no GNU parallel")
     def test_gnu_parallel(self):
         self.prepare(GRID)
-        log = self.home / "jobs.log"
+        (self.home / "bin").mkdir()
+        (self.home / "bin/riesel").symlink_to(COMMAND)
         ran = subprocess.run(
-            f"seq 0 4 | parallel --jobs 2 --joblog {log} {COMMAND} sweep-task out {{}} --of 5 --threads 1",
-            shell=True, cwd=self.home, env={**os.environ, "HOME": str(self.home)}, check=False,
+            "seq 0 4 | parallel --jobs 2 --joblog jobs.log riesel sweep-task out {} --of 5 --threads 1",
+            shell=True, cwd=self.home, check=False,
+            env={**os.environ, "HOME": str(self.home), "PATH": f"{self.home / 'bin'}:{os.environ['PATH']}"},
             capture_output=True, text=True)
         self.assertEqual(ran.returncode, DONE, ran)
-        self.assertEqual(len(log.read_text(encoding="utf-8").splitlines()), 1 + 5)
+        self.assertEqual(len((self.home / "jobs.log").read_text(encoding="utf-8").splitlines()), 1 + 5)
         self.assert_same_as_local(GRID)

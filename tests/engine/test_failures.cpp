@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 using namespace systems;
@@ -54,6 +55,16 @@ TEST_CASE("a grain whose place or motion integers cannot hold is refused, not wr
   CHECK(kept.x == Approx(3.9 * width));
   CHECK(kept.vx == Approx(3.9 * width / dt));
   CHECK(kept.vy == Approx(0.49 * length / dt));
+
+  State rolling = two_grains();
+  rolling.grains = {};
+  rolling.grains.inertia = 0.5;
+  Grain spinning = grain(3e-3, 0.0, 0.0, 0.0);
+  spinning.spin = -1.01 * std::numbers::pi / dt;
+  CHECK_THROWS_AS(add_grain(rolling, spinning), std::invalid_argument);
+  spinning.spin *= 0.98;
+  add_grain(rolling, spinning);
+  CHECK(grain_at(rolling, 0).spin == Approx(spinning.spin));
 }
 
 TEST_CASE("a state whose invariants do not hold is refused") {

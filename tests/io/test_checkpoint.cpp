@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <random>
+#include <utility>
 
 using namespace riesel;
 using namespace riesel::io;
@@ -317,6 +318,8 @@ TEST_CASE("What no run can go on from does not replace a checkpoint") {
   CHECK(refusal([](auto& c) { c.state.walls.resize(3); }) == "there are 3 walls");
   CHECK(refusal([](auto& c) { c.state.walls[0].line = nan; })
         == "the line of wall 0 is not finite");
+  CHECK(refusal([](auto& c) { std::swap(c.state.walls[0].line, c.state.walls[1].line); })
+        == "wall 1 is to the left of the one before");
   CHECK(refusal([](auto& c) { c.state.walls[0].radius = 0.0; })
         == "wall 0 has 83 grains of radius 0");
   CHECK(refusal([](auto& c) { c.state.walls[0].count = 0; })
