@@ -27,6 +27,12 @@ using scenarios::ImpactCurve;
 using scenarios::Problem;
 using scenarios::problem_of;
 
+/// As problem_of(), but without a look at the run that a flow continues: within a chain that is not
+/// known yet.
+Problem prepared(const io::Settings& settings) {
+  return scenarios::named(settings.scenario()).prepare(settings);
+}
+
 /// The amount of work, in a unit that fits the kind of problem: particle-steps, impacts, or falling
 /// beads.
 double work_of(const io::Settings& settings, const Problem& problem) {
@@ -41,7 +47,7 @@ double work_of(const io::Settings& settings, const Problem& problem) {
 double seconds_per_work(const io::Settings& settings) {
   constexpr double seconds_to_measure = 0.05;
   constexpr std::size_t impacts_to_measure = 20, drops_to_measure = 2;
-  const Problem problem = scenarios::named(settings.scenario()).prepare(settings);
+  const Problem problem = prepared(settings);
   if (const auto* flow = std::get_if<Flow>(&problem))
     return 1.0 / measured_speed(settings, *flow, 1, seconds_to_measure);
   if (const auto* column = std::get_if<ColumnCurve>(&problem))
@@ -97,7 +103,7 @@ void estimate_seconds(std::vector<Cost*> costs) {
 /// Of a point that starts from its neighbour, whose state is not known yet, prepared as if it
 /// started like the first of its chain. Throws io::SettingsError.
 Problem continued_problem(const io::SweepPoint& point, const std::vector<double>& swings_before) {
-  Problem problem = scenarios::named(point.settings.scenario()).prepare(point.settings);
+  Problem problem = prepared(point.settings);
   scenarios::reject_other_swing_across(point.settings, swings_before,
                                        std::get<Flow>(problem).state);
   return problem;
