@@ -131,13 +131,7 @@ void sift(const Slice& slice, PairRange range, const State& state, std::int64_t 
     const std::size_t count = std::min(at_a_time, range.end - begin);
     run_vector_loop<SieveLoop>(&slice.pairs.first[begin], &slice.pairs.second[begin], count,
                                paths_of(state.grains), horizon, flags.data());
-    std::uint32_t* const room = may_touch.room_for(count);
-    std::size_t found = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      room[found] = static_cast<std::uint32_t>(begin + k);
-      found += static_cast<std::size_t>(flags[k]);
-    }
-    may_touch.take(found);
+    may_touch.take(list_flagged(flags.data(), count, begin, may_touch.room_for(count)));
   }
 }
 

@@ -53,19 +53,6 @@ private:
 /// For each pair of a block 1 if it is looked for, else 0.
 using Flags = std::array<std::uint8_t, block>;
 
-/// Writes the indices begin + p of the flagged pairs to `list`, which must have room for `count`;
-/// returns their number. Every index is written and overwritten by the next one unless its flag is
-/// set: no branch that could be mispredicted.
-[[gnu::always_inline]] inline std::size_t list_flagged(const Flags& flags, std::size_t count,
-                                                       std::size_t begin, std::uint32_t* list) {
-  std::size_t found = 0;
-  for (std::size_t p = 0; p < count; ++p) {
-    list[found] = static_cast<std::uint32_t>(begin + p);
-    found += flags[p];
-  }
-  return found;
-}
-
 RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const PackedPositions& positions,
                                      CoarseUnits units, Selection& hits) {
   alignas(cache_line) Flags may_overlap;
@@ -78,7 +65,7 @@ RIESEL_VECTOR_KERNEL void find_pairs(const CandidatePairs& pairs, const PackedPo
       const float reach2 = some.reach2[p];
       may_overlap[p] = some.squared_distance(p) < reach2;
     }
-    hits.take(list_flagged(may_overlap, some.count, begin, hits.room_for(block)));
+    hits.take(list_flagged(may_overlap.data(), some.count, begin, hits.room_for(block)));
   }
 }
 
@@ -98,7 +85,7 @@ RIESEL_VECTOR_KERNEL std::size_t list_near(const CandidatePairs& pairs,
       const float far2 = some.reach2[p] > 0.0F ? far * far * rounded : 0.0F;
       is_near[p] = some.squared_distance(p) < far2;
     }
-    found += list_flagged(is_near, some.count, begin, near + found);
+    found += list_flagged(is_near.data(), some.count, begin, near + found);
   }
   return found;
 }

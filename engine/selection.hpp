@@ -9,6 +9,19 @@
 
 namespace riesel {
 
+/// Writes first + k for each of the flags k that is 1, not 0, to `list`, which must have room for
+/// `count` items; returns how many these are.
+template <class Flag>
+[[gnu::always_inline]] inline std::size_t list_flagged(const Flag* flags, std::size_t count,
+                                                       std::size_t first, std::uint32_t* list) {
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    list[found] = static_cast<std::uint32_t>(first + k);
+    found += static_cast<std::size_t>(flags[k]);
+  }
+  return found;
+}
+
 class Selection {
 public:
   std::span<const std::uint32_t> items() const { return std::span(items_).first(size_); }
