@@ -69,7 +69,7 @@ double seconds_per_row(const scenarios::Flow& flow) {
   double rows = 0.0, spent = 0.0;
   for (; spent < seconds; ++rows) {
     const Observables now = observe(flow.state);
-    sum_over_strips(strips, flow.state, flow.model, now.mean_vy);
+    sum_over_strips(strips, flow.state, flow.model, {.vx = now.mean_vx, .vy = now.mean_vy});
     spent = seconds_since(start);
   }
   return spent / rows;

@@ -15,7 +15,8 @@ FlowMeasurements::FlowMeasurements(const State& start, TimeBlocks profiles, Time
 void FlowMeasurements::add(const Simulation& simulation) {
   const State& state = simulation.state();
   look(state);
-  profiles_.add(sum_over_strips(strips_, state, simulation.model(), last_.mean_vy));
+  profiles_.add(sum_over_strips(strips_, state, simulation.model(),
+                                {.vx = last_.mean_vx, .vy = last_.mean_vy}));
   histograms_.add(state.tally);
 }
 

@@ -5,6 +5,7 @@
 #include "app/terminal.hpp"
 #include "engine/histogram_blocks.hpp"
 #include "engine/strips.hpp"
+#include "io/build_info.hpp"
 #include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
@@ -107,7 +108,11 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
   };
   if (found.checkpoint.rows > 0) {
     if (found.checkpoint.profiles.columns() != Strips::of(state).columns())
-      throw damaged("its profiles are not those of this tube");
+      throw found.checkpoint.written_by == build_info().version
+          ? damaged("its profiles are not those of this tube")
+          : UnusableInput(fmt::format("{}: has profiles of other sums; use riesel {} to go on with "
+                                      "this run, or start a new one from it (start.kind)",
+                                      found.path.string(), found.checkpoint.written_by));
     if (found.checkpoint.histograms.columns() != HistogramBlocks().blocks().columns())
       throw damaged("its histograms are not those of this version");
   }

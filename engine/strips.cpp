@@ -27,8 +27,8 @@ constexpr std::size_t motion_sums =
     static_cast<std::size_t>(StripSum::contact_xx) - static_cast<std::size_t>(StripSum::grains);
 using MotionSums = ExactSums<motion_sums>;
 
-RIESEL_VECTOR_KERNEL std::vector<MotionSums> sums_over_motion(const Strips& strips,
-                                                              const State& state, double frame) {
+RIESEL_VECTOR_KERNEL std::vector<MotionSums>
+sums_over_motion(const Strips& strips, const State& state, const Frame& frame) {
   std::vector<MotionSums> sums(strips.count + 1);
   const GrainView grains(state);
   std::array<std::array<double, motion_sums>, at_a_time> terms;
@@ -37,10 +37,26 @@ RIESEL_VECTOR_KERNEL std::vector<MotionSums> sums_over_motion(const Strips& stri
     const std::size_t count = std::min(at_a_time, state.grains.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
       const Grain g = grains[begin + i];
-      const double w = g.vy - frame, mass_vx = g.mass * g.vx, mass_w = g.mass * w;
       strip[i] = strips.at(g.x);
-      terms[i] = {1.0,    g.vy,           g.vx * g.vx, w,      w * w,
-                  g.mass, mass_vx * g.vx, mass_vx * w, mass_w, mass_w * w};
+      const double u = g.vx - frame.vx, w = g.vy - frame.vy;
+      const double z = g.x / strips.width - (static_cast<double>(strip[i]) + 0.5);
+      const double m = g.mass;
+      terms[i] = {1.0,
+                  g.vy,
+                  u * u,
+                  w,
+                  w * w,
+                  z,
+                  z * z,
+                  z * w,
+                  m,
+                  m * g.vx * g.vx,
+                  m * g.vx * w,
+                  m * w,
+                  m * w * w,
+                  m * z,
+                  m * z * z,
+                  m * z * w};
     }
     for (std::size_t i = 0; i < count; ++i) sums[strip[i]].add(terms[i]);
   }
@@ -155,7 +171,7 @@ std::size_t Strips::at(double x) const {
 double area_left_of(double line, double radius) { return segment(line, radius); }
 
 std::vector<double> sum_over_strips(const Strips& strips, const State& state,
-                                    const ContactModel& model, double frame) {
+                                    const ContactModel& model, const Frame& frame) {
   std::vector<Sums> sums(strips.count + 1);  // the last one is of what is in no strip
   add_areas(sums, strips, state);
   const std::vector<MotionSums> motion = sums_over_motion(strips, state, frame);

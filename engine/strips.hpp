@@ -20,21 +20,32 @@
 
 namespace riesel {
 
-/// The sums over a strip. w = v_y - frame is the axial velocity in a frame that moves along with
-/// the grains. F is the force on a body of a contact, l the vector from the centre of the other
-/// body to its own.
+/// The velocity (m/s) of a frame that moves along with the grains.
+struct Frame {
+  double vx = 0.0, vy = 0.0;
+};
+
+/// The sums over a strip. (u, w) is the velocity of a grain in the frame; z is where it is across
+/// the strip, from the middle on in widths of the strip. F is the force on a body of a contact, l
+/// the vector from the centre of the other body to its own.
 enum class StripSum {
   area,        ///< m^2, covered by grains
   grains,      ///< number of grains with their centre in the strip
   vy,          ///< m/s, sum of v_y
-  vx2,         ///< (m/s)^2, sum of v_x^2
+  u2,          ///< (m/s)^2, sum of u^2
   w,           ///< m/s
   w2,          ///< (m/s)^2
+  z,           ///< sum of z
+  z2,          ///< sum of z^2
+  zw,          ///< m/s
   mass,        ///< kg
   mass_vx2,    ///< J, sum of m v_x^2
   mass_vx_w,   ///< J
   mass_w,      ///< kg m/s
   mass_w2,     ///< J
+  mass_z,      ///< kg
+  mass_z2,     ///< kg
+  mass_zw,     ///< kg m/s
   contact_xx,  ///< J, sum of l_x F_x
   contact_xy,  ///< J, sum of l_x F_y: momentum along y that goes across the tube
   contact_yx,  ///< J, sum of l_y F_x
@@ -70,9 +81,8 @@ struct Strips {
 /// `line` (m) from its centre, positive towards larger x; to 2e-8 of the square of the radius.
 double area_left_of(double line, double radius);
 
-/// The sums over all strips at the step of `state`; `frame` in m/s. The same bits for any order of
-/// the slots.
+/// The sums over all strips at the step of `state`. The same bits for any order of the slots.
 std::vector<double> sum_over_strips(const Strips& strips, const State& state,
-                                    const ContactModel& model, double frame);
+                                    const ContactModel& model, const Frame& frame);
 
 }  // namespace riesel

@@ -84,12 +84,24 @@ private:
   std::size_t size_;
 };
 
-/// The sum `a`, or a + b, over the area of the zone (m^2).
-Estimate density(const ZoneBlocks& b, double area, StripSum a) {
-  return b.sum(b.mean(a) / area, {{a, 1.0 / area}});
+/// The sum over the area of the zone (m^2).
+Estimate density(const ZoneBlocks& b, double area, StripSum sum) {
+  return b.sum(b.mean(sum) / area, {{sum, 1.0 / area}});
 }
-Estimate density(const ZoneBlocks& blocks, double area, StripSum a, StripSum b) {
-  return blocks.sum((blocks.mean(a) + blocks.mean(b)) / area, {{a, 1.0 / area}, {b, 1.0 / area}});
+
+/// A stress (N/m) of contacts, as it is. If no row has caught any, nothing tells how they scatter.
+Estimate known_by_contacts(const ZoneBlocks& b, const Estimate& stress) {
+  const bool none = b.mean(StripSum::contact_xx) == 0.0 && b.mean(StripSum::contact_yy) == 0.0;
+  return {stress.value, none ? unknown : stress.error};
+}
+
+Estimate contact_stress(const ZoneBlocks& b, double area, StripSum contact) {
+  return known_by_contacts(b, density(b, area, contact));
+}
+
+Estimate stress(const ZoneBlocks& b, double area, StripSum kinetic, StripSum contact) {
+  const double sum = b.mean(kinetic) + b.mean(contact);
+  return known_by_contacts(b, b.sum(sum / area, {{kinetic, 1.0 / area}, {contact, 1.0 / area}}));
 }
 
 /// Mean over the grains of the zone.
@@ -100,52 +112,78 @@ Estimate per_grain(const ZoneBlocks& b, StripSum sum) {
   return b.mean_over_grains(ratio, {{sum, 1.0 / grains}, {StripSum::grains, -ratio / grains}});
 }
 
-/// Which sums are those of weights, of weights times w and of weights times w^2.
+/// Which sums are those of weights alone, times w and so on.
 struct Moments {
-  StripSum zeroth, first, second;
+  StripSum one, w, w2, z, z2, zw;
 };
-constexpr Moments of_grains{StripSum::grains, StripSum::w, StripSum::w2};
-constexpr Moments of_mass{StripSum::mass, StripSum::mass_w, StripSum::mass_w2};
+constexpr Moments of_grains{StripSum::grains, StripSum::w,  StripSum::w2,
+                            StripSum::z,      StripSum::z2, StripSum::zw};
+constexpr Moments of_mass{StripSum::mass,   StripSum::mass_w,  StripSum::mass_w2,
+                          StripSum::mass_z, StripSum::mass_z2, StripSum::mass_zw};
 
-/// The sum of weights times w^2 minus the part of the mean motion of each strip, and its
-/// derivatives.
-struct RandomPart {
+/// The profile of the velocity within a strip: w = at_middle + slope z.
+struct Line {
+  double at_middle = 0.0, slope = 0.0;
+};
+
+/// The line of least squares. Level where grains have stood in one place only.
+Line line_through(const ZoneBlocks& b, const Moments& moments, std::size_t strip) {
+  constexpr double one_place = 1e-9;
+  const double weight = b.mean(moments.one, strip);
+  if (weight == 0.0) return {};
+  const double z = b.mean(moments.z, strip) / weight, w = b.mean(moments.w, strip) / weight;
+  const double zz = b.mean(moments.z2, strip) / weight - z * z;
+  const double slope = zz > one_place ? (b.mean(moments.zw, strip) / weight - z * w) / zz : 0.0;
+  return {.at_middle = w - slope * z, .slope = slope};
+}
+
+/// A sum over a zone, and its derivatives.
+struct LinearSum {
   double sum = 0.0;
   std::vector<LinearTerm> terms;
 };
 
-RandomPart random_part(const ZoneBlocks& b, const Moments& moments) {
-  RandomPart random;
+/// The weighted sum of the squares of w about the line in each strip. As this sum is least for that
+/// line, it may be taken as given in the derivatives.
+LinearSum random_part(const ZoneBlocks& b, const Moments& moments) {
+  LinearSum random;
   for (const std::size_t strip : b.strips()) {
-    const double weight = b.mean(moments.zeroth, strip);
-    const double mean = weight > 0.0 ? b.mean(moments.first, strip) / weight : 0.0;
-    random.sum += b.mean(moments.second, strip) - weight * mean * mean;
-    random.terms.push_back({moments.second, 1.0, strip});
-    random.terms.push_back({moments.first, -2.0 * mean, strip});
-    random.terms.push_back({moments.zeroth, mean * mean, strip});
+    const auto [w, slope] = line_through(b, moments, strip);
+    const std::array<LinearTerm, 6> terms = {{{moments.w2, 1.0, strip},
+                                              {moments.w, -2.0 * w, strip},
+                                              {moments.zw, -2.0 * slope, strip},
+                                              {moments.one, w * w, strip},
+                                              {moments.z, 2.0 * w * slope, strip},
+                                              {moments.z2, slope * slope, strip}}};
+    for (const LinearTerm& term : terms) random.sum += term.derivative * b.mean(term.sum, strip);
+    random.terms.insert(random.terms.end(), terms.begin(), terms.end());
   }
   return random;
 }
 
-/// Mean over the grains of the squares of w about the mean of their strip.
+/// Mean over the grains of the squares of w about the line in their strip.
 Estimate variance_of_w(const ZoneBlocks& b) {
   const double grains = b.mean(StripSum::grains);
   if (grains == 0.0) return not_known;
-  RandomPart random = random_part(b, of_grains);
+  LinearSum random = random_part(b, of_grains);
   const double variance = random.sum / grains;
   random.terms.push_back({StripSum::grains, -variance});
   for (LinearTerm& term : random.terms) term.derivative /= grains;
   return b.mean_over_grains(variance, random.terms);
 }
 
-/// The kinetic stress along the tube, with that of the contacts if asked for.
-Estimate stress_yy(const ZoneBlocks& b, double area, bool with_contacts) {
-  RandomPart random = random_part(b, of_mass);
-  const double contact = with_contacts ? 1.0 : 0.0;
-  const double sum = random.sum + contact * b.mean(StripSum::contact_yy);
-  random.terms.push_back({StripSum::contact_yy, contact});
+Estimate kinetic_stress_yy(const ZoneBlocks& b, double area) {
+  LinearSum random = random_part(b, of_mass);
   for (LinearTerm& term : random.terms) term.derivative /= area;
-  return b.sum(sum / area, random.terms);
+  return b.sum(random.sum / area, random.terms);
+}
+
+Estimate stress_yy(const ZoneBlocks& b, double area) {
+  LinearSum all = random_part(b, of_mass);
+  all.sum += b.mean(StripSum::contact_yy);
+  all.terms.push_back({StripSum::contact_yy, 1.0});
+  for (LinearTerm& term : all.terms) term.derivative /= area;
+  return known_by_contacts(b, b.sum(all.sum / area, all.terms));
 }
 
 struct Quantity {
@@ -163,32 +201,34 @@ constexpr std::array<Quantity, 16> quantities = {{
      [](const B& b, double a) { return density(b, a, S::mass); }},
     {"mean_axial_velocity", "m/s", "Mean axial velocity of the grains, positive downstream.",
      [](const B& b, double) { return per_grain(b, S::vy); }},
-    {"temperature_x", "m^2/s^2", "Mean of v_x^2 of the grains.",
-     [](const B& b, double) { return per_grain(b, S::vx2); }},
-    {"temperature_y", "m^2/s^2", "Variance of v_y of the grains about the mean of their strip.",
+    {"temperature_x", "m^2/s^2",
+     "Mean square of v_x of the grains about the mean of all at that moment.",
+     [](const B& b, double) { return per_grain(b, S::u2); }},
+    {"temperature_y", "m^2/s^2",
+     "Variance of v_y of the grains, less the mean of all at that moment, about a straight line "
+     "across their strip.",
      [](const B& b, double) { return variance_of_w(b); }},
     {"stress_xx", "N/m", "Normal stress across the tube, positive in compression.",
-     [](const B& b, double a) { return density(b, a, S::mass_vx2, S::contact_xx); }},
+     [](const B& b, double a) { return stress(b, a, S::mass_vx2, S::contact_xx); }},
     {"stress_xy", "N/m", "Shear stress: momentum along y that goes to larger x.",
-     [](const B& b, double a) { return density(b, a, S::mass_vx_w, S::contact_xy); }},
+     [](const B& b, double a) { return stress(b, a, S::mass_vx_w, S::contact_xy); }},
     {"stress_yx", "N/m", "Shear stress: momentum along x that goes to larger y.",
-     [](const B& b, double a) { return density(b, a, S::mass_vx_w, S::contact_yx); }},
-    {"stress_yy", "N/m", "Normal stress along the tube, positive in compression.",
-     [](const B& b, double a) { return stress_yy(b, a, true); }},
+     [](const B& b, double a) { return stress(b, a, S::mass_vx_w, S::contact_yx); }},
+    {"stress_yy", "N/m", "Normal stress along the tube, positive in compression.", stress_yy},
     {"kinetic_stress_xx", "N/m", "The part of stress_xx that grains carry in flight.",
      [](const B& b, double a) { return density(b, a, S::mass_vx2); }},
     {"kinetic_stress_xy", "N/m", "The part of stress_xy, and of stress_yx, of grains in flight.",
      [](const B& b, double a) { return density(b, a, S::mass_vx_w); }},
     {"kinetic_stress_yy", "N/m", "The part of stress_yy that grains carry in flight.",
-     [](const B& b, double a) { return stress_yy(b, a, false); }},
+     kinetic_stress_yy},
     {"contact_stress_xx", "N/m", "The part of stress_xx that contacts carry.",
-     [](const B& b, double a) { return density(b, a, S::contact_xx); }},
+     [](const B& b, double a) { return contact_stress(b, a, S::contact_xx); }},
     {"contact_stress_xy", "N/m", "The part of stress_xy that contacts carry.",
-     [](const B& b, double a) { return density(b, a, S::contact_xy); }},
+     [](const B& b, double a) { return contact_stress(b, a, S::contact_xy); }},
     {"contact_stress_yx", "N/m", "The part of stress_yx that contacts carry.",
-     [](const B& b, double a) { return density(b, a, S::contact_yx); }},
+     [](const B& b, double a) { return contact_stress(b, a, S::contact_yx); }},
     {"contact_stress_yy", "N/m", "The part of stress_yy that contacts carry.",
-     [](const B& b, double a) { return density(b, a, S::contact_yy); }},
+     [](const B& b, double a) { return contact_stress(b, a, S::contact_yy); }},
 }};
 
 }  // namespace

@@ -4,12 +4,16 @@
 // variations of blocks of time (estimate_mean), and so include correlations in time; for a ratio or
 // a difference of squares, the error is that of its linear part.
 //
+// Temperatures and stresses leave out the profile of the velocity: v_y counts relative to a
+// straight line across each strip, also where strips are taken together. A line, as a strip of
+// constant shear rate would otherwise have rate^2 width^2 / 12 too much. Temperatures leave out,
+// too, what all grains do together at a moment.
+//
 // Stresses are momentum fluxes, positive in compression: an ideal gas has sigma_xx = density times
 // temperature_x. The kinetic part is what flying grains carry, the contact part what forces carry.
-// v_x counts in full, as walls keep its mean at zero: a common sway of the grains is a stress. v_y
-// counts relative to its mean in each strip, also where strips are taken together: differences
-// between strips are the profile of the velocity, and not random motion. The contact stresses
-// sigma_xy and sigma_yx may differ, as contacts exert torques on the grains.
+// v_x counts in full there, as walls keep its mean at zero: a common sway of the grains is a
+// stress. The contact stresses sigma_xy and sigma_yx may differ, as contacts exert torques on the
+// grains.
 #pragma once
 
 #include "engine/estimate.hpp"
@@ -38,8 +42,8 @@ struct TubeProfile {
 };
 
 /// All profiles, from `blocks` of sum_over_strips() over the samples from `first` on, for each of
-/// `zones`. In a zone where no grain was seen, means over grains are unknown; if the transient
-/// leaves no complete block, all is.
+/// `zones`. In a zone where no grain was seen, means over grains are unknown; where no contact was,
+/// the errors of stresses; if the transient leaves no complete block, all is.
 std::vector<TubeProfile> tube_profiles(const TimeBlocks& blocks, const Strips& strips,
                                        const std::vector<Zone>& zones, std::int64_t first);
 

@@ -30,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 10;
+constexpr std::int64_t format_version = 11;
+constexpr std::int64_t oldest_version = 10;  // whose profiles are of other sums
 constexpr auto kind = "checkpoint";
 
 // --- the parts of the checkpoint, each written and read ---
@@ -195,7 +196,8 @@ Checkpoint read_contents(const StoredGroup& root) {
           .rows = root.attribute<std::int64_t>("rows"),
           .wall_seconds = root.attribute<double>("wall_seconds"),
           .profiles = read_blocks(root.group("profiles")),
-          .histograms = read_blocks(root.group("histograms"))};
+          .histograms = read_blocks(root.group("histograms")),
+          .written_by = root.text_attribute("riesel_version")};
 }
 
 // --- what can be wrong with it ---
@@ -230,10 +232,10 @@ bool is_there(const fs::path& path) {
 
 void check_version(const StoredGroup& root, const fs::path& path) {
   const auto version = root.attribute<std::int64_t>("format_version");
-  if (version == format_version) return;
+  if (version >= oldest_version && version <= format_version) return;
   throw OtherFormat(path,
-                    fmt::format("has format version {}, but this riesel ({}) reads version {}",
-                                version, build_info().version, format_version),
+                    fmt::format("has format version {}, but this riesel ({}) reads {} to {}",
+                                version, build_info().version, oldest_version, format_version),
                     "use riesel " + root.text_attribute("riesel_version"));
 }
 

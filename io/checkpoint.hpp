@@ -32,6 +32,7 @@ struct Checkpoint {
   double wall_seconds = 0.0;               ///< s, that the run has taken so far
   TimeBlocks profiles = {};                ///< sums for the profiles across the tube, so far
   TimeBlocks histograms = {};              ///< counts of what has ended, see HistogramBlocks
+  std::string written_by = {};             ///< version of riesel, of a checkpoint that was read
 };
 
 /// The name of the checkpoint in the directory of a run.
@@ -43,9 +44,10 @@ inline constexpr auto checkpoint_name = "checkpoint.h5";
 /// is not replaced by one that read_checkpoint() would refuse. Throws Hdf5Error if memory runs out.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// Reads a checkpoint and checks all of it. Grains are in the order of their ids. Throws FileError
-/// if the file is missing, damaged, of another version of the format, or holds what no run can have
-/// left.
+/// Reads a checkpoint and checks all of it. Grains are in the order of their ids. The profiles of
+/// one by riesel 0.12 or before are of other sums: another run may start from it, but its own
+/// cannot go on. Throws FileError if the file is missing, damaged, of another version of the
+/// format, or holds what no run can have left.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 struct FoundCheckpoint {

@@ -101,7 +101,7 @@ TEST_CASE("strips are about a mean diameter wide and cover the tube") {
 TEST_CASE("the strips of a tube hold what brute force finds there") {
   const auto seed = GENERATE(as<std::uint64_t>{}, 71, 72, 73);
   const State state = busy_tube(seed, paper_model());
-  const double frame = 1.7;
+  const Frame frame{.vx = 0.3, .vy = 1.7};
   for (const std::size_t count : {1U, 3U, 8U, 50U}) {  // some finer than a grain
     const Strips strips{.width = state.box.width / static_cast<double>(count),
                         .length = state.box.length,
@@ -110,16 +110,22 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
     REQUIRE(sums.size() == strips.columns());
     for (std::size_t s = 0; s < count; ++s) {
       const double left = static_cast<double>(s) * strips.width, right = left + strips.width;
-      double area = 0.0, grains = 0.0, vx2 = 0.0, w2 = 0.0, mass_vx_w = 0.0, xx = 0.0, xy = 0.0,
-             yx = 0.0, yy = 0.0;
+      const double middle = 0.5 * (left + right);
+      double area = 0.0, grains = 0.0, u2 = 0.0, w2 = 0.0, z2 = 0.0, zw = 0.0, mass_vx_w = 0.0,
+             mass_z = 0.0, mass_zw = 0.0, xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
       for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
         const Grain g = grain_at(state, slot);
         area += area_between(g, left, right);
         if (g.x < left || g.x >= right) continue;
         grains += 1.0;
-        vx2 += g.vx * g.vx;
-        w2 += (g.vy - frame) * (g.vy - frame);
-        mass_vx_w += g.mass * g.vx * (g.vy - frame);
+        const double u = g.vx - frame.vx, w = g.vy - frame.vy, z = (g.x - middle) / strips.width;
+        u2 += u * u;
+        w2 += w * w;
+        z2 += z * z;
+        zw += z * w;
+        mass_vx_w += g.mass * g.vx * w;
+        mass_z += g.mass * z;
+        mass_zw += g.mass * z * w;
       }
       for (const PresentForce& f : present_forces(state, paper_model())) {
         const double part = part_within(f.x, f.x - f.branch_x, left, right);
@@ -130,9 +136,13 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
       }
       CHECK(value(sums, s, StripSum::area) == Approx(area).epsilon(1e-6).margin(1e-15));
       CHECK(value(sums, s, StripSum::grains) == grains);
-      CHECK(value(sums, s, StripSum::vx2) == Approx(vx2));
+      CHECK(value(sums, s, StripSum::u2) == Approx(u2));
       CHECK(value(sums, s, StripSum::w2) == Approx(w2));
+      CHECK(value(sums, s, StripSum::z2) == Approx(z2));
+      CHECK(value(sums, s, StripSum::zw) == Approx(zw).margin(1e-9));
       CHECK(value(sums, s, StripSum::mass_vx_w) == Approx(mass_vx_w).margin(1e-15));
+      CHECK(value(sums, s, StripSum::mass_z) == Approx(mass_z).margin(1e-15));
+      CHECK(value(sums, s, StripSum::mass_zw) == Approx(mass_zw).margin(1e-15));
       CHECK(value(sums, s, StripSum::contact_xx) == Approx(xx).margin(1e-13));
       CHECK(value(sums, s, StripSum::contact_xy) == Approx(xy).margin(1e-13));
       CHECK(value(sums, s, StripSum::contact_yx) == Approx(yx).margin(1e-13));
@@ -148,7 +158,7 @@ TEST_CASE("where there is no wall, what lies beyond the strips is in none") {
   add_grain(state, grain(6e-3, 8e-3, 0.3, 3.0));
   const auto sums_with_walls = [&](std::size_t walls) {
     state.walls = std::vector(walls, WallLattice{.line = 0.0, .radius = 0.0, .count = 0});
-    return sum_over_strips(Strips::of(state), state, paper_model(), 0.0);
+    return sum_over_strips(Strips::of(state), state, paper_model(), {});
   };
   const auto closed = sums_with_walls(2), open = sums_with_walls(1);
   REQUIRE(open.size() == closed.size());
@@ -163,7 +173,7 @@ TEST_CASE("where there is no wall, what lies beyond the strips is in none") {
 TEST_CASE("all strips together hold all grains, all their area and the whole virial") {
   const State state = busy_tube(74, paper_model());
   const Strips strips = Strips::of(state);
-  const auto sums = sum_over_strips(strips, state, paper_model(), 0.0);
+  const auto sums = sum_over_strips(strips, state, paper_model(), {});
   double area = 0.0, momentum = 0.0, energy = 0.0, velocity = 0.0, virial = 0.0;
   for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
     const Grain g = grain_at(state, slot);
@@ -188,7 +198,7 @@ TEST_CASE("the sums over strips are the same bits for any order, threads and ste
   const State start = small_tube(75);
   const Strips strips = Strips::of(start);
   const auto sums_of = [&](const State& state) {
-    return sum_over_strips(strips, state, paper_model(), 2.0);
+    return sum_over_strips(strips, state, paper_model(), {.vx = 0.5, .vy = 2.0});
   };
   const State one = busy_tube(75, paper_model());
   const auto expected = sums_of(one);
@@ -204,7 +214,7 @@ TEST_CASE("two grains in contact have the virial of their force times their dist
   const double nx = std::cos(angle), ny = std::sin(angle);
   const State state = touching(5.5e-3, 10e-3, d, angle);
   const Strips all{.width = 10e-3, .length = 20e-3, .count = 1};
-  const auto sums = sum_over_strips(all, state, frictionless(0.0), 0.0);
+  const auto sums = sum_over_strips(all, state, frictionless(0.0), {});
   CHECK(value(sums, 0, StripSum::contact_xx) == Approx(d * force * nx * nx).margin(1e-15));
   CHECK(value(sums, 0, StripSum::contact_xy) == Approx(d * force * nx * ny).margin(1e-15));
   CHECK(value(sums, 0, StripSum::contact_yx) == Approx(d * force * nx * ny).margin(1e-15));
@@ -216,14 +226,14 @@ TEST_CASE("the line between two grains is shared by the strips that it crosses")
   const State across = touching(2.7e-3, 10e-3, d, 0.0);  // from 2.7 mm to 3.69 mm
   const Strips strips = Strips::of(across);
   REQUIRE(strips.count == 10);
-  const auto sums = sum_over_strips(strips, across, frictionless(0.0), 0.0);
+  const auto sums = sum_over_strips(strips, across, frictionless(0.0), {});
   CHECK(value(sums, 2, StripSum::contact_xx) == Approx(virial * 0.3e-3 / d));
   CHECK(value(sums, 3, StripSum::contact_xx) == Approx(virial * (d - 0.3e-3) / d));
   CHECK(total(sums, strips, StripSum::contact_xx) == Approx(virial));
 
   // Along the tube, and across its seam
   const State along = touching(2.7e-3, 19.8e-3, d, 0.5 * std::numbers::pi);
-  const auto of_one = sum_over_strips(strips, along, frictionless(0.0), 0.0);
+  const auto of_one = sum_over_strips(strips, along, frictionless(0.0), {});
   CHECK(value(of_one, 2, StripSum::contact_yy) == Approx(virial));
   CHECK(total(of_one, strips, StripSum::contact_yy) == Approx(virial));
 }

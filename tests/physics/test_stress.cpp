@@ -24,7 +24,7 @@ struct SteadyTube {
     for (int i = 0; i < samples; ++i) {
       simulation.advance(steps_per_sample);
       blocks.add(sum_over_strips(strips, simulation.state(), frictional(),
-                                 observe(simulation.state()).mean_vy));
+                                 {.vx = 0.0, .vy = observe(simulation.state()).mean_vy}));
     }
     const auto after = observe(simulation.state()).impulse_y_of_wall;
     for (std::size_t wall : {0U, 1U}) impulse[wall] = after[wall] - before[wall];

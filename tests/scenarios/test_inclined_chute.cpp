@@ -117,7 +117,7 @@ TEST_CASE("a layer at rest on a slope is carried as statics asks, at every heigh
   TimeBlocks blocks(strips.columns());
   for (int sample = 0; sample < 200; ++sample) {
     simulation.advance(200);
-    blocks.add(sum_over_strips(strips, simulation.state(), start.model, 0.0));
+    blocks.add(sum_over_strips(strips, simulation.state(), start.model, {}));
   }
   const auto stress = [&](std::size_t strip, StripSum contact) {
     return average(blocks.means(Strips::column(strip, contact), 0)) / strips.area();

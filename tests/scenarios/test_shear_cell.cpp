@@ -5,13 +5,16 @@
 #include "engine/simulation.hpp"
 #include "engine/strips.hpp"
 #include "engine/time_blocks.hpp"
+#include "engine/tube_profiles.hpp"
 #include "io/checkpoint.hpp"
 #include "tests/io/file_fixture.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string_view>
 
 using namespace scenario_fixture;
 using Catch::Matchers::WithinAbs;
@@ -60,7 +63,7 @@ public:
     before_ = observe(simulation_.state());
     for (int sample = 0; sample < 40'000; ++sample) {
       simulation_.advance(steps(0.2e-3));
-      blocks_.add(sum_over_strips(strips_, simulation_.state(), start.model, 0.0));
+      blocks_.add(sum_over_strips(strips_, simulation_.state(), start.model, {}));
     }
     after_ = observe(simulation_.state());
   }
@@ -80,14 +83,16 @@ public:
     return (mean(strip, StripSum::mass_vx_w) + mean(strip, StripSum::contact_xy)) / strips_.area();
   }
 
+  double temperature(std::string_view name, std::size_t strip) const {
+    const auto profiles = tube_profiles(blocks_, strips_, {{strip}}, 0);
+    return std::ranges::find(profiles, name, &TubeProfile::name)->zones[0].value;
+  }
+
   Core core() const {
     const std::size_t low = strips_.count / 4, high = strips_.count - low;
     Core core{};
     for (std::size_t s = low; s < high; ++s) {
-      const double grains = mean(s, StripSum::grains), v = velocity(s);
-      const double vx2 = mean(s, StripSum::vx2) / grains,
-                   vy2 = mean(s, StripSum::w2) / grains - v * v;
-      core.temperature += 0.5 * (vx2 + vy2);
+      core.temperature += 0.5 * (temperature("temperature_x", s) + temperature("temperature_y", s));
       core.area_fraction += mean(s, StripSum::area) / strips_.area();
       core.pressure +=
           (mean(s, StripSum::mass_vx2) + mean(s, StripSum::contact_xx)) / strips_.area();
@@ -133,6 +138,11 @@ TEST_CASE("what does not fit into a shear cell is refused") {
   check_mentions(complaint(cell_yaml, {"cell.width=1.5 mm"}), {"cell.width", "too narrow"});
   check_mentions(complaint(cell_yaml, {"cell.length=3 mm"}), {"cell.length", "too short"});
   check_mentions(complaint(cell_yaml, {"cell.velocity=1e5 m/s"}), {"cell.velocity", "too fast"});
+  // Half of the spacing, and all of it, in a step
+  const double per_step = 2.0 * 1.4e-3 / cell().state.time_step;
+  for (const double part : {0.06, 0.5, 1.0})
+    check_mentions(complaint(cell_yaml, {"cell.velocity=" + std::to_string(part * per_step)}),
+                   {"cell.velocity", "in a time step", "run.steps_per_collision"});
 }
 
 TEST_CASE("in a sheared cell collisions take what the walls put in") {
