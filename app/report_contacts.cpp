@@ -131,8 +131,9 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
   plot.svg().end_group();
   plot.svg().begin_group("errors");
   for (std::size_t i = 0; i < h.rates.size(); ++i)
-    plot.error_bar(std::sqrt(h.lower_edges[i] * upper_edge(h.lower_edges, i)), h.rates[i],
-                   h.errors[i], ink::blue);
+    if (h.rates[i] > 0.0)
+      plot.error_bar(std::sqrt(h.lower_edges[i] * upper_edge(h.lower_edges, i)), h.rates[i],
+                     h.errors[i], ink::blue);
   plot.svg().end_group();
   plot.svg().begin_group("marks");
   int row = static_cast<int>(marks.size());
@@ -215,8 +216,8 @@ void show_contacts(const io::RunContents& run, const io::FlowSummary& summary, R
         marks_of_overlaps(summary, run.final_state, is_wall), "");
   }
   draft.page().paragraph(fmt::format(
-      "How many contacts ended per second after the transient, by bins of a quarter of an octave, "
-      "with 68 % error bars. A wall "
+      "How many contacts ended per second after the transient, in four bins to the octave, equally "
+      "wide within it, with 68 % error bars. A wall "
       "contact that lasts less than {:.3g} of its own t_col is cut short: the grain has passed "
       "before it was pushed away. Suspect and unphysical: the thresholds of max_overlap_ratio, for "
       "a pair of mean size; steps: that of steps_per_contact. The shortest contacts are grazing "

@@ -1,8 +1,9 @@
 // A histogram of positive values over many orders of magnitude, with bins about a fifth of the
 // value wide.
 //
-// The bins are quarters of an octave, found from the bits of the number: without logarithm and
-// rounding. Counts can be merged in any order.
+// Four bins make an octave and are equally wide within it: 1 to 1.25, 1.5, 1.75 and 2 times a power
+// of two. They are found from the bits of the number, without logarithm and rounding. Counts can be
+// merged in any order.
 #pragma once
 
 #include <algorithm>

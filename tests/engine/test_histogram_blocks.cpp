@@ -156,6 +156,17 @@ TEST_CASE("blocks that were kept go on as if nothing had been") {
   CHECK_THROWS_AS(HistogramBlocks(TimeBlocks(3)), std::invalid_argument);
 }
 
+TEST_CASE("the error of a bin without counts is the rate that leaves it empty in 32 % of cases") {
+  HistogramBlocks blocks;
+  constexpr double interval = 0.5;  // s
+  constexpr int samples = 30;
+  for (int i = 0; i <= samples; ++i) blocks.add({});
+  const auto all = histogram_tables({}, blocks.blocks(), 0, interval);
+  const Estimate& rate = find(all, "grain_contact_duration").rates[bin_of(duration)];
+  CHECK(rate.value == 0.0);
+  CHECK(std::exp(-rate.error * samples * interval) == Approx(0.317).epsilon(0.01));
+}
+
 TEST_CASE("the error bars of histograms cover the truth, also where contacts come in bunches") {
   const int size = GENERATE(1, 10);
   constexpr int runs = 200, samples = 2000;
