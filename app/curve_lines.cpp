@@ -11,19 +11,26 @@ namespace {
 
 using Points = std::vector<io::CurvePoint>;
 
-/// v_y at which the value rises through the level for the last time and stays above, interpolated
-/// linearly between two points: as means of few starts scatter, it may touch the level before.
-double where_it_rises(const Points& points, double io::CurvePoint::*value, double level) {
+/// v_y (m/s) of a rise, interpolated between two points, and how far these are apart.
+struct Rise {
+  double at = unknown, within = unknown;
+};
+
+/// Where the value rises through the level for the last time and stays above, interpolated
+/// linearly: as means of few starts scatter, it may touch the level before. Unknown if it is above
+/// from the beginning.
+Rise where_it_rises(const Points& points, double io::CurvePoint::*value, double level) {
   const io::CurvePoint* below = nullptr;
-  double rise = unknown;  // also if the value is above the level from the beginning
+  Rise rise;
   for (const io::CurvePoint& point : points) {
     if (std::isnan(point.*value)) continue;
     if (point.*value < level) {
       below = &point;
-      rise = unknown;
-    } else if (below != nullptr && std::isnan(rise)) {
+      rise = {};
+    } else if (below != nullptr && std::isnan(rise.at)) {
       const double part = (level - below->*value) / (point.*value - below->*value);
-      rise = below->v_y + part * (point.v_y - below->v_y);
+      rise.within = point.v_y - below->v_y;
+      rise.at = below->v_y + part * rise.within;
     }
   }
   return rise;
@@ -32,9 +39,13 @@ double where_it_rises(const Points& points, double io::CurvePoint::*value, doubl
 /// `points`: of one v_x, by increasing v_y.
 io::CurveLine line_of(const Points& points) {
   io::CurveLine line{.v_x = points.front().v_x};
-  line.brake_fails_at =
+  const Rise failure =
       where_it_rises(points, &io::CurvePoint::brake_failure_fraction, unphysical_brake_failure);
-  line.two_contacts_at = where_it_rises(points, &io::CurvePoint::contacts, 2.0);
+  line.brake_fails_at = failure.at;
+  line.brake_fails_within = failure.within;
+  const Rise second_contact = where_it_rises(points, &io::CurvePoint::contacts, 2.0);
+  line.two_contacts_at = second_contact.at;
+  line.two_contacts_within = second_contact.within;
   for (const io::CurvePoint& point : points) {
     const bool brakes = !(point.brake_failure_fraction >= unphysical_brake_failure);
     if (brakes && !(point.dv_y <= line.largest_dv_y) && !std::isnan(point.dv_y)) {

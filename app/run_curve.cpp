@@ -10,12 +10,13 @@ namespace riesel::app {
 
 namespace {
 
-/// Mean over the impacts in which the grain came away from the wall; the others are counted.
+/// Mean over the impacts in which the grain came away from the wall, and their largest overlap; the
+/// others are counted.
 io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::Point& point,
                        std::span<const ImpactResult> results) {
   io::CurvePoint mean{.v_x = point.v_x, .v_y = point.v_y};
   int away = 0;
-  double largest_overlap = 0.0, braking = 0.0, braking_cut_short = 0.0, energy_error = 0.0;
+  double braking = 0.0, braking_cut_short = 0.0, energy_error = 0.0;
   for (const ImpactResult& r : results) {
     if (r.end == ImpactEnd::passed) ++mean.passed;
     if (r.end == ImpactEnd::stuck) ++mean.stuck;
@@ -25,20 +26,20 @@ io::CurvePoint average(const ImpactSetup& setup, const scenarios::ImpactCurve::P
     mean.dv_y += r.dv_y;
     mean.contacts += r.contacts;
     mean.contact_time += r.contact_time;
-    mean.max_overlap += r.max_overlap;
     mean.cut_short += r.cut_short;
-    largest_overlap = std::max(largest_overlap, r.max_overlap);
+    mean.max_overlap = std::max(mean.max_overlap, r.max_overlap);
     braking += r.braking;
     braking_cut_short += r.braking_cut_short;
     energy_error = std::max(energy_error, r.energy_error);
   }
-  for (double* value : {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time,
-                        &mean.max_overlap, &mean.cut_short})
+  for (double* value :
+       {&mean.dv_x, &mean.dv_y, &mean.contacts, &mean.contact_time, &mean.cut_short})
     *value /= away;                                           // NaN if no impact counts
   mean.brake_failure_fraction = braking_cut_short / braking;  // NaN if nothing brakes
   const double smaller_radius = std::min(setup.grain_radius, setup.wall_grain_radius);
   const Finding worst =
-      judge_impacts(largest_overlap / smaller_radius, mean.brake_failure_fraction, energy_error);
+      judge_impacts(mean.max_overlap / smaller_radius, mean.brake_failure_fraction, energy_error);
+  if (away == 0) mean.max_overlap = unknown;
   mean.verdict = worst.verdict;
   if (worst.verdict != Validity::valid) mean.cause = worst.name;
   return mean;
@@ -55,7 +56,8 @@ void write_curve(io::RunFile& file, const io::CurveSummary& summary) {
       {{"contacts", "1", "Number of contacts begun."}, [](auto& p) { return p.contacts; }},
       {{"contact_time", "s", "Sum of the durations of the contacts."},
        [](auto& p) { return p.contact_time; }},
-      {{"max_overlap", "m", "Largest overlap."}, [](auto& p) { return p.max_overlap; }},
+      {{"max_overlap", "m", "Largest overlap of all starts that are in the means."},
+       [](auto& p) { return p.max_overlap; }},
       {{"passed", "1", "Starts that went through the wall; not in the means."},
        [](auto& p) { return static_cast<double>(p.passed); }},
       {{"stuck", "1", "Starts that were given up; not in the means."},

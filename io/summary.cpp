@@ -190,7 +190,9 @@ std::string to_json(const CurveSummary& s) {
                              {"largest_dv_y", line.largest_dv_y},
                              {"largest_at", line.largest_at},
                              {"brake_fails_at", line.brake_fails_at},
-                             {"two_contacts_at", line.two_contacts_at}});
+                             {"brake_fails_within", line.brake_fails_within},
+                             {"two_contacts_at", line.two_contacts_at},
+                             {"two_contacts_within", line.two_contacts_within}});
   return text_of(json);
 }
 

@@ -141,7 +141,7 @@ struct CurvePoint {
   double v_x = 0.0, v_y = 0.0, dv_x = 0.0, dv_y = 0.0;  ///< m/s
   double contacts = 0.0;                                ///< number of contacts begun
   double contact_time = 0.0;                            ///< s, sum of their durations
-  double max_overlap = 0.0;                             ///< m
+  double max_overlap = 0.0;                             ///< m, of all these starts, not a mean
   int passed = 0;                       ///< how many starts went through the wall; not in the means
   int stuck = 0;                        ///< how many starts were given up; not in the means
   double cut_short = 0.0;               ///< mean number of contacts cut short
@@ -156,6 +156,9 @@ struct CurveLine {
   double largest_dv_y = unknown, largest_at = unknown;  ///< m/s, of points where the brake works
   double brake_fails_at = unknown;   ///< m/s, v_y from which half of the braking fails
   double two_contacts_at = unknown;  ///< m/s, v_y from which an impact has two contacts on average
+  /// m/s, how far apart the two points are between which these were interpolated: for a single
+  /// start the braking fails at once, and all that is known is between which points.
+  double brake_fails_within = unknown, two_contacts_within = unknown;
 };
 
 struct CurveSummary {

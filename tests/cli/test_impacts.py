@@ -38,14 +38,15 @@ class Impacts:
             braking = [point for point in points if not (point["brake_failure_fraction"] or 0) >= 0.5]
             best = max(braking, key=lambda point: point["dv_y"])
             self.assertEqual((line["largest_dv_y"], line["largest_at"]), (best["dv_y"], best["v_y"]))
-            for column, level, crossing in (("brake_failure_fraction", 0.5, line["brake_fails_at"]),
-                                            ("contacts", 2.0, line["two_contacts_at"])):
+            for column, level, name in (("brake_failure_fraction", 0.5, "brake_fails"), ("contacts", 2.0, "two_contacts")):
+                crossing, within = line[f"{name}_at"], line[f"{name}_within"]
                 above = [point[column] is not None and point[column] >= level for point in points]
                 if not above[-1]:
-                    self.assertIsNone(crossing, column)
+                    self.assertEqual((crossing, within), (None, None), column)
                     continue
                 first = len(above) - above[::-1].index(False)  # of those that are above for good
                 low, high = points[first - 1], points[first]
+                self.assertEqual(within, high["v_y"] - low["v_y"])
                 part = (crossing - low["v_y"]) / (high["v_y"] - low["v_y"])
                 self.assertAlmostEqual(low[column] + part * (high[column] - low[column]), level, places=9)
 
@@ -164,6 +165,18 @@ class SingleWallGrain(Impacts, CommandTest):
 class WallArray(Impacts, CommandTest):
     scenario = "wall_array"
     normal_velocities = [0.1, 0.3, 0.5]
+
+    def test_the_overlap_is_that_of_the_deepest_start(self):
+        """Mean overlaps of these points stay below the threshold by which the deepest makes some of them suspect."""
+        out = self.run_to_end(SHIPPED / "wall_array.yaml", "soft", "--set", "contact.stiffness=300", "--set",
+                              "contact.damping=1000", "--set",
+                              "impact.normal_velocity=1", "--set",
+                              "impact.axial_velocity={from: 0.3, to: 1.5, points: 9, spacing: linear}")
+        curve = self.summary(out)["curve"]
+        deep = [point["max_overlap"] > 0.2 * 0.33e-3 for point in curve]
+        self.assertEqual([point["cause"] == "max_overlap_ratio" for point in curve], deep)
+        self.assertIn(True, deep)
+        self.assertIn(False, deep)
 
     def test_two_contacts_by_chance_are_not_taken_for_the_rise(self):
         """With few starts the mean touches 2 at a low velocity; with many it comes to it between 20 and 30 m/s."""
