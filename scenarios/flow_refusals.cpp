@@ -71,15 +71,24 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
   if (kind == "continued")
     settings.reject("start.from", "has grains too fast for this tube and time step",
                     remedy + ", or stiffer contacts, whose time step is shorter");
-  const bool by_chance = std::abs(settings.number("start.random_velocity"))
-                         > std::abs(settings.number("start.axial_velocity"));
-  settings.reject(by_chance ? "start.random_velocity" : "start.axial_velocity", problem, remedy);
+  const double random = std::abs(settings.number("start.random_velocity")),
+               common = std::abs(settings.number("start.axial_velocity"));
+  const double of_walls = std::abs(state.walls.back().motion.velocity);
+  if (of_walls > std::max(random, common))
+    settings.reject("cell.velocity", "makes grains too fast for this cell and time step",
+                    fmt::format("choose less than {:.3g} m/s", 2.0 * largest));
+  settings.reject(random > common ? "start.random_velocity" : "start.axial_velocity", problem,
+                  remedy);
 }
 
 /// At most an eighth of a turn in a step: a few times more would wrap around and seem slow again.
+/// And the sum of the squares of the velocities of their rims must be held.
 void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
                        const State& state) {
-  const double largest = 0.25 * std::numbers::pi / state.time_step;
+  const double fastest_rim =
+      std::sqrt(ExactSum::largest_sum / static_cast<double>(grains.size()));  // m/s
+  double largest = 0.25 * std::numbers::pi / state.time_step;
+  for (const Grain& g : grains) largest = std::min(largest, fastest_rim / g.radius);
   const bool held =
       std::ranges::all_of(grains, [&](const Grain& g) { return std::abs(g.spin) < largest; });
   if (!held)

@@ -65,7 +65,8 @@ double velocity_between(const std::vector<WallLattice>& walls, double x) {
 }
 
 /// Draws velocities and scales them, so that the velocity of the centre of mass and the mean square
-/// of the random part are exactly as set. Adds the velocity between the walls.
+/// of the random part are exactly as set. Adds the velocity between the walls, whose mean over the
+/// grains is near zero, as they are spread at random.
 void set_velocities(const io::Settings& settings, const State& empty, std::vector<Grain>& grains) {
   const RandomStream stream(static_cast<std::uint64_t>(settings.integer("seed")), Use::velocity);
   double mass = 0.0, px = 0.0, py = 0.0;

@@ -28,7 +28,9 @@ public:
     return all;
   }
   State state(const Overrides& more = {}) const { return tube(overrides(more)).state; }
-  std::string complaint() const { return scenario_fixture::complaint(tube_yaml, overrides()); }
+  std::string complaint(const Overrides& more = {}) const {
+    return scenario_fixture::complaint(tube_yaml, overrides(more));
+  }
 
 private:
   ScratchDirectory directory_;
@@ -68,6 +70,14 @@ TEST_CASE("masses of a file count, and the lightest pair sets the time step") {
   CHECK(grain_at(state, 0).mass == 4e-6);
   const double shortest = LinearContact{2000.0, 1e4, 0.5e-6}.collision_time();
   CHECK_THAT(state.time_step, WithinRel(shortest / 50.0, 1e-12));
+}
+
+TEST_CASE("spins whose energy no sum would hold are refused") {
+  // A fraction of a turn in the short steps of hard contacts, but 800 km/s at the rim
+  const FileStart file("spin (1/s),diameter (mm),x (mm),y (mm),vx,vy\n2e8,8,5,5,0,0\n");
+  check_mentions(file.complaint({"grains.rotation=disc", "contact.stiffness=2e11", "gravity=0",
+                                 "tube.length=40 mm"}),
+                 {"start.from", "spins too fast", "9.27e+07"});
 }
 
 TEST_CASE("grains that rotate may have spins in the file, others may not") {
