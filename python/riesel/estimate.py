@@ -32,7 +32,7 @@ class Estimate(_ValueAndError):
 
     def __str__(self) -> str:
         """The error to two digits, and the value to the same place: "1.534 +- 0.050"."""
-        if 0.0 < self.error < math.inf:
+        if 0.0 < self.error < math.inf and math.isfinite(self.value):
             # Of the error as it is printed: 0.0996 becomes 0.10.
             decimals = 1 - int(f"{self.error:.1e}".partition("e")[2])
             if decimals <= 6:

@@ -39,7 +39,8 @@ class Table(Mapping[str, NDArray[Any]]):
         return len(self._columns)
 
     def label(self, name: str) -> str:
-        """The label for an axis: "mean_vy (m/s)"."""
+        """The label for an axis: "mean_vy (m/s)". Raises KeyError like table[name]."""
+        self[name]
         unit = self.unit[name]
         return name if unit in ("", "1") else f"{name} ({unit})"
 

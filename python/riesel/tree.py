@@ -1,4 +1,5 @@
-"""Nested values by dotted names, as in settings files, `--set` and the tables of sweeps."""
+"""Nested values by dotted names, as in settings files, `--set` and the tables of sweeps (which have the findings of a
+verdict and the lines of a curve besides, that are lists here)."""
 
 from __future__ import annotations
 
@@ -18,7 +19,7 @@ class Tree(Mapping[str, Any]):
     def __getitem__(self, name: str) -> Any:
         """Raises KeyError, which lists the names most like this one."""
         value: Any = self._values
-        for part in name.split("."):
+        for part in str(name).split("."):
             if not isinstance(value, Mapping) or part not in value:
                 raise KeyError(f"{name}: there is no such value; {there_is(name, self)}")
             value = value[part]
