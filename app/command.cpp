@@ -219,8 +219,8 @@ private:
   }
 
   void add_sweep_task() {
-    CLI::App* task =
-        program_.add_subcommand("sweep-task", "Run one point of a sweep, for a batch system");
+    CLI::App* task = program_.add_subcommand(
+        "sweep-task", "Run a point or a part of a sweep, for a batch system");
     task->add_option("DIR", task_.directory, "Directory of the sweep, see sweep --prepare");
     CLI::Option* index = task->add_option("INDEX", task_.index, "The point, counted from 0")
                              ->transform(app::whole_number(0, most_tasks - 1));

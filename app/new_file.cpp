@@ -35,6 +35,8 @@ int new_file(const NewFileOptions& options) {
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(file, ignored)))
     throw UnusableInput(file.string() + ": exists already; choose another name");
+  if (const fs::path home = fs::absolute(file).parent_path(); !fs::is_directory(home, ignored))
+    throw UnusableInput(home.string() + ": is no directory; make it first, or choose another");
   io::write_durably(file, io::starter_file(scenarios::settings_tables().at(scenario.name),
                                            scenario.name, scenario.summary));
   fmt::print("{}: written; look at it, then '{}' and '{}'\n", file.string(), call_of("check", file),

@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/resumed_settings.hpp"
 #include "io/checkpoint.hpp"
+#include "io/directory_lock.hpp"
 #include "io/file_error.hpp"
 #include "io/run_record.hpp"
 #include "io/settings.hpp"
@@ -141,6 +142,10 @@ RunStanding Prolongation::standing_of(const fs::path& point) const {
   if (standing.status != RunStatus::done || goal == nullptr) return standing;
   const auto result = result_of(point);
   if (!result || has_reached(goal->wanted, point, *result)) return standing;
+  if (io::DirectoryLock::is_held(point)) {  // it is going on already, or its report is being made
+    standing.status = RunStatus::running;
+    return standing;
+  }
   standing.reason = record.failure;
   if (!can_resume(point))
     standing.reason = "has no checkpoint to go on from; remove its directory to begin anew";

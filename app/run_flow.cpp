@@ -295,7 +295,12 @@ private:
               so_many(threads_, "thread"));
   }
 
-  double wall_seconds() const { return past_.wall_seconds + seconds_since(start_); }
+  /// A resume that has nothing to do counts for nothing, so that it leaves the checkpoint as it
+  /// was.
+  double wall_seconds() const {
+    const bool did_nothing = goes_on() && simulation_.state().step == first_step_;
+    return past_.wall_seconds + (did_nothing ? 0.0 : seconds_since(start_));
+  }
 
   io::RunSummary run_summary() const {
     const State& state = simulation_.state();

@@ -89,9 +89,7 @@ const std::vector<Entry>& entries() {
        [](auto& o, auto&) { return o.energies.friction_loss; }},
       {{"energy_residual", "J", "Energy missing from the energy balance."},
        [](auto& o, auto&) { return o.energies.residual; }},
-      {{"contacts", "1",
-        "Current contacts per grain, each counted once; for the mean coordination number, double "
-        "the share of those between grains."},
+      {{"contacts", "1", "Current contacts per grain, with grains and walls, each counted once."},
        [](auto& o, auto&) { return o.contacts; }},
       {{"grain_contacts", "1", "Contacts between grains begun since the start."},
        [](auto& o, auto&) { return o.grain_contacts_begun; }},

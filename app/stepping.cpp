@@ -9,9 +9,13 @@ namespace riesel::app {
 
 namespace {
 
-int threads_of(const io::Settings& settings, int useful) {
+int wanted_threads(const io::Settings& settings, int useful) {
   const auto wanted = settings.integer_or_auto("run.threads");
-  return std::min(wanted ? static_cast<int>(*wanted) : useful, omp_get_thread_limit());
+  return wanted ? static_cast<int>(*wanted) : useful;
+}
+
+int threads_of(const io::Settings& settings, int useful) {
+  return std::min(wanted_threads(settings, useful), omp_get_thread_limit());
 }
 
 }  // namespace
@@ -29,6 +33,14 @@ int threads_for(const io::Settings& settings, std::size_t grains) {
 
 int threads_for_curve(const io::Settings& settings) {
   return threads_of(settings, omp_get_max_threads());
+}
+
+int most_threads_for(const io::Settings& settings, std::size_t grains) {
+  return wanted_threads(settings, useful_threads(grains, io::most_threads));
+}
+
+int most_threads_for_curve(const io::Settings& settings) {
+  return wanted_threads(settings, io::most_threads);
 }
 
 }  // namespace riesel::app

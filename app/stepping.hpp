@@ -17,4 +17,8 @@ int threads_for(const io::Settings& settings, std::size_t grains);
 /// The same for impacts and drops: as these are independent, every thread is useful.
 int threads_for_curve(const io::Settings& settings);
 
+/// Both for a machine that is not known yet, which may have any number of cores.
+int most_threads_for(const io::Settings& settings, std::size_t grains);
+int most_threads_for_curve(const io::Settings& settings);
+
 }  // namespace riesel::app

@@ -275,7 +275,7 @@ void reject_options_in_vain(const SweepOptions& options, bool begun) {
   if (begun && options.directory)
     throw UnusableInput("--out: the sweep in " + options.file.string()
                         + " goes on where it is; leave the option out");
-  if (!begun && !options.overrides.empty())
+  if (!begun && !options.overrides.empty() && fs::exists(options.file))
     throw UnusableInput(
         "--set: is only for continuing a sweep; give the directory of the sweep instead of the "
         "file, or write the setting into the file, below 'set:'");

@@ -78,6 +78,13 @@ void keep(const io::Manifest& manifest, const fs::path& sweep) {
   }
 }
 
+/// The result of a point; of one that has failed to go on, the one from before.
+fs::path result_of(const io::ManifestPoint& point, const fs::path& directory) {
+  const fs::path summary = directory / io::summary_name;
+  const bool has_failed = point.status == to_string(RunStatus::failed);
+  return has_failed && !fs::exists(summary) ? io::previous_generation(summary) : summary;
+}
+
 }  // namespace
 
 bool write_table(io::Manifest& manifest, const fs::path& sweep) {
@@ -89,12 +96,12 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
   const std::size_t columns_of_plan = table.columns().size();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const io::ManifestPoint& point = manifest.points[row];
-    // Whatever the status: a point that has failed to go on keeps its earlier result.
     const fs::path directory = point_directory(sweep, point.name);
     const bool in_reach = obstacle_at(directory).empty();
     all_taken = all_taken && in_reach;
-    const fs::path summary = directory / io::summary_name;
-    if (!in_reach || !fs::exists(summary) || misplaced.contains(point.name)) continue;
+    if (!in_reach || misplaced.contains(point.name)) continue;
+    const fs::path summary = result_of(point, directory);  // whatever the status
+    if (!fs::exists(summary)) continue;
     try {
       add_results(summary, row, columns_of_plan, table);
     } catch (const io::FileError& error) {  // go on with the other points
@@ -110,8 +117,12 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
 
 int sweep_collect(const fs::path& directory) {
   io::Manifest manifest = manifest_in(directory);
-  refresh(manifest, directory);
-  const bool all_taken = write_table(manifest, directory);
+  bool beside_a_sweep = false, all_taken = false;
+  do {  // A sweep that has ended meanwhile has written a later table, which this one has replaced.
+    beside_a_sweep = io::DirectoryLock::is_held(directory);
+    refresh(manifest, directory);
+    all_taken = write_table(manifest, directory);
+  } while (beside_a_sweep && !io::DirectoryLock::is_held(directory));
   keep(manifest, directory);
   print_status(manifest, directory);
   return all_taken ? exit_done : exit_failed;

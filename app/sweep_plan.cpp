@@ -58,8 +58,8 @@ double seconds_per_work(const io::Settings& settings) {
 
 int most_threads_of(const io::Settings& settings, const Problem& problem) {
   if (const auto* flow = std::get_if<Flow>(&problem))
-    return threads_for(settings, flow->state.grains.size());
-  return threads_for_curve(settings);
+    return most_threads_for(settings, flow->state.grains.size());
+  return most_threads_for_curve(settings);
 }
 
 /// Whether a run draws random numbers: not in impacts or drops, nor where grains are given.

@@ -91,9 +91,11 @@ std::vector<Way> ways(Stepping stepping, Sharing sharing, const State& state, in
 
 }  // namespace
 
-int useful_threads(std::size_t grains) {
+int useful_threads(std::size_t grains) { return useful_threads(grains, omp_get_max_threads()); }
+
+int useful_threads(std::size_t grains, int available) {
   constexpr std::size_t grains_per_thread = 600;  // with fewer the margins of parts cost too much
-  const auto most = static_cast<std::size_t>(omp_get_max_threads());
+  const auto most = static_cast<std::size_t>(available);
   return static_cast<int>(std::clamp<std::size_t>(grains / grains_per_thread, 1, most));
 }
 

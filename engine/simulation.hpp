@@ -20,6 +20,8 @@ namespace riesel {
 /// The number of threads that pays for this many grains on this machine, for users who leave the
 /// choice to the program.
 int useful_threads(std::size_t grains);
+/// The same where `available` threads are.
+int useful_threads(std::size_t grains, int available);
 
 /// How grains in free flight are moved. The results are the same, bit by bit.
 enum class Stepping {

@@ -19,17 +19,19 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace riesel::io {
 namespace {
 
 constexpr auto cannot_be_locked = "the directory cannot be locked";
+constexpr std::string_view beginning = "process ";  // of what a holder writes into the lock
 
 /// Includes the host: on a network file system the process may run elsewhere.
 std::string description_of_process(pid_t process) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  return fmt::format("process {} on {}", process, host.data());
+  return fmt::format("{}{} on {}", beginning, process, host.data());
 }
 
 /// Whether this describes a process of this host that has ended: an earlier holder.
@@ -46,6 +48,14 @@ std::string description_of_holder(int descriptor) {
   const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
   const std::string description(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
   return description.empty() || is_of_the_past(description) ? "another process" : description;
+}
+
+/// Whether the file is a lock of ours: a holder has written into it, or began to, or nobody has.
+bool is_lock(int descriptor) {
+  std::array<char, beginning.size()> text{};
+  const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
+  return beginning.starts_with(
+      std::string_view(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))));
 }
 
 /// is_held() takes the lock for a moment, so a lock that is held may be free a moment later.
@@ -81,6 +91,10 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Signature s
   if (!is_regular(descriptor_)) {
     close(descriptor_);
     throw FileError(directory / lock_name, "is no regular file", "remove it");
+  }
+  if (!is_lock(descriptor_)) {
+    close(descriptor_);
+    throw FileError(directory / lock_name, "is in the way: riesel has not written it", "move it");
   }
   if (lock_patiently(descriptor_, patience)) {
     if (signature == Signature::now) sign();

@@ -108,8 +108,9 @@ SettingsTable friction_settings() {
        .kind = Kind::choice,
        .fallback = "cap",
        .choices = {"cap", "literal", "viscous", "spring"},
-       .doc = "How friction behaves near zero slip: `cap` limits it to the force that stops the "
-              "slip within one step, `literal` applies the full force with the sign of the slip, "
+       .doc = "How friction behaves near zero slip: `cap` limits it to the force that by "
+              "itself stops the slip within one step, `literal` applies the full force with the "
+              "sign of the slip, "
               "`viscous` limits it by a viscous force, `spring` by a tangential spring that "
               "remembers the distance slipped."},
       {.key = "contact.slip_damping",
@@ -139,7 +140,9 @@ SettingsTable run_settings() {
        .unit = "1",
        .fallback = "50",
        .range = at_least(5.0),
-       .doc = "Time steps per contact, for the shortest contact among all pairs that can meet."},
+       .doc = "Time steps per contact, for the shortest contact among all pairs that can meet; or, "
+              "if that is shorter, per half a period of the tangential spring, or per passage of a "
+              "wall grain in an impact."},
       {.key = "run.threads",
        .kind = Kind::integer_or_auto,
        .fallback = "auto",

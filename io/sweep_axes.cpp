@@ -6,12 +6,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace riesel::io {
 namespace {
 
 using Shape = YamlNode::Shape;
+
+/// The number of twelve digits that differs from this one by rounding alone, if there is one:
+/// 0.42000000000000004, two steps from 0.1 to 0.9, is 0.42, and so the same point of a sweep.
+double without_rounding_noise(double value) {
+  constexpr double rounding = 4e-15;
+  const double short_one = std::stod(fmt::format("{:.12g}", value));
+  return std::abs(short_one - value) <= rounding * std::abs(value) ? short_one : value;
+}
 
 class AxisReader {
 public:
@@ -87,7 +96,8 @@ private:
     }
     std::vector<YamlNode> values;
     for (const double value : read_quantities(row, entry.value))
-      values.push_back(scalar_node(entry.value.place, fmt::format("{}", value)));
+      values.push_back(
+          scalar_node(entry.value.place, fmt::format("{}", without_rounding_noise(value))));
     return values;
   }
 

@@ -23,7 +23,9 @@ void flatten(const Json& json, const std::string& prefix,
     if (value.is_object()) {
       flatten(value, prefix + name + ".", values);
     } else if (!value.is_array()) {
-      values.emplace_back(prefix + name, cell_of(value));
+      // So that the column holds texts in any sweep: cells that are all null would make it numbers.
+      const bool is_no_text = value.is_null() && name == "held_back_by";
+      values.emplace_back(prefix + name, is_no_text ? Cell(std::string()) : cell_of(value));
     } else if (name == "findings") {
       for (const auto& finding : value)
         values.emplace_back(prefix + name + "." + finding.at("name").get<std::string>(),
