@@ -34,6 +34,14 @@ class Directories(CommandTest):
         self.run_small_tube("out", "--set", "run.duration=0.1 ms")
         self.assertEqual((out / "notes.txt").read_text(encoding="utf-8"), "mine")
 
+    def test_a_lock_of_others_is_not_overwritten(self):
+        (self.home / "out").mkdir()
+        self.write("out/.lock", "precious")
+        self.write("tube.yaml", SMALL_TUBE)
+        before = bytes_of_files(self.home)
+        self.assert_failed(self.riesel("run", "tube.yaml", "--out", "out"), "out/.lock", "riesel has not written it")
+        self.assertEqual(bytes_of_files(self.home), before)
+
     def test_settings_of_the_user_are_not_overwritten(self):
         self.write("tube.yaml", SMALL_TUBE)
         (self.home / "out").mkdir()

@@ -5,8 +5,10 @@ import shutil
 import subprocess
 
 import h5py
+import numpy as np
 
 from riesel_command import SMALL_TUBE, CommandTest, bytes_of_files
+from seal import changed_behind_seal
 
 
 def settings_of(checkpoint):
@@ -32,6 +34,26 @@ class Resume(CommandTest):
                 for duration in [*durations[1:], "20 ms"]:
                     self.resume_to_end(short, "--set", f"run.duration={duration}")
                 self.assert_same_result(long, short)
+
+    def test_a_run_of_riesel_0_12_can_be_started_from_but_not_gone_on_with(self):
+        """Its checkpoint has 15 sums per strip for the profiles, not 21."""
+        old = self.run_small_tube("old", "--set", "run.duration=1 ms")
+        for checkpoint in (old / "checkpoint.h5", old / "checkpoint.h5.previous"):
+            with changed_behind_seal(checkpoint) as file:
+                file.attrs.modify("format_version", 10)
+                file.attrs.modify("riesel_version", np.bytes_("0.12.2"))
+                profiles = file["profiles"]
+                strips = profiles.attrs["columns"] // 21
+                profiles.attrs.modify("columns", 15 * strips)
+                sums = profiles["sums"][()].reshape(-1, 21 * strips)[:, :15 * strips].ravel()
+                del profiles["sums"]
+                profiles.create_dataset("sums", data=sums, chunks=sums.shape, fletcher32=True)
+        before = bytes_of_files(old)
+        self.assert_refused(self.riesel("resume", "old", "--set", "run.duration=2 ms"),
+                            "old/checkpoint.h5: has profiles of other sums", "use riesel 0.12.2", "start.kind")
+        self.assertEqual(bytes_of_files(old), before)
+        self.write("next.yaml", SMALL_TUBE.replace("start: {random_velocity: 2 m/s}", "start: {kind: continued, from: old}"))
+        self.run_to_end("next.yaml", "next", "--set", "run.duration=1 ms")
 
     def test_grains_that_rotate_on_springs_go_on_by_other_ways(self):
         spinning = [option for setting in ("grains.rotation=disc", "contact.slip=spring", "contact.slip_stiffness=500 N/m",

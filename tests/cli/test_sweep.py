@@ -91,6 +91,24 @@ class Grid(SweepTest):
         self.assertEqual({path: after[path] for path in before}, before)
         self.assertEqual(len(self.hashes()), 12)
 
+    def test_a_range_that_is_extended_has_its_points_again(self):
+        """Steps of 0.05 between 0.8 and 0.95, and between 0.8 and 1, differ in their last digits."""
+        restitution = "axes: {contact.restitution: {from: 0.8, to: %s, points: %d, spacing: linear}}\n"
+        base = "base: tube.yaml\nset: {run.duration: 1 ms}\n"
+        self.sweep_to_end(base + restitution % (0.95, 4))
+        self.assertEqual([row["contact.restitution"] for row in self.rows()], ["0.8", "0.85", "0.9", "0.95"])
+        names = [row["point"] for row in self.rows()]
+        self.sweep_to_end(base + restitution % ("1.0", 5))
+        self.assertEqual([row["point"] for row in self.rows()][:4], names)
+
+    def test_the_cores_are_those_of_the_machine_that_runs_it(self):
+        """Not of the one that makes the plan, such as the login node of a cluster."""
+        wide = "base: tube.yaml\nset: {run.duration: 0.1 ms, tube.width: 100 mm, tube.length: 100 mm}\nseeds: 1\n"
+        self.write("sweep.yaml", wide + "axes: {contact.friction: [0.5]}\n")
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", "out", "--prepare", OMP_NUM_THREADS="1"))
+        self.assert_done(self.riesel("sweep-task", "out", 0, "--threads", 2, OMP_NUM_THREADS="2"))
+        self.assertEqual(self.summary(self.home / "out/points" / self.points()[0]["name"])["performance"]["threads"], 2)
+
     def test_a_branch_may_take_out_a_section(self):
         self.write("tube.yaml", SMALL_TUBE + "limits: {speed: 50 m/s, overlap: 0.4}\n")
         self.sweep_to_end("base: tube.yaml\nset: {run.duration: 1 ms}\nbranches: {bound: {}, free: {limits: }}\n")
@@ -181,6 +199,9 @@ class Grid(SweepTest):
         self.write("tube.yaml", base)
         self.sweep_to_end(text)
         name = self.points()[0]["name"]
+        self.resume_to_end(earlier)  # has nothing to do
+        self.sweep_to_end(text)
+        self.assertEqual(self.points()[0]["name"], name)
         (self.home / "elsewhere").mkdir()
         self.write("elsewhere/tube.yaml", base)
         self.write("elsewhere/sweep.yaml", text.replace("earlier", str(earlier)))

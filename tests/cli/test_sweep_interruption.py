@@ -268,6 +268,19 @@ axes: {contact.restitution: [0.8]}
         _, stderr = process.communicate(timeout=PATIENCE)
         self.assertEqual((process.returncode, {row["status"] for row in self.rows()}), (DONE, {"done"}), stderr)
 
+    def test_a_point_that_another_process_goes_on_with_is_waited_for(self):
+        """Its earlier result is still there. It is not started in vain, and has not failed."""
+        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
+        point = sorted(self.home.glob("out/points/*"))[0]
+        with open(point / ".lock", "rb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            process = self.start("sweep", "out", "--set", "run.duration=4 ms")
+            time.sleep(4.0)  # longer than any number of attempts would take
+            self.assertIsNone(process.poll())
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, DONE)
+        self.assertEqual({row["attempts"] for row in self.rows()}, {"2"})
+
     def test_a_point_in_use_for_ever_is_one(self):
         self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
         point = sorted(self.home.glob("out/points/*"))[0]

@@ -144,6 +144,8 @@ class Prolonged(SweepTest):
             self.assertIn("2 failed", result.stdout)
             self.assertIn("limits.overlap", result.stdout)
             self.assertEqual([point["attempts"] for point in self.points()], 2 * [attempts])
+            # They keep the results that they had.
+            self.assertEqual([0.0019 < float(row["time"]) < 0.0021 for row in self.rows()], [True, True])
         self.assert_done(self.go_on("run.duration=5 ms", "limits.overlap=1", options=["--retry-failed"]))
         self.assert_is_whole("0.9", "5 ms")
 
@@ -350,6 +352,10 @@ class Refused(SweepTest):
         self.sweep_to_end(TWO)
         (self.home / "out/sweep.yaml").unlink()
         self.assert_refused_without_a_trace(["out"], "sweep.yaml: is missing")
+
+    def test_a_directory_that_is_not_there(self):
+        result = self.riesel("sweep", "sweeps/nix", "--set", "run.duration=1 s")
+        self.assert_refused(result, "sweeps/nix", "No such file")
 
     def test_a_directory_without_a_sweep(self):
         self.run_to_end("tube.yaml", "run")

@@ -14,7 +14,7 @@ class Told(unittest.TestCase):
                 (1.534, 0.05, "1.534 +- 0.050"), (1234.0, 12.0, "1234 +- 12"),
                 (1.2345678, 5e-6, "1.2345678e+00 +- 5.0e-06"),
                 (1.2e-7, 3.4e-9, "1.200e-07 +- 3.4e-09"),
-                (0.0, 1e-9, "0.0e+00 +- 1.0e-09"), (2.0, math.nan, "2 +- nan")):
+                (0.0, 1e-9, "0.0e+00 +- 1.0e-09"), (2.0, math.nan, "2 +- nan"), (math.nan, 1e-9, "nan +- 1e-09"), (math.inf, 1e-9, "inf +- 1e-09")):
             self.assertEqual(str(riesel.Estimate(value, error)), text)
 
     def test_an_error_that_rounds_up_to_the_next_order_has_two_digits(self):

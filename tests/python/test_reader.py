@@ -103,11 +103,15 @@ class Flow(CommandTest):
                 for name in names:
                     np.testing.assert_array_equal(table[name], group[name][()])
                     self.assertEqual(table.unit[name], group[name].attrs["unit"].decode())
+        self.assertEqual(run.summary["structure_factor"][1]["value"], run.summary["structure_factor.1.value"])
+        self.assertNotIn(0, run.summary)
         self.assertEqual(run.series.label("mean_vy"), "mean_vy (m/s)")
         self.assertEqual(run.series.label("contacts"), "contacts")
 
     def test_a_column_that_is_not_there_is_a_key_error_with_those_like_it(self):
         series = self.run_of_it.series
+        with self.assertRaisesRegex(KeyError, "mean_v: there is no such column; there is .*mean_vy"):
+            series.label("mean_v")
         with self.assertRaisesRegex(KeyError, "mean_v: there is no such column; there is .*mean_vy"):
             series["mean_v"]
         with self.assertRaisesRegex(KeyError, f"xyz: there is no such column; there is {', '.join(sorted(series))}"):
