@@ -133,6 +133,27 @@ class Flows(CommandTest):
                 length = file["particles/walls/box/edges"][1]
                 self.assertLess(abs(way - length * np.round(way / length)).max(), 1e-8)
 
+    def test_temperatures_are_those_of_the_frames_without_profile_and_sway(self):
+        """A frame for each row; lines fitted to v_y in each strip by another hand."""
+        out = self.run_of("cell", CELL, "--set", "run.duration=10 ms", "--set", "output.interval=0.1 ms", "--set",
+                          "output.trajectory_interval=0.1 ms")
+        with h5py.File(out / "run.h5") as run, h5py.File(out / "trajectory.h5") as frames:
+            profiles = {name: column[()] for name, column in run["profiles"].items()}
+            since = run["profiles"].attrs["since"]
+            grains = frames["particles/grains"]
+            late = grains["position/time"][()] > since - 1e-9
+            x, v = grains["position/value"][()][late, :, 0], grains["velocity/value"][()][late]
+        width = profiles["x"][1] - profiles["x"][0]
+        v = v - v.mean(axis=1, keepdims=True)
+        strip = np.clip(x // width, 0, len(profiles["x"]) - 1)
+        for i, middle in enumerate(profiles["x"]):
+            here = strip == i
+            of_line = np.polynomial.Polynomial.fit(x[here] - middle, v[here][:, 1], 1)
+            random = v[here][:, 1] - of_line(x[here] - middle)
+            self.assertAlmostEqual(profiles["temperature_x"][i] / (v[here][:, 0]**2).mean(), 1.0, delta=1e-6)
+            self.assertAlmostEqual(profiles["temperature_y"][i] / (random**2).mean(), 1.0, delta=1e-6)
+        self.assertGreater((v[:, :, 1]**2).mean(), 2.0 * profiles["temperature_y"].mean(), "there is a profile")
+
     def test_the_report_of_a_shear_cell_tells_how_hot_it_is_and_of_no_weight(self):
         out = self.run_of("cell", CELL)
         self.assert_done(self.riesel("report", out))
