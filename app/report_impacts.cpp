@@ -15,7 +15,8 @@ namespace {
 void tell_result(const io::CurveSummary& summary, io::HtmlPage& page) {
   const auto points = static_cast<std::int64_t>(summary.curve.size());
   page.paragraph(
-      fmt::format("{}, each the mean over its starting places.", so_many(points, "point")));
+      fmt::format("{}, each the mean over its starting places, but for the largest overlap.",
+                  so_many(points, "point")));
   page.paragraph("Validity of the points: " + count_of_verdicts(summary) + ".",
                  class_of(worst_of(summary.curve)));
   for (const CurveReason& reason : reasons_of(summary)) {

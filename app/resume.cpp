@@ -5,7 +5,6 @@
 #include "app/terminal.hpp"
 #include "engine/histogram_blocks.hpp"
 #include "engine/strips.hpp"
-#include "io/build_info.hpp"
 #include "io/checkpoint.hpp"
 #include "io/durable_file.hpp"
 #include "io/file_error.hpp"
@@ -107,12 +106,12 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
     return UnusableInput(found.path.string() + ": is damaged (" + flaw + "); start the run again");
   };
   if (found.checkpoint.rows > 0) {
-    if (found.checkpoint.profiles.columns() != Strips::of(state).columns())
-      throw found.checkpoint.written_by == build_info().version
-          ? damaged("its profiles are not those of this tube")
-          : UnusableInput(fmt::format("{}: has profiles of other sums; use riesel {} to go on with "
+    if (const std::string& version = found.checkpoint.other_profiles_by; !version.empty())
+      throw UnusableInput(fmt::format("{}: has profiles of other sums; use riesel {} to go on with "
                                       "this run, or start a new one from it (start.kind)",
-                                      found.path.string(), found.checkpoint.written_by));
+                                      found.path.string(), version));
+    if (found.checkpoint.profiles.columns() != Strips::of(state).columns())
+      throw damaged("its profiles are not those of this tube");
     if (found.checkpoint.histograms.columns() != HistogramBlocks().blocks().columns())
       throw damaged("its histograms are not those of this version");
   }

@@ -78,11 +78,12 @@ void keep(const io::Manifest& manifest, const fs::path& sweep) {
   }
 }
 
-/// The result of a point; of one that has failed to go on, the one from before.
-fs::path result_of(const io::ManifestPoint& point, const fs::path& directory) {
-  const fs::path summary = directory / io::summary_name;
-  const bool has_failed = point.status == to_string(RunStatus::failed);
-  return has_failed && !fs::exists(summary) ? io::previous_generation(summary) : summary;
+/// Refreshes the manifest; returns whether any status was another one before.
+bool has_changed(io::Manifest& manifest, const fs::path& sweep) {
+  const io::Manifest before = manifest;
+  refresh(manifest, sweep);
+  return !std::ranges::equal(before.points, manifest.points, {}, &io::ManifestPoint::status,
+                             &io::ManifestPoint::status);
 }
 
 }  // namespace
@@ -100,7 +101,7 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
     const bool in_reach = obstacle_at(directory).empty();
     all_taken = all_taken && in_reach;
     if (!in_reach || misplaced.contains(point.name)) continue;
-    const fs::path summary = result_of(point, directory);  // whatever the status
+    const fs::path summary = summary_of(directory);  // whatever the status
     if (!fs::exists(summary)) continue;
     try {
       add_results(summary, row, columns_of_plan, table);
@@ -117,12 +118,13 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
 
 int sweep_collect(const fs::path& directory) {
   io::Manifest manifest = manifest_in(directory);
-  bool beside_a_sweep = false, all_taken = false;
-  do {  // A sweep that has ended meanwhile has written a later table, which this one has replaced.
-    beside_a_sweep = io::DirectoryLock::is_held(directory);
-    refresh(manifest, directory);
+  refresh(manifest, directory);
+  // A sweep that ends meanwhile writes its last table, which this one may replace by an older one.
+  constexpr int most_tables = 5;  // beside a sweep that goes on, which will write another
+  const bool beside_a_sweep = io::DirectoryLock::is_held(directory);
+  bool all_taken = write_table(manifest, directory);
+  for (int i = 1; beside_a_sweep && i < most_tables && has_changed(manifest, directory); ++i)
     all_taken = write_table(manifest, directory);
-  } while (beside_a_sweep && !io::DirectoryLock::is_held(directory));
   keep(manifest, directory);
   print_status(manifest, directory);
   return all_taken ? exit_done : exit_failed;

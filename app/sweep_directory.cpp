@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool has_result(const fs::path& point) { return io::is_bracketed(point / io::summary_name); }
+bool is_done(const fs::path& point) { return io::is_bracketed(point / io::summary_name); }
 
 /// Why a run that is neither running nor done counts as failed; "" if it does not.
 std::string reason_to_fail(const fs::path& point, const io::RunRecord& record) {
@@ -167,13 +167,18 @@ RunStanding standing_of(const fs::path& point, const io::RunRecord& record) {
   const auto with = [&](RunStatus status, const std::string& reason = "") {
     return RunStanding{.status = status, .attempts = record.attempts, .reason = reason};
   };
-  if (has_result(point)) return with(RunStatus::done);  // 'riesel report' may hold the lock
+  if (is_done(point)) return with(RunStatus::done);  // 'riesel report' may hold the lock
   if (io::DirectoryLock::is_held(point)) return with(RunStatus::running);
   const std::string reason = reason_to_fail(point, record);
   if (!reason.empty()) return with(RunStatus::failed, reason);
   // A damaged result is made anew from the last checkpoint.
   const bool has_begun = record.attempts > 0 || fs::exists(point / io::summary_name);
   return with(has_begun ? RunStatus::interrupted : RunStatus::waiting);
+}
+
+fs::path summary_of(const fs::path& point) {
+  const fs::path now = point / io::summary_name;
+  return fs::exists(now) ? now : io::previous_generation(now);
 }
 
 bool is_among(const std::vector<std::string>& names, const std::string& point) {
@@ -204,7 +209,10 @@ std::set<std::string> note_misplaced(io::Manifest& manifest, const fs::path& swe
   for (io::ManifestPoint& point : manifest.points) {
     if (!is_among(names, point.name)) continue;
     const fs::path directory = point_directory(sweep, point.name);
-    if (!has_result(directory)) continue;
+    std::error_code out_of_reach;
+    if (!is_done(directory)
+        && !fs::exists(io::previous_generation(directory / io::summary_name), out_of_reach))
+      continue;
     const std::string reason =
         misplacement(point, manifest.varied, directory / io::effective_settings_name);
     if (reason.empty()) continue;
@@ -261,10 +269,11 @@ void clear(const fs::path& point) {
   const io::DirectoryLock lock(point);
   if (fs::exists(point / io::summary_name) || can_resume(point)) return;
   const fs::path checkpoint = point / io::checkpoint_name, post_mortem = point / post_mortem_name;
-  for (const fs::path& file : {checkpoint, io::previous_generation(checkpoint), post_mortem,
-                               io::previous_generation(post_mortem), point / io::run_file_name,
-                               point / io::effective_settings_name, point / io::trajectory_name,
-                               point / io::trajectory_index_name})
+  for (const fs::path& file :
+       {checkpoint, io::previous_generation(checkpoint), post_mortem,
+        io::previous_generation(post_mortem), point / io::run_file_name,
+        point / io::effective_settings_name, point / io::trajectory_name,
+        point / io::trajectory_index_name, io::previous_generation(point / io::summary_name)})
     fs::remove(file);
 }
 

@@ -33,6 +33,10 @@ struct RunStanding {
 
 std::filesystem::path point_directory(const std::filesystem::path& sweep, const std::string& name);
 
+/// The summary of the run in the directory of a point; while it goes on, or if it has failed to,
+/// the one from before. There may be neither.
+std::filesystem::path summary_of(const std::filesystem::path& point);
+
 /// The copy of the sweep file in the directory of the sweep.
 inline constexpr auto sweep_file_name = "sweep.yaml";
 

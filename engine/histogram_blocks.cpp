@@ -38,12 +38,12 @@ std::vector<double> counts_of(const Tally& tally) {
   return counts;
 }
 
-/// A rate that leaves a bin empty in 32 % of cases, in what is expected to be counted in the time:
-/// exp(-1.15) = 0.32.
+/// So many independent events are expected where none come in 32 % of cases: exp(-1.15) = 0.32. In
+/// bunches of n it is n times as many.
 constexpr double expected_of_none = 1.15;
 
-/// Rate of one bin in 1/s, from its column of the blocks. If nothing was counted, its error is such
-/// that the true rate is not beyond it in 68 % of cases.
+/// Rate of one bin in 1/s, from its column of the blocks. If nothing was counted, its error is that
+/// of what comes one by one.
 Estimate rate(const TimeBlocks& blocks, std::size_t column, std::int64_t first, double interval) {
   const std::vector<double> means = blocks.means(column, first + 1);
   const Estimate per_sample = mean_with_error(means);

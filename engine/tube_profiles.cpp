@@ -36,6 +36,12 @@ public:
 
   double mean(StripSum sum) const { return mean_of(means(sum)); }
   double mean(StripSum sum, std::size_t strip) const { return mean_of(means(sum, strip)); }
+  /// How many grains in all samples together.
+  double seen(std::size_t strip) const {
+    const auto samples =
+        static_cast<double>(size_) * static_cast<double>(blocks_.samples_per_block());
+    return samples * mean(StripSum::grains, strip);
+  }
 
   /// A sum with this value; its error is that of its linear part, which `terms` describe.
   Estimate sum(double value, std::span<const LinearTerm> terms) const {
@@ -126,14 +132,15 @@ struct Line {
   double at_middle = 0.0, slope = 0.0;
 };
 
-/// The line of least squares. Level where grains have stood in one place only.
+/// The line of least squares. Level where few grains were seen, or all in one place.
 Line line_through(const ZoneBlocks& b, const Moments& moments, std::size_t strip) {
-  constexpr double one_place = 1e-9;
+  constexpr double few = 20.0, one_place = 1e-9;
   const double weight = b.mean(moments.one, strip);
   if (weight == 0.0) return {};
   const double z = b.mean(moments.z, strip) / weight, w = b.mean(moments.w, strip) / weight;
   const double zz = b.mean(moments.z2, strip) / weight - z * z;
-  const double slope = zz > one_place ? (b.mean(moments.zw, strip) / weight - z * w) / zz : 0.0;
+  const bool has_slope = b.seen(strip) > few && zz > one_place;
+  const double slope = has_slope ? (b.mean(moments.zw, strip) / weight - z * w) / zz : 0.0;
   return {.at_middle = w - slope * z, .slope = slope};
 }
 

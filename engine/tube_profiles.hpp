@@ -4,7 +4,7 @@
 // variations of blocks of time (estimate_mean), and so include correlations in time; for a ratio or
 // a difference of squares, the error is that of its linear part.
 //
-// Temperatures and stresses leave out the profile of the velocity: v_y counts relative to a
+// Temperatures and sigma_yy leave out the profile of the velocity: v_y counts relative to a
 // straight line across each strip, also where strips are taken together. A line, as a strip of
 // constant shear rate would otherwise have rate^2 width^2 / 12 too much. Temperatures leave out,
 // too, what all grains do together at a moment.

@@ -197,7 +197,9 @@ Checkpoint read_contents(const StoredGroup& root) {
           .wall_seconds = root.attribute<double>("wall_seconds"),
           .profiles = read_blocks(root.group("profiles")),
           .histograms = read_blocks(root.group("histograms")),
-          .written_by = root.text_attribute("riesel_version")};
+          .other_profiles_by = root.attribute<std::int64_t>("format_version") == format_version
+                                   ? ""
+                                   : root.text_attribute("riesel_version")};
 }
 
 // --- what can be wrong with it ---

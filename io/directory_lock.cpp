@@ -50,12 +50,14 @@ std::string description_of_holder(int descriptor) {
   return description.empty() || is_of_the_past(description) ? "another process" : description;
 }
 
-/// Whether the file is a lock of ours: a holder has written into it, or began to, or nobody has.
+/// Whether the file is a lock of ours: a holder has written into it, or began to, or nobody has. A
+/// failure of power may have left zeros.
 bool is_lock(int descriptor) {
   std::array<char, beginning.size()> text{};
   const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
-  return beginning.starts_with(
-      std::string_view(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))));
+  return text.front() == '\0'
+         || beginning.starts_with(
+             std::string_view(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))));
 }
 
 /// is_held() takes the lock for a moment, so a lock that is held may be free a moment later.

@@ -50,13 +50,23 @@ When unmet_condition(const std::string& key, const SettingsContents& contents) {
                                                  : unmet_condition(condition.key, contents);
 }
 
+/// Whether a setting was given on the command line, not in the file.
+bool is_override(const std::optional<Place>& place) {
+  return place && place->source.starts_with("--set ");
+}
+
 /// A setting without effect would misrepresent the run.
 void refuse_idle_setting(const std::string& key, const Place& place,
                          const SettingsContents& contents) {
   const When condition = unmet_condition(key, contents);
-  const auto actual = std::get<std::string>(contents.find(condition.key)->value.value());
-  throw SettingsError(place, key, fmt::format("has no effect when {} is {}", condition.key, actual),
-                      fmt::format("remove it; it applies only when {}", to_string(condition)));
+  const Entry& decisive = *contents.find(condition.key);
+  const bool overridden = is_override(decisive.given_at) && !is_override(place);
+  throw SettingsError(place, key,
+                      fmt::format("has no effect when {} is {}", condition.key,
+                                  std::get<std::string>(decisive.value.value())),
+                      fmt::format("remove it{}; it applies only when {}",
+                                  overridden ? fmt::format(", here by --set {}=", key) : "",
+                                  to_string(condition)));
 }
 
 /// Reads the rows of a table one by one, and goes on after mistakes.

@@ -12,7 +12,8 @@ namespace {
 
 constexpr auto introduction = R"(# Settings
 
-A settings file is YAML: sections with keys, as below. A key with a default may be left out; unknown keys are errors.
+A settings file is YAML: sections with keys, as below. A key with a default may be left out; unknown keys are errors,
+and so are keys without effect beside the others.
 
 Where a quantity is expected, a number without a unit is in the SI unit given in the table, and a text such as
 `0.66 mm`, `2 kN/m` or `5 %` is converted to it; a unit of another dimension is an error. Where a list of quantities is

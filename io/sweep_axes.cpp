@@ -14,12 +14,16 @@ namespace {
 
 using Shape = YamlNode::Shape;
 
-/// The number of twelve digits that differs from this one by rounding alone, if there is one:
-/// 0.42000000000000004, two steps from 0.1 to 0.9, is 0.42, and so the same point of a sweep.
-double without_rounding_noise(double value) {
-  constexpr double rounding = 4e-15;
-  const double short_one = std::stod(fmt::format("{:.12g}", value));
-  return std::abs(short_one - value) <= rounding * std::abs(value) ? short_one : value;
+/// The values of a range, those between its ends to fourteen digits: a point is the same one in a
+/// longer range, where rounding makes 0.42000000000000004 of 0.42, or 3e-17 of 0.
+std::vector<double> without_rounding_noise(std::vector<double> values) {
+  constexpr double rounding = 1e-14;
+  const double largest = std::max(std::abs(values.front()), std::abs(values.back()));
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    values[i] = std::abs(values[i]) < rounding * largest
+                    ? 0.0
+                    : std::stod(fmt::format("{:.14g}", values[i]));
+  return values;
 }
 
 class AxisReader {
@@ -95,9 +99,8 @@ private:
                           "write the values as a list");
     }
     std::vector<YamlNode> values;
-    for (const double value : read_quantities(row, entry.value))
-      values.push_back(
-          scalar_node(entry.value.place, fmt::format("{}", without_rounding_noise(value))));
+    for (const double value : without_rounding_noise(read_quantities(row, entry.value)))
+      values.push_back(scalar_node(entry.value.place, fmt::format("{}", value)));
     return values;
   }
 

@@ -75,8 +75,10 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
                common = std::abs(settings.number("start.axial_velocity"));
   const double of_walls = std::abs(state.walls.back().motion.velocity);
   if (of_walls > std::max(random, common))
-    settings.reject("cell.velocity", "makes grains too fast for this cell and time step",
-                    fmt::format("choose less than {:.3g} m/s", 2.0 * largest));
+    settings.reject(
+        "cell.velocity", "makes grains too fast for this cell and time step",
+        fmt::format("choose velocities of walls and grains of less than {:.3g} m/s together",
+                    largest));
   settings.reject(random > common ? "start.random_velocity" : "start.axial_velocity", problem,
                   remedy);
 }
@@ -87,13 +89,15 @@ void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& g
                        const State& state) {
   const double fastest_rim =
       std::sqrt(ExactSum::largest_sum / static_cast<double>(grains.size()));  // m/s
-  double largest = 0.25 * std::numbers::pi / state.time_step;
-  for (const Grain& g : grains) largest = std::min(largest, fastest_rim / g.radius);
-  const bool held =
-      std::ranges::all_of(grains, [&](const Grain& g) { return std::abs(g.spin) < largest; });
-  if (!held)
-    settings.reject("start.from", "has spins too fast for this time step",
-                    fmt::format("choose spins below {:.3g} 1/s", largest));
+  const double largest = 0.25 * std::numbers::pi / state.time_step;
+  for (const Grain& g : grains) {
+    if (std::abs(g.spin) >= largest)
+      settings.reject("start.from", "has spins too fast for this time step",
+                      fmt::format("choose spins below {:.3g} 1/s", largest));
+    if (std::abs(g.spin) * g.radius >= fastest_rim)
+      settings.reject("start.from", "has spins whose energy is beyond what sums hold",
+                      fmt::format("choose spins below {:.3g} 1/s", fastest_rim / g.radius));
+  }
 }
 
 }  // namespace

@@ -188,15 +188,18 @@ void reject_fast_walls(const io::Settings& settings, const State& state) {
                                   1.0 / periods, fewest_steps),
                       fmt::format("choose at most {:.3g} 1/s, or more run.steps_per_collision",
                                   0.99 / (fewest_steps * state.time_step)));
-    // Nor would a grain meet one wall grain after the other.
-    const double spacing = wall.smooth() ? 0.0 : wall.spacing(state.box);
-    if (spacing > 0.0 && steady * state.time_step * fewest_steps > spacing)
-      settings.reject("cell.velocity",
+    if (wall.smooth()) continue;
+    // Else a grain would not meet one wall grain after the other.
+    const double spacing = wall.spacing(state.box);
+    const double followed = spacing / (fewest_steps * state.time_step);
+    if (steady + shaken > followed)
+      settings.reject(shaken > steady ? frequency_key : "cell.velocity",
                       fmt::format("moves a wall by {:.3g} of the distance of its grains in a time "
                                   "step; at most 1/{:g} is followed",
-                                  steady * state.time_step / spacing, fewest_steps),
-                      fmt::format("choose at most {:.3g} m/s, or more run.steps_per_collision",
-                                  1.98 * spacing / (fewest_steps * state.time_step)));
+                                  (steady + shaken) * state.time_step / spacing, fewest_steps),
+                      fmt::format("choose a velocity of the wall of at most {:.3g} m/s, or more "
+                                  "run.steps_per_collision",
+                                  followed));
   }
 }
 

@@ -92,14 +92,23 @@ class Grid(SweepTest):
         self.assertEqual(len(self.hashes()), 12)
 
     def test_a_range_that_is_extended_has_its_points_again(self):
-        """Steps of 0.05 between 0.8 and 0.95, and between 0.8 and 1, differ in their last digits."""
-        restitution = "axes: {contact.restitution: {from: 0.8, to: %s, points: %d, spacing: linear}}\n"
-        base = "base: tube.yaml\nset: {run.duration: 1 ms}\n"
-        self.sweep_to_end(base + restitution % (0.95, 4))
-        self.assertEqual([row["contact.restitution"] for row in self.rows()], ["0.8", "0.85", "0.9", "0.95"])
-        names = [row["point"] for row in self.rows()]
-        self.sweep_to_end(base + restitution % ("1.0", 5))
-        self.assertEqual([row["point"] for row in self.rows()][:4], names)
+        """Also where rounding makes their last digits others."""
+        for key, spacing, low, short, long in (
+                ("contact.restitution", "linear", 0.8, (0.95, 4), (1.0, 5)),
+                ("contact.restitution", "linear", 0.5, (0.7, 7), (0.9, 13)),
+                ("contact.stiffness", "log", 1000, (1e5, 7), (1e6, 10)),
+                ("start.axial_velocity", "linear", -0.3, (0.6, 10), (0.9, 13))):
+            names, values = [], []
+            for number, (high, points) in enumerate((short, long)):
+                text = ("base: tube.yaml\nset: {run.duration: 1 ms}\n"
+                        f"axes: {{{key}: {{from: {low}, to: {high}, points: {points}, spacing: {spacing}}}}}\n")
+                out = f"{key}-{low}-{number}"
+                self.assert_done(self.sweep(text, out, "--prepare"))
+                names.append([point["name"] for point in self.points(out)])
+                values.append([point["settings"][key] for point in self.points(out)])
+            with self.subTest(key, low=low):
+                self.assertEqual(names[1][:short[1]], names[0])
+        self.assertEqual(values[0], [-0.3, -0.2, -0.1, 0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
 
     def test_the_cores_are_those_of_the_machine_that_runs_it(self):
         """Not of the one that makes the plan, such as the login node of a cluster."""

@@ -82,7 +82,6 @@ void forge(const fs::path& path, const std::function<void(Hdf5Group&)>& change) 
     copy_attribute("run", std::uint64_t{});
     copy_attribute("rows", std::int64_t{});
     copy_attribute("wall_seconds", double{});
-    root.set_attribute("riesel_version", old.text_attribute("riesel_version"));
     change(root);
   }
   const auto image = file.image();

@@ -223,6 +223,12 @@ TEST_CASE("settings without effect") {
            "applies only when contact.law is power");
   CHECK(error("scenario: wall\ncontact: {stiffness: 1, slip_damping: 2}\n").find("f.yaml:2:25")
         == 0);
+  // The file need not be changed for an override.
+  const std::string linear = "scenario: wall\ncontact: {stiffness: 1, restitution: 0.5}\n";
+  CHECK(error(linear, {"contact.law=hertz", "contact.damping=1"})
+        == "f.yaml:2:25: contact.restitution: has no effect when contact.law is hertz; remove it, "
+           "here by --set contact.restitution=; it applies only when contact.law is linear");
+  CHECK(error(linear, {"contact.law=hertz", "contact.damping=1", "contact.restitution="}).empty());
 }
 
 TEST_CASE("settings that another one requires") {

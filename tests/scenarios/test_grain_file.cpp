@@ -77,7 +77,7 @@ TEST_CASE("spins whose energy no sum would hold are refused") {
   const FileStart file("spin (1/s),diameter (mm),x (mm),y (mm),vx,vy\n2e8,8,5,5,0,0\n");
   check_mentions(file.complaint({"grains.rotation=disc", "contact.stiffness=2e11", "gravity=0",
                                  "tube.length=40 mm"}),
-                 {"start.from", "spins too fast", "6.55e+07"});
+                 {"start.from", "spins whose energy", "6.55e+07"});
 }
 
 TEST_CASE("grains that rotate may have spins in the file, others may not") {

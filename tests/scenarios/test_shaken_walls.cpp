@@ -56,6 +56,12 @@ TEST_CASE("walls that shake too far or too fast are refused") {
   CHECK(swing("6 mm", "0") == "accepted");
   check_mentions(complaint(tube_yaml, shaken({"wall.shake_frequency=1e8"})),
                  {"wall.shake_frequency", "too fast"});
+  // Corrugated walls that run past their grains in a few steps
+  check_mentions(complaint(tube_yaml, {"wall.shake_frequency=3e4", "wall.shake_amplitude=4 mm"}),
+                 {"wall.shake_frequency", "in a time step"});
+  CHECK(complaint(tube_yaml,
+                  {"wall.shake_frequency=3e4", "wall.shake_amplitude=4 mm", "wall.surface=smooth"})
+        == "accepted");
 }
 
 TEST_CASE("a shaking of which half is given is refused") {

@@ -143,6 +143,7 @@ TEST_CASE("what does not fit into a shear cell is refused") {
   for (const double part : {0.06, 0.5, 1.0})
     check_mentions(complaint(cell_yaml, {"cell.velocity=" + std::to_string(part * per_step)}),
                    {"cell.velocity", "in a time step", "run.steps_per_collision"});
+  CHECK(complaint(cell_yaml, {"cell.velocity=" + std::to_string(0.04 * per_step)}) == "accepted");
 }
 
 TEST_CASE("in a sheared cell collisions take what the walls put in") {
