@@ -53,7 +53,8 @@ def windows_of(series, mass, grains, gravity):
 
 
 def zones_of(profiles):
-    """sigma_vx, velocity and area fraction of the wall layers and of the core."""
+    """sigma_vx, velocity and area fraction of the wall layers and of the core. (The kept tables are of riesel up to 0.12,
+    where this sigma_vx includes what all grains do together.)"""
     columns = {}
     for word, zone in (("wall", profiles["wall_layers"]), ("core", profiles["core"])):
         t_x = zone["temperature_x"]
