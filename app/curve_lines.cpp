@@ -11,17 +11,12 @@ namespace {
 
 using Points = std::vector<io::CurvePoint>;
 
-/// v_y (m/s) of a rise, interpolated between two points, and how far these are apart.
-struct Rise {
-  double at = unknown, within = unknown;
-};
-
 /// Where the value rises through the level for the last time and stays above, interpolated
 /// linearly: as means of few starts scatter, it may touch the level before. Unknown if it is above
 /// from the beginning.
-Rise where_it_rises(const Points& points, double io::CurvePoint::*value, double level) {
+io::Rise where_it_rises(const Points& points, double io::CurvePoint::*value, double level) {
   const io::CurvePoint* below = nullptr;
-  Rise rise;
+  io::Rise rise;
   for (const io::CurvePoint& point : points) {
     if (std::isnan(point.*value)) continue;
     if (point.*value < level) {
@@ -39,13 +34,9 @@ Rise where_it_rises(const Points& points, double io::CurvePoint::*value, double 
 /// `points`: of one v_x, by increasing v_y.
 io::CurveLine line_of(const Points& points) {
   io::CurveLine line{.v_x = points.front().v_x};
-  const Rise failure =
+  line.brake_fails =
       where_it_rises(points, &io::CurvePoint::brake_failure_fraction, unphysical_brake_failure);
-  line.brake_fails_at = failure.at;
-  line.brake_fails_within = failure.within;
-  const Rise second_contact = where_it_rises(points, &io::CurvePoint::contacts, 2.0);
-  line.two_contacts_at = second_contact.at;
-  line.two_contacts_within = second_contact.within;
+  line.two_contacts = where_it_rises(points, &io::CurvePoint::contacts, 2.0);
   for (const io::CurvePoint& point : points) {
     const bool brakes = !(point.brake_failure_fraction >= unphysical_brake_failure);
     if (brakes && !(point.dv_y <= line.largest_dv_y) && !std::isnan(point.dv_y)) {

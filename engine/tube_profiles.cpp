@@ -17,8 +17,8 @@ namespace {
 
 constexpr Estimate not_known{unknown, unknown};
 
-/// One of the sums that a quantity depends on: the derivative of the quantity with respect to the
-/// mean of this sum.
+/// One of the sums that a quantity is made of, and the derivative of the quantity with respect to
+/// the mean of this sum.
 struct LinearTerm {
   StripSum sum;
   double derivative;
@@ -43,14 +43,18 @@ public:
     return samples * mean(StripSum::grains, strip);
   }
 
-  /// A sum with this value; its error is that of its linear part, which `terms` describe.
-  Estimate sum(double value, std::span<const LinearTerm> terms) const {
-    return {value, mean_with_error(linear(terms)).error};
+  /// The sum of the terms.
+  double sum(std::span<const LinearTerm> terms) const {
+    double total = 0.0;
+    for (const LinearTerm& term : terms)
+      total += term.derivative * (term.strip ? mean(term.sum, *term.strip) : mean(term.sum));
+    return total;
   }
-  Estimate sum(double value, std::initializer_list<LinearTerm> terms) const {
-    return sum(value, std::span(terms));
+  double error(std::span<const LinearTerm> terms) const {
+    return mean_with_error(linear(terms)).error;
   }
-  /// The same for a mean over the grains of the zone.
+  /// A mean over the grains of the zone; its error is that of its linear part, which `terms`
+  /// describe.
   Estimate mean_over_grains(double value, std::span<const LinearTerm> terms) const {
     return {value, error_per_weight(linear(terms), means(StripSum::grains))};
   }
@@ -90,9 +94,14 @@ private:
   std::size_t size_;
 };
 
-/// The sum over the area of the zone (m^2).
+/// The sum of the terms over the area of the zone (m^2).
+Estimate density(const ZoneBlocks& b, double area, std::vector<LinearTerm> terms) {
+  const double value = b.sum(terms) / area;
+  for (LinearTerm& term : terms) term.derivative /= area;
+  return {value, b.error(terms)};
+}
 Estimate density(const ZoneBlocks& b, double area, StripSum sum) {
-  return b.sum(b.mean(sum) / area, {{sum, 1.0 / area}});
+  return density(b, area, {{sum, 1.0}});
 }
 
 /// A stress (N/m) of contacts, as it is. If no row has caught any, nothing tells how they scatter.
@@ -106,8 +115,7 @@ Estimate contact_stress(const ZoneBlocks& b, double area, StripSum contact) {
 }
 
 Estimate stress(const ZoneBlocks& b, double area, StripSum kinetic, StripSum contact) {
-  const double sum = b.mean(kinetic) + b.mean(contact);
-  return known_by_contacts(b, b.sum(sum / area, {{kinetic, 1.0 / area}, {contact, 1.0 / area}}));
+  return known_by_contacts(b, density(b, area, {{kinetic, 1.0}, {contact, 1.0}}));
 }
 
 /// Mean over the grains of the zone.
@@ -144,53 +152,41 @@ Line line_through(const ZoneBlocks& b, const Moments& moments, std::size_t strip
   return {.at_middle = w - slope * z, .slope = slope};
 }
 
-/// A sum over a zone, and its derivatives.
-struct LinearSum {
-  double sum = 0.0;
-  std::vector<LinearTerm> terms;
-};
-
 /// The weighted sum of the squares of w about the line in each strip. As this sum is least for that
 /// line, it may be taken as given in the derivatives.
-LinearSum random_part(const ZoneBlocks& b, const Moments& moments) {
-  LinearSum random;
+std::vector<LinearTerm> random_part(const ZoneBlocks& b, const Moments& moments) {
+  std::vector<LinearTerm> terms;
   for (const std::size_t strip : b.strips()) {
     const auto [w, slope] = line_through(b, moments, strip);
-    const std::array<LinearTerm, 6> terms = {{{moments.w2, 1.0, strip},
-                                              {moments.w, -2.0 * w, strip},
-                                              {moments.zw, -2.0 * slope, strip},
-                                              {moments.one, w * w, strip},
-                                              {moments.z, 2.0 * w * slope, strip},
-                                              {moments.z2, slope * slope, strip}}};
-    for (const LinearTerm& term : terms) random.sum += term.derivative * b.mean(term.sum, strip);
-    random.terms.insert(random.terms.end(), terms.begin(), terms.end());
+    terms.insert(terms.end(), {{moments.w2, 1.0, strip},
+                               {moments.w, -2.0 * w, strip},
+                               {moments.zw, -2.0 * slope, strip},
+                               {moments.one, w * w, strip},
+                               {moments.z, 2.0 * w * slope, strip},
+                               {moments.z2, slope * slope, strip}});
   }
-  return random;
+  return terms;
 }
 
 /// Mean over the grains of the squares of w about the line in their strip.
 Estimate variance_of_w(const ZoneBlocks& b) {
   const double grains = b.mean(StripSum::grains);
   if (grains == 0.0) return not_known;
-  LinearSum random = random_part(b, of_grains);
-  const double variance = random.sum / grains;
-  random.terms.push_back({StripSum::grains, -variance});
-  for (LinearTerm& term : random.terms) term.derivative /= grains;
-  return b.mean_over_grains(variance, random.terms);
+  std::vector<LinearTerm> terms = random_part(b, of_grains);
+  const double variance = b.sum(terms) / grains;
+  terms.push_back({StripSum::grains, -variance});
+  for (LinearTerm& term : terms) term.derivative /= grains;
+  return b.mean_over_grains(variance, terms);
 }
 
 Estimate kinetic_stress_yy(const ZoneBlocks& b, double area) {
-  LinearSum random = random_part(b, of_mass);
-  for (LinearTerm& term : random.terms) term.derivative /= area;
-  return b.sum(random.sum / area, random.terms);
+  return density(b, area, random_part(b, of_mass));
 }
 
 Estimate stress_yy(const ZoneBlocks& b, double area) {
-  LinearSum all = random_part(b, of_mass);
-  all.sum += b.mean(StripSum::contact_yy);
-  all.terms.push_back({StripSum::contact_yy, 1.0});
-  for (LinearTerm& term : all.terms) term.derivative /= area;
-  return known_by_contacts(b, b.sum(all.sum / area, all.terms));
+  std::vector<LinearTerm> terms = random_part(b, of_mass);
+  terms.push_back({StripSum::contact_yy, 1.0});
+  return known_by_contacts(b, density(b, area, std::move(terms)));
 }
 
 struct Quantity {

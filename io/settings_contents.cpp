@@ -52,7 +52,7 @@ When unmet_condition(const std::string& key, const SettingsContents& contents) {
 
 /// Whether a setting was given on the command line, not in the file.
 bool is_override(const std::optional<Place>& place) {
-  return place && place->source.starts_with("--set ");
+  return place && place->source.starts_with(override_mark);
 }
 
 /// A setting without effect would misrepresent the run.

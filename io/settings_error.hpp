@@ -5,9 +5,13 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace riesel::io {
+
+/// How the source of an override begins.
+inline constexpr std::string_view override_mark = "--set ";
 
 /// Where a setting was written.
 struct Place {

@@ -19,7 +19,7 @@ std::string without_blanks_around(const std::string& text) {
 }
 
 YamlEntry parse_override(const std::string& text) {
-  const Place place = {"--set " + text};
+  const Place place = {std::string(override_mark) + text};
   const auto equals = text.find('=');
   const auto key = without_blanks_around(text.substr(0, equals));
   if (equals == std::string::npos || key.empty()) {

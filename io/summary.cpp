@@ -189,10 +189,10 @@ std::string to_json(const CurveSummary& s) {
     json["lines"].push_back({{"v_x", line.v_x},
                              {"largest_dv_y", line.largest_dv_y},
                              {"largest_at", line.largest_at},
-                             {"brake_fails_at", line.brake_fails_at},
-                             {"brake_fails_within", line.brake_fails_within},
-                             {"two_contacts_at", line.two_contacts_at},
-                             {"two_contacts_within", line.two_contacts_within}});
+                             {"brake_fails_at", line.brake_fails.at},
+                             {"brake_fails_within", line.brake_fails.within},
+                             {"two_contacts_at", line.two_contacts.at},
+                             {"two_contacts_within", line.two_contacts.within}});
   return text_of(json);
 }
 

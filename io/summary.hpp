@@ -150,15 +150,20 @@ struct CurvePoint {
   std::string cause = {};  ///< the finding that decided the verdict; empty for valid points
 };
 
+/// Where a curve rises through a level, interpolated between two points: for a single start it may
+/// rise at once, and all that is known is between which points.
+struct Rise {
+  double at = unknown;      ///< m/s, v_y
+  double within = unknown;  ///< m/s, how far apart the two points are
+};
+
 /// What follows from the points with the same v_x.
 struct CurveLine {
   double v_x = 0.0;                                     ///< m/s
   double largest_dv_y = unknown, largest_at = unknown;  ///< m/s, of points where the brake works
-  double brake_fails_at = unknown;   ///< m/s, v_y from which half of the braking fails
-  double two_contacts_at = unknown;  ///< m/s, v_y from which an impact has two contacts on average
-  /// m/s, how far apart the two points are between which these were interpolated: for a single
-  /// start the braking fails at once, and all that is known is between which points.
-  double brake_fails_within = unknown, two_contacts_within = unknown;
+  /// From where on half of the braking fails, and from where on an impact has two contacts on
+  /// average.
+  Rise brake_fails = {}, two_contacts = {};
 };
 
 struct CurveSummary {

@@ -1,5 +1,6 @@
 """A sweep that is stopped at any moment, politely or not, goes on as if it had never been stopped."""
 
+import contextlib
 import fcntl
 import os
 import pathlib
@@ -255,14 +256,20 @@ axes: {contact.restitution: [0.8]}
             self.assert_refused(self.sweep(other, "out", *options), "holds another sweep", "--out")
         self.assertEqual([(self.home / "out" / name).read_bytes() for name in ("sweep.yaml", "manifest.json")], plan)
 
+    @contextlib.contextmanager
+    def point_of_short_runs_locked(self, how):
+        """The directory of one of three points that are done, while its lock is held."""
+        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
+        point = sorted(self.home.glob("out/points/*"))[0]
+        with open(point / ".lock", "rb") as lock:
+            fcntl.flock(lock, how)
+            yield point
+
     def test_a_point_in_use_for_a_moment_is_no_failure(self):
         """A shared lock, which stands in the way of a run although nobody seems to work on it, is as one that
         is taken between the look of the sweep and the start of the run."""
-        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
-        point = sorted(self.home.glob("out/points/*"))[0]
-        log = point / "log.txt"
-        with open(point / ".lock", "rb") as lock:
-            fcntl.flock(lock, fcntl.LOCK_SH)
+        with self.point_of_short_runs_locked(fcntl.LOCK_SH) as point:
+            log = point / "log.txt"
             process = self.start("sweep", "out", "--jobs", 1, "--set", "run.duration=4 ms")
             self.wait_until(lambda: "is in use by" in log.read_text("utf-8"), "the collision")
         _, stderr = process.communicate(timeout=PATIENCE)
@@ -270,10 +277,7 @@ axes: {contact.restitution: [0.8]}
 
     def test_a_point_that_another_process_goes_on_with_is_waited_for(self):
         """Its earlier result is still there. It is not started in vain, and has not failed."""
-        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
-        point = sorted(self.home.glob("out/points/*"))[0]
-        with open(point / ".lock", "rb") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
+        with self.point_of_short_runs_locked(fcntl.LOCK_EX):
             process = self.start("sweep", "out", "--set", "run.duration=4 ms")
             time.sleep(4.0)  # longer than any number of attempts would take
             self.assertIsNone(process.poll())
@@ -282,10 +286,7 @@ axes: {contact.restitution: [0.8]}
         self.assertEqual({row["attempts"] for row in self.rows()}, {"2"})
 
     def test_a_point_in_use_for_ever_is_one(self):
-        self.sweep_to_end(LONG.replace("1500 ms", "2 ms"))
-        point = sorted(self.home.glob("out/points/*"))[0]
-        with open(point / ".lock", "rb") as lock:
-            fcntl.flock(lock, fcntl.LOCK_SH)
+        with self.point_of_short_runs_locked(fcntl.LOCK_SH):
             result = self.riesel("sweep", "out", "--set", "run.duration=4 ms")
         self.assertEqual(result.returncode, FAILED)
         self.assertIn("2 done, 1 failed", result.stdout)
