@@ -81,6 +81,7 @@ const std::vector<Variant>& timed_variants() {
        .stepping = Stepping::plain,
        .threads = 2,
        .sharing = Sharing::apart},
+      {.name = "plain 2 runs", .stepping = Stepping::plain, .threads = 1, .runs = 2},
       {.name = "windows 1", .stepping = Stepping::windows, .threads = 1},
       {.name = "windows 2",
        .stepping = Stepping::windows,
@@ -90,6 +91,7 @@ const std::vector<Variant>& timed_variants() {
        .stepping = Stepping::windows,
        .threads = 2,
        .sharing = Sharing::apart},
+      {.name = "windows 2 runs", .stepping = Stepping::windows, .threads = 1, .runs = 2},
       {.name = "automatic", .stepping = Stepping::automatic, .threads = 0},
   };
   return table;

@@ -43,7 +43,11 @@ struct Variant {
   Stepping stepping;
   int threads;  ///< 0: as many as riesel takes by itself
   Sharing sharing = Sharing::automatic;
+  /// Of the same state, side by side, each on a thread of its own: what the machine has for two
+  /// threads that need not wait for each other.
+  int runs = 1;
 
+  int all_threads() const { return runs * threads; }
   /// Where memory is what counts the threads have parts of another kind: slices that go askew.
   bool suits(const State& state) const { return sharing != Sharing::apart || !Askew{}.pays(state); }
 };

@@ -4,6 +4,7 @@
 #include "bench/kept_model.hpp"
 #include "bench/scalar_reference.hpp"
 #include "bench/traffic.hpp"
+#include "engine/parallel_problems.hpp"
 #include "io/checkpoint.hpp"
 
 #include <fmt/core.h>
@@ -22,9 +23,26 @@ constexpr std::size_t fewest_for_bandwidth = 500'000;  // below, caches hold a p
 /// What a row is about to be.
 struct Contender {
   Variant variant;
-  std::unique_ptr<Simulation> simulation;
-  std::uint64_t hash_after_warm_up = 0;
-  double contacts = 0.0;  ///< per grain, summed over the repetitions
+  std::vector<std::unique_ptr<Simulation>> runs{};
+  std::uint64_t hash_after_warm_up = 0;  ///< of each run
+  double contacts = 0.0;                 ///< per grain, summed over the repetitions
+
+  const State& state() const { return runs.front()->state(); }
+  /// Returns when all runs are done.
+  void advance(std::int64_t steps) {
+    if (runs.size() == 1)
+      runs.front()->advance(steps);
+    else
+      side_by_side(steps);
+  }
+
+private:
+  void side_by_side(std::int64_t steps) {
+    solve_all(runs, variant.runs, [&](const auto& run) {
+      run->advance(steps);
+      return run->state().step;
+    });
+  }
 };
 
 /// Steps are the same for all variants and do not depend on the clock, so that the hashes of two
@@ -106,19 +124,20 @@ private:
   }
 
   Contender warmed_up(const Variant& variant) const {
-    Contender contender{.variant = variant, .simulation = {}};
-    contender.simulation =
-        std::make_unique<Simulation>(start_.state, model_, contender.variant.threads,
-                                     variant.stepping, Askew{}, variant.sharing);
-    contender.simulation->advance(plan_.warm_up);
-    contender.hash_after_warm_up = state_hash(contender.simulation->state());
+    Contender contender{.variant = variant};
+    for (int run = 0; run < variant.runs; ++run) {
+      contender.runs.push_back(std::make_unique<Simulation>(
+          start_.state, model_, variant.threads, variant.stepping, Askew{}, variant.sharing));
+      contender.runs.back()->advance(plan_.warm_up);
+    }
+    contender.hash_after_warm_up = state_hash(contender.state());
     return contender;
   }
 
   double timed(Contender& contender) const {
-    const double seconds = seconds_of([&] { contender.simulation->advance(plan_.steps); });
-    contender.contacts += static_cast<double>(contender.simulation->state().contacts.size())
-                          / static_cast<double>(grains_);
+    const double seconds = seconds_of([&] { contender.advance(plan_.steps); });
+    contender.contacts +=
+        static_cast<double>(contender.state().contacts.size()) / static_cast<double>(grains_);
     return seconds;
   }
 
@@ -136,7 +155,8 @@ private:
 
   Row row(const Contender& contender, const Timing& timing,
           const std::vector<Bandwidth>& bandwidth) const {
-    Row result = row(contender.variant.name, contender.variant.threads, plan_.steps, timing);
+    Row result = row(contender.variant.name, contender.variant.all_threads(), plan_.steps, timing);
+    result.work *= contender.variant.runs;
     result.state_hash = contender.hash_after_warm_up;
     result.contacts_per_grain = contender.contacts / static_cast<double>(plan_.repetitions);
     if (*result.contacts_per_grain > 0.0)
@@ -148,7 +168,7 @@ private:
   }
 
   void add_memory(const Variant& variant, Row& row) const {
-    if (grains_ < fewest_for_memory) return;
+    if (grains_ < fewest_for_memory || variant.runs > 1) return;
     const auto answer =
         ask_child({"advance", path_.string(), "--stepping", name_in(steppings(), variant.stepping),
                    "--threads", std::to_string(variant.threads), "--sharing",
@@ -158,7 +178,7 @@ private:
   }
 
   void add_bandwidth(const std::vector<Bandwidth>& measured, Row& row) const {
-    const double traffic = plain_traffic(contenders_.front().simulation->state());
+    const double traffic = plain_traffic(contenders_.front().state());
     const auto limit = bandwidth_for(measured, row.threads, traffic * static_cast<double>(grains_));
     row.bytes_per_particle_step = traffic;
     if (limit) row.bandwidth_share = traffic * row.rate() / *limit;
@@ -170,10 +190,11 @@ private:
                                           contenders_.front().variant.name, variant, when));
     };
     const std::uint64_t early = contenders_.front().hash_after_warm_up;
-    const std::uint64_t late = state_hash(contenders_.front().simulation->state());
+    const std::uint64_t late = state_hash(contenders_.front().state());
     for (const Contender& other : contenders_) {
       if (other.hash_after_warm_up != early) complain(other.variant.name, "after the warm-up");
-      if (state_hash(other.simulation->state()) != late) complain(other.variant.name, "at the end");
+      for (const auto& run : other.runs)
+        if (state_hash(run->state()) != late) complain(other.variant.name, "at the end");
     }
     for (const Variant& variant : further_variants())
       if (variant.suits(start_.state) && warmed_up(variant).hash_after_warm_up != early)

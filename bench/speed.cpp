@@ -61,7 +61,7 @@ struct Flow {
 
 /// All variants of a case are alive at the same time.
 bool fits(const Flow& flow, const Machine& machine) {
-  constexpr double grains_per_copy = 1400.0, bytes_per_grain = 2500.0;  // of all variants together
+  constexpr double grains_per_copy = 1400.0, bytes_per_grain = 3500.0;  // of all variants together
   const double needed = flow.size.copies * grains_per_copy * bytes_per_grain;
   const bool enough = needed < static_cast<double>(machine.memory);
   if (!enough)

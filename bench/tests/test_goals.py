@@ -93,6 +93,13 @@ class Goals(unittest.TestCase):
         self.assertEqual(found["`auto` 0.95 times the better way on one thread", "fast tube"], ["", "0.83", "", ""])
         self.assertEqual(found["two threads 1.8 (1.4 k) and 1.9 times one, plain", "fast tube"], ["", "1.82", "", ""])
 
+    def test_what_the_machine_has_for_two_runs(self):
+        rows = [row("tube_slow", "10k", "plain 1", [1.0, 1.0]), row("tube_slow", "10k", "plain 2", [0.6, 0.6]),
+                row("tube_slow", "10k", "plain 2 runs", [1.0, 1.05]) | {"work": 2 * row("", "", "", [1.0])["work"]}]
+        found = self.table(suite(*rows))
+        self.assertEqual(found["two threads 1.8 (1.4 k) and 1.9 times one, plain", "slow tube"], ["", "1.67", "", ""])
+        self.assertEqual(found["the same of two runs side by side, plain", "slow tube"], ["", "**1.95**", "", ""])
+
     def test_only_results_of_that_date_or_younger(self):
         old = suite(row("start_up", "1M", "threads 1", [9.0]), date="2025-12-31T23:59:59Z")
         young = suite(row("start_up", "1M", "threads 1", [2.0]))

@@ -56,7 +56,8 @@ class Suite(unittest.TestCase):
 
     def test_all_variants_are_there(self):
         flow = [variant for case, variant in self.rows if case == "tube_start"]
-        self.assertEqual(flow, ["scalar", "plain 1", "plain 2", "plain 2 apart", "windows 1", "windows 2", "windows 2 apart", "automatic"])
+        self.assertEqual(flow, ["scalar", "plain 1", "plain 2", "plain 2 apart", "plain 2 runs", "windows 1", "windows 2", "windows 2 apart",
+                                "windows 2 runs", "automatic"])
         self.assertEqual({case for case, _ in self.rows}, {"single_wall_grain", "tube_start", "checkpoint", "start_up",
                                                         "ensemble"})
 
@@ -64,6 +65,11 @@ class Suite(unittest.TestCase):
         self.assertTrue(self.results["hashes_agree"])
         hashes = {row["state_hash"] for (case, _), row in self.rows.items() if case == "tube_start"} - {None}
         self.assertEqual(len(hashes), 1)
+
+    def test_two_runs_side_by_side_do_twice_the_work(self):
+        for stepping in ("plain", "windows"):
+            one, two = self.rows["tube_start", f"{stepping} 1"], self.rows["tube_start", f"{stepping} 2 runs"]
+            self.assertEqual((two["threads"], two["work"]), (2, 2 * one["work"]))
 
     def test_runs_of_an_ensemble_do_not_depend_on_what_runs_beside_them(self):
         one, two = self.rows["ensemble", "jobs 1"], self.rows["ensemble", "jobs 2"]
