@@ -56,15 +56,10 @@ std::optional<io::FlowSummary> result_of(const fs::path& point) {
   return {};
 }
 
-io::Settings kept_settings(const fs::path& file) {
-  return io::Settings::from_text(io::read_kept_text(file), file.string(),
-                                 scenarios::settings_tables());
-}
-
 /// The length that the run was to have when it ended; nothing if its settings cannot be read.
 std::optional<scenarios::RunLength> length_of(const fs::path& point) {
   try {
-    return scenarios::run_length(kept_settings(point / io::effective_settings_name));
+    return scenarios::run_length(settings_of_point(point / io::effective_settings_name));
   } catch (const io::SettingsError&) {
     return {};
   }
@@ -103,7 +98,7 @@ Prolongation::Prolongation(const io::Manifest& manifest, const fs::path& sweep,
     if (!is_among(names, point.name)) continue;
     const fs::path directory = point_directory(sweep, point.name);
     if (!obstacle_at(directory).empty()) continue;
-    const io::Settings planned = kept_settings(directory / point_settings_name);
+    const io::Settings planned = settings_of_point(directory / point_settings_name);
     reject_without_length(planned, sweep);
     goals_[point.name] = goal_for(directory, planned, overrides);
   }

@@ -15,9 +15,15 @@ struct Entry {
 
 double number(std::int64_t count) { return static_cast<double>(count); }
 
-/// Sums over contacts with walls and visits to them that have ended, all since the start.
-const std::vector<Entry>& entries_of_walls() {
+/// Sums over contacts that have ended and visits to walls that are over, all since the start.
+const std::vector<Entry>& entries_of_contacts() {
   static const std::vector<Entry> table = {
+      {{"grain_contacts_ended", "1", "Contacts between grains ended so far."},
+       [](auto&, auto& t) { return number(t.grains.ended); }},
+      {{"grain_contact_time", "s", "Sum of the durations of contacts between grains."},
+       [](auto&, auto& t) { return t.grains.duration.value(); }},
+      {{"grain_slip_path", "m", "Sum of the ways by which surfaces slipped, between grains."},
+       [](auto&, auto& t) { return t.grains.slip_path.value(); }},
       {{"wall_contacts_ended", "1", "Contacts with walls ended so far."},
        [](auto&, auto& t) { return number(t.brakes.contacts); }},
       {{"wall_contacts_cut_short", "1",
@@ -38,6 +44,8 @@ const std::vector<Entry>& entries_of_walls() {
        [](auto&, auto& t) { return t.brakes.entry_slip.value(); }},
       {{"wall_contact_time", "s", "Sum of the durations of wall contacts."},
        [](auto&, auto& t) { return t.brakes.duration.value(); }},
+      {{"wall_slip_path", "m", "Sum of the ways by which surfaces slipped, at walls."},
+       [](auto&, auto& t) { return t.walls.slip_path.value(); }},
       {{"wall_pulling_time", "s", "The part of wall_contact_time in which the normal force pulls."},
        [](auto&, auto& t) { return t.brakes.pulling.value(); }},
       {{"wall_visits", "1", "Visits to walls that are over."},
@@ -124,14 +132,14 @@ const std::vector<Entry>& entries() {
 
 std::vector<io::Column> series_columns() {
   std::vector<io::Column> columns;
-  for (const auto* table : {&entries(), &entries_of_walls()})
+  for (const auto* table : {&entries(), &entries_of_contacts()})
     for (const Entry& entry : *table) columns.push_back(entry.column);
   return columns;
 }
 
 std::vector<double> series_row(const Observables& observables, const Tally& tally) {
   std::vector<double> row;
-  for (const auto* table : {&entries(), &entries_of_walls()})
+  for (const auto* table : {&entries(), &entries_of_contacts()})
     for (const Entry& entry : *table) row.push_back(entry.value(observables, tally));
   return row;
 }

@@ -65,8 +65,7 @@ std::string difference_from_plan(const io::ManifestPoint& point,
                                  const fs::path& file) {
   constexpr auto start_from = "start.from";
   try {
-    const io::Settings settings = io::Settings::from_text(io::read_kept_text(file), file.string(),
-                                                          scenarios::settings_tables());
+    const io::Settings settings = settings_of_point(file);
     const io::SettingsTable& table = scenarios::settings_tables().at(settings.scenario());
     for (std::size_t i = 0; i < varied.size(); ++i) {
       const std::string& key = varied[i].key;
@@ -145,6 +144,11 @@ bool has_status(const io::ManifestPoint& point, RunStatus status) {
 
 fs::path point_directory(const fs::path& sweep, const std::string& name) {
   return sweep / "points" / name;
+}
+
+io::Settings settings_of_point(const fs::path& file) {
+  return io::Settings::from_text(io::read_kept_text(file), file.string(),
+                                 scenarios::settings_tables());
 }
 
 io::Manifest manifest_in(const fs::path& sweep) {

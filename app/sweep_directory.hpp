@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/run_record.hpp"
+#include "io/settings.hpp"
 #include "io/sweep_manifest.hpp"
 
 #include <filesystem>
@@ -42,6 +43,10 @@ inline constexpr auto sweep_file_name = "sweep.yaml";
 
 /// The settings file of a point, within its directory.
 inline constexpr auto point_settings_name = "point.yaml";
+
+/// The settings that riesel wrote for a point, in a file of its directory. Throws
+/// io::SettingsError if they cannot be read.
+io::Settings settings_of_point(const std::filesystem::path& file);
 
 /// The manifest of the sweep in this directory. Throws UnusableInput if it cannot be read.
 io::Manifest manifest_in(const std::filesystem::path& sweep);

@@ -38,6 +38,8 @@ enum class StripSum {
   z,           ///< sum of z
   z2,          ///< sum of z^2
   zw,          ///< m/s
+  spin,        ///< rad/s
+  rotation,    ///< (m/s)^2, sum of I spin^2 / m
   mass,        ///< kg
   mass_vx2,    ///< J, sum of m v_x^2
   mass_vx_w,   ///< J

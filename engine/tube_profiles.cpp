@@ -197,7 +197,7 @@ struct Quantity {
 using B = ZoneBlocks;
 using S = StripSum;
 
-constexpr std::array<Quantity, 16> quantities = {{
+constexpr std::array<Quantity, 18> quantities = {{
     {"area_fraction", "1", "Part of the area that grains cover.",
      [](const B& b, double a) { return density(b, a, S::area); }},
     {"density", "kg/m^2", "Mass per area, of the grains with their centre in the strip.",
@@ -211,6 +211,11 @@ constexpr std::array<Quantity, 16> quantities = {{
      "Variance of v_y of the grains, less the mean of all at that moment, about a straight line "
      "across their strip.",
      [](const B& b, double) { return variance_of_w(b); }},
+    {"mean_spin", "rad/s",
+     "Mean spin of the grains, positive from x towards y; 0 where they do not rotate.",
+     [](const B& b, double) { return per_grain(b, S::spin); }},
+    {"rotational_temperature", "m^2/s^2", "Mean of I w^2 / m over the grains.",
+     [](const B& b, double) { return per_grain(b, S::rotation); }},
     {"stress_xx", "N/m", "Normal stress across the tube, positive in compression.",
      [](const B& b, double a) { return stress(b, a, S::mass_vx2, S::contact_xx); }},
     {"stress_xy", "N/m", "Shear stress: momentum along y that goes to larger x.",

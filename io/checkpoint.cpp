@@ -30,8 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 11;
-constexpr std::int64_t oldest_version = 10;  // whose profiles are of other sums
+constexpr std::int64_t format_version = 12;
+constexpr std::int64_t oldest_version = 10;  // before the last profiles are of other sums
 constexpr auto kind = "checkpoint";
 
 // --- the parts of the checkpoint, each written and read ---

@@ -35,25 +35,29 @@ class Resume(CommandTest):
                     self.resume_to_end(short, "--set", f"run.duration={duration}")
                 self.assert_same_result(long, short)
 
-    def test_a_run_of_riesel_0_12_can_be_started_from_but_not_gone_on_with(self):
-        """Its checkpoint has 15 sums per strip for the profiles, not 21."""
-        old = self.run_small_tube("old", "--set", "run.duration=1 ms")
-        for checkpoint in (old / "checkpoint.h5", old / "checkpoint.h5.previous"):
-            with changed_behind_seal(checkpoint) as file:
-                file.attrs.modify("format_version", 10)
-                file.attrs.modify("riesel_version", np.bytes_("0.12.2"))
-                profiles = file["profiles"]
-                strips = profiles.attrs["columns"] // 21
-                profiles.attrs.modify("columns", 15 * strips)
-                sums = profiles["sums"][()].reshape(-1, 21 * strips)[:, :15 * strips].ravel()
-                del profiles["sums"]
-                profiles.create_dataset("sums", data=sums, chunks=sums.shape, fletcher32=True)
-        before = bytes_of_files(old)
-        self.assert_refused(self.riesel("resume", "old", "--set", "run.duration=2 ms"),
-                            "old/checkpoint.h5: has profiles of other sums", "use riesel 0.12.2", "start.kind")
-        self.assertEqual(bytes_of_files(old), before)
-        self.write("next.yaml", SMALL_TUBE.replace("start: {random_velocity: 2 m/s}", "start: {kind: continued, from: old}"))
-        self.run_to_end("next.yaml", "next", "--set", "run.duration=1 ms")
+    def test_runs_of_riesel_0_12_and_0_13_can_be_started_from_but_not_gone_on_with(self):
+        """Their checkpoints have 15 and 21 sums per strip for the profiles, not 23."""
+        new = self.run_small_tube("new", "--set", "run.duration=1 ms")
+        for version, format_version, kept in (("0.12.2", 10, 15), ("0.13.0", 11, 21)):
+            with self.subTest(version):
+                old = self.copy(new, f"old_{version}")
+                for checkpoint in (old / "checkpoint.h5", old / "checkpoint.h5.previous"):
+                    with changed_behind_seal(checkpoint) as file:
+                        file.attrs.modify("format_version", format_version)
+                        file.attrs.modify("riesel_version", np.bytes_(version))
+                        profiles = file["profiles"]
+                        strips = profiles.attrs["columns"] // 23
+                        profiles.attrs.modify("columns", kept * strips)
+                        sums = profiles["sums"][()].reshape(-1, 23 * strips)[:, :kept * strips].ravel()
+                        del profiles["sums"]
+                        profiles.create_dataset("sums", data=sums, chunks=sums.shape, fletcher32=True)
+                before = bytes_of_files(old)
+                self.assert_refused(self.riesel("resume", old.name, "--set", "run.duration=2 ms"),
+                                    f"{old.name}/checkpoint.h5: has profiles of other sums", f"use riesel {version}", "start.kind")
+                self.assertEqual(bytes_of_files(old), before)
+                self.write("next.yaml", SMALL_TUBE.replace("start: {random_velocity: 2 m/s}",
+                                                           f"start: {{kind: continued, from: {old.name}}}"))
+                self.run_to_end("next.yaml", f"next_{version}", "--set", "run.duration=1 ms")
 
     def test_grains_that_rotate_on_springs_go_on_by_other_ways(self):
         spinning = [option for setting in ("grains.rotation=disc", "contact.slip=spring", "contact.slip_stiffness=500 N/m",

@@ -177,12 +177,22 @@ class Tube(CommandTest):
             self.assertEqual(counts["wall_visit_entry_rate"], sum(visits))
             self.assertEqual(counts["wall_visit_entry_slip"], sum(visits))
 
+    def test_wall_contacts_slip_about_as_far_as_their_speed_and_duration_say(self):
+        with h5py.File(self.out / "run.h5", "r") as file:
+            series = {name: column[-1] for name, column in file["series"].items()}
+        speed = series["wall_slip_path"] / series["wall_contact_time"]
+        at_first = series["wall_entry_slip"] / series["wall_contacts_ended"]
+        # Friction slows the grains down, and at most reverses what is along the surface.
+        self.assertGreater(speed, 0.2 * at_first)
+        self.assertLess(speed, at_first)
+
     def test_the_histograms_hold_the_sums_of_the_series(self):
         """They lie between what they were if all values stood at the lower edges of their bins, or at the upper."""
         with h5py.File(self.out / "run.h5", "r") as file:
             for name, column, ended in (("wall_visit_entry_rate", "wall_visit_entry_rate", "wall_visits"),
                                         ("wall_visit_entry_slip", "wall_visit_entry_slip", "wall_visits"),
-                                        ("wall_contact_duration", "wall_contact_time", "wall_contacts_ended")):
+                                        ("wall_contact_duration", "wall_contact_time", "wall_contacts_ended"),
+                                        ("grain_contact_duration", "grain_contact_time", "grain_contacts_ended")):
                 with self.subTest(name):
                     count = file[f"histograms/{name}/count"][()]
                     edges = file[f"histograms/{name}/lower_edge"][()]

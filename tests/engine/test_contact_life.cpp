@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 using namespace systems;
 
@@ -210,6 +211,23 @@ TEST_CASE("the slip at the beginning is that of the centres, however fast the su
   CHECK(after.contacts[0].entry_rate == Approx(state.walls.empty() ? 2.0 : 1.0).epsilon(0.05));
   CHECK(std::abs(after.contacts[0].entry_slip) < 1e-12);
   CHECK(after.contacts[0].slip_path > 1e-6);
+}
+
+TEST_CASE("a grain that slides along a plane slips as far as Coulomb's law says") {
+  // Half an oscillation against the plane, during which friction takes mu times the impulse.
+  const double approach = 0.2, along = GENERATE(0.5, 3.0), mu = GENERATE(0.0, 0.5);
+  State state = empty_box(20e-3, 20e-3);
+  state.time_step = 0.1 * time_step;
+  for (const double line : {0.0, state.box.width})
+    state.walls.push_back(WallLattice::smooth_at(line));
+  add_grain(state, grain(radius + 1e-6, 5e-3, -approach, along));
+  const ContactModel elastic{LinearLaw{stiffness, 0.0}, CappedSlip{}, mu, Attraction::keep};
+  const State after = advanced(state, elastic, 1000, 1, Stepping::plain);
+  REQUIRE(after.tally.walls.ended == 1);
+  const double duration = std::numbers::pi * std::sqrt(mass / stiffness);
+  CHECK(after.tally.walls.duration.value() == Approx(duration).epsilon(1e-3));
+  CHECK(after.tally.walls.slip_path.value()
+        == Approx((along - mu * approach) * duration).epsilon(2e-3));
 }
 
 TEST_CASE("sorting in the middle of a contact does not end it") {

@@ -58,8 +58,8 @@ State touching(double x, double y, double distance, double angle, double approac
 }
 
 /// A crowded tube in a moment with contacts of several grains.
-State busy_tube(std::uint64_t seed, const ContactModel& model) {
-  Simulation simulation(small_tube(seed), model, 1);
+State busy_tube(std::uint64_t seed, const ContactModel& model, double inertia = 0.0) {
+  Simulation simulation(small_tube(seed, 40, inertia), model, 1);
   do simulation.advance(100);
   while (simulation.state().step < 10'000 && simulation.state().contacts.size() < 4);
   REQUIRE(simulation.state().contacts.size() >= 4);
@@ -100,7 +100,7 @@ TEST_CASE("strips are about a mean diameter wide and cover the tube") {
 
 TEST_CASE("the strips of a tube hold what brute force finds there") {
   const auto seed = GENERATE(as<std::uint64_t>{}, 71, 72, 73);
-  const State state = busy_tube(seed, paper_model());
+  const State state = busy_tube(seed, paper_model(), GENERATE(0.0, disc));
   const Frame frame{.vx = 0.3, .vy = 1.7};
   for (const std::size_t count : {1U, 3U, 8U, 50U}) {  // some finer than a grain
     const Strips strips{.width = state.box.width / static_cast<double>(count),
@@ -111,8 +111,9 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
     for (std::size_t s = 0; s < count; ++s) {
       const double left = static_cast<double>(s) * strips.width, right = left + strips.width;
       const double middle = 0.5 * (left + right);
-      double area = 0.0, grains = 0.0, u2 = 0.0, w2 = 0.0, z2 = 0.0, zw = 0.0, mass_vx_w = 0.0,
-             mass_z = 0.0, mass_zw = 0.0, xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
+      double area = 0.0, grains = 0.0, u2 = 0.0, w2 = 0.0, z2 = 0.0, zw = 0.0, spin = 0.0,
+             rotation = 0.0, mass_vx_w = 0.0, mass_z = 0.0, mass_zw = 0.0, xx = 0.0, xy = 0.0,
+             yx = 0.0, yy = 0.0;
       for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
         const Grain g = grain_at(state, slot);
         area += area_between(g, left, right);
@@ -123,6 +124,10 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
         w2 += w * w;
         z2 += z * z;
         zw += z * w;
+        if (state.grains.rotate()) {
+          spin += g.spin;
+          rotation += disc * g.radius * g.radius * g.spin * g.spin;
+        }
         mass_vx_w += g.mass * g.vx * w;
         mass_z += g.mass * z;
         mass_zw += g.mass * z * w;
@@ -140,6 +145,8 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
       CHECK(value(sums, s, StripSum::w2) == Approx(w2));
       CHECK(value(sums, s, StripSum::z2) == Approx(z2));
       CHECK(value(sums, s, StripSum::zw) == Approx(zw).margin(1e-9));
+      CHECK(value(sums, s, StripSum::spin) == Approx(spin).margin(1e-6));
+      CHECK(value(sums, s, StripSum::rotation) == Approx(rotation));
       CHECK(value(sums, s, StripSum::mass_vx_w) == Approx(mass_vx_w).margin(1e-15));
       CHECK(value(sums, s, StripSum::mass_z) == Approx(mass_z).margin(1e-15));
       CHECK(value(sums, s, StripSum::mass_zw) == Approx(mass_zw).margin(1e-15));

@@ -54,14 +54,14 @@ struct Core {
 /// By the sums of strips i <= s < j.
 class Sheared {
 public:
-  explicit Sheared(const scenarios::Flow& start)
+  explicit Sheared(const scenarios::Flow& start, int samples = 40'000)
       : simulation_(start.state, start.model, 1),
         strips_(Strips::of(start.state)),
         blocks_(strips_.columns()) {
     const auto steps = [&](double t) { return std::llround(t / start.state.time_step); };
     simulation_.advance(steps(0.3));
     before_ = observe(simulation_.state());
-    for (int sample = 0; sample < 40'000; ++sample) {
+    for (int sample = 0; sample < samples; ++sample) {
       simulation_.advance(steps(0.2e-3));
       blocks_.add(sum_over_strips(strips_, simulation_.state(), start.model, {}));
     }
@@ -83,9 +83,12 @@ public:
     return (mean(strip, StripSum::mass_vx_w) + mean(strip, StripSum::contact_xy)) / strips_.area();
   }
 
+  Estimate profile(std::string_view name, const Zone& zone) const {
+    const auto profiles = tube_profiles(blocks_, strips_, {zone}, 0);
+    return std::ranges::find(profiles, name, &TubeProfile::name)->zones[0];
+  }
   double temperature(std::string_view name, std::size_t strip) const {
-    const auto profiles = tube_profiles(blocks_, strips_, {{strip}}, 0);
-    return std::ranges::find(profiles, name, &TubeProfile::name)->zones[0].value;
+    return profile(name, {strip}).value;
   }
 
   Core core() const {
@@ -183,6 +186,16 @@ TEST_CASE("temperature and stresses of a sheared cell are those of the kinetic t
   CHECK_THAT(t, WithinRel(temperature, 0.1));
   CHECK_THAT(core.pressure, WithinRel(rho * t * (1.0 + (1.0 + e) * nu * g0), 0.05));
   CHECK_THAT(wall_force(1), WithinRel(viscosity_per_root * std::sqrt(t) * core.shear_rate, 0.1));
+}
+
+TEST_CASE("grains that turn in a sheared cell turn with the flow") {
+  // Where nothing varies but the velocity, no torque is left if grains have half the vorticity.
+  const Sheared turning(cell({"contact.friction=0.5", "grains.rotation=disc"}), 20'000);
+  const Estimate spin = turning.profile("mean_spin", core_of(turning.strips()));
+  const double half_of_vorticity = 0.5 * turning.core().shear_rate;
+  CAPTURE(spin.value, spin.error, half_of_vorticity);
+  CHECK(spin.error < 0.1 * half_of_vorticity);
+  CHECK(std::abs(spin.value - half_of_vorticity) < 3.0 * spin.error);
 }
 
 TEST_CASE("a sheared cell goes on where it was, with walls that have moved") {
