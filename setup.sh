@@ -69,6 +69,13 @@ die() {
   exit 1
 }
 
+# no_more ARGUMENT...: of the command, which takes none.
+no_more() {
+  (($# == 0)) && return
+  printf "setup.sh: '%s' takes no arguments, as %s\n" "$command" "$*" >&2
+  exit 2
+}
+
 missing_packages() {
   local package
   for package in "$@"; do
@@ -130,6 +137,9 @@ run_scenario() {
     "$riesel" resume "$out" >"$out.txt" || die "could not continue; to start again: rm -r $out"
   elif grep -qF "$(state_hash "$out")" "$out.txt"; then
     say "Nothing to do: $out is the result of this program and this input"
+  elif [[ ! -s "$out.txt" ]]; then
+    say "$out is done, but what it printed at its end was lost: its result is in $out/summary.json"
+    return
   else
     say "$out was resumed since: its result is in $out/summary.json ('$riesel report $out' draws it)"
     return
@@ -219,6 +229,9 @@ analyze() {
 
 command=${1:-help}
 shift || true
+case $command in
+  run | build | analyze | api | format | packages | browser | look | cluster | peers) no_more "$@" ;;
+esac
 case $command in
   run)
     install_packages "${build_packages[@]}"

@@ -47,13 +47,19 @@ std::string Progress::time_left(double done) const {
   return as_on_a_clock(left);
 }
 
+/// Since it was last shown.
+bool Progress::has_rested() const {
+  return Clock::now() - last_shown_
+         >= (terminal_ ? Clock::duration(between_updates_of_a_line) : between_lines);
+}
+
+bool Progress::is_due() const { return !quiet_ && (done_at_start_ < 0.0 || has_rested()); }
+
 void Progress::show(double done, const std::string& text) {
-  if (quiet_) return;
+  if (!is_due()) return;
   if (done_at_start_ < 0.0) done_at_start_ = done;
-  const auto now = Clock::now();
-  if (now - last_shown_ < (terminal_ ? Clock::duration(between_updates_of_a_line) : between_lines))
-    return;
-  last_shown_ = now;
+  if (!has_rested()) return;
+  last_shown_ = Clock::now();
   const std::string line =
       fmt::format("{:5.1f} %  {}  {} left", 100.0 * done, text, time_left(done));
   if (terminal_)

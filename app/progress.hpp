@@ -19,12 +19,15 @@ public:
   Progress(Progress&&) = delete;
   Progress& operator=(Progress&&) = delete;
 
+  /// Whether show() would do anything now: for those who have to count first what it is to show.
+  bool is_due() const;
   /// `done`: from 0 to 1; `text`: what else to show.
   void show(double done, const std::string& text);
   /// Ends the line; to be called before other text is printed.
   void finish();
 
 private:
+  bool has_rested() const;
   std::string time_left(double done) const;
 
   bool quiet_, terminal_;

@@ -43,8 +43,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto between_looks = 10ms;
-constexpr auto between_manifests = 2s;
-constexpr int most_starts = 3;       // of one run in one sweep, if signals keep stopping it
+constexpr auto between_manifests = 2s;     // or more, where telling takes long:
+constexpr double part_for_telling = 0.02;  // of the time of a core, at most
+constexpr int most_starts = 3;             // of one run in one sweep, if signals keep stopping it
 constexpr int most_collisions = 20;  // of a run with others that have its directory for a moment
 constexpr auto log_name = "log.txt";
 
@@ -113,7 +114,7 @@ public:
       const bool more = ending_signal() == 0 && start_what_can();
       if (!more && running_ == 0) break;
       show_progress();
-      if (options_.on_change && Clock::now() - last_manifest_ > between_manifests) tell_manifest();
+      if (options_.on_change && Clock::now() > next_manifest_) tell_manifest();
       std::this_thread::sleep_for(between_looks);
     }
     progress_.finish();
@@ -187,6 +188,7 @@ private:
   /// Starts what is ready while there is room. Returns whether there is anything left to wait for,
   /// besides the processes started here.
   bool start_what_can() {
+    if (running_ >= options_.jobs) return true;  // nor need the others be looked at
     bool more = false;
     for (Job* job : by_urgency_) {
       // Another process works on it; when that ends, the point may be done or not.
@@ -349,6 +351,7 @@ private:
   }
 
   void show_progress() {
+    if (!progress_.is_due()) return;
     const std::size_t failed = count(RunStatus::failed);
     progress_.show(fraction_done(),
                    fmt::format("{}/{} runs done, {} running{}", count(RunStatus::done),
@@ -357,9 +360,12 @@ private:
   }
 
   void tell_manifest() {
+    const Clock::time_point begin = Clock::now();
     update_manifest();
     options_.on_change(manifest_);
-    last_manifest_ = Clock::now();
+    const Clock::time_point end = Clock::now();
+    const auto rest = std::chrono::duration_cast<Clock::duration>((end - begin) / part_for_telling);
+    next_manifest_ = end + std::max<Clock::duration>(between_manifests, rest);
   }
 
   void update_manifest() {
@@ -381,7 +387,7 @@ private:
   std::map<std::string, Job*> by_name_;
   std::vector<Job*> by_urgency_;
   Progress progress_{Verbosity::normal};
-  Clock::time_point last_manifest_ = {};
+  Clock::time_point next_manifest_ = {};
   int running_ = 0;  // processes
   bool passed_on_ = false;
 };

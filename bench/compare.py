@@ -121,20 +121,20 @@ def print_inner(results):
             print(f"{row['case']} {row['size']} {row['variant']}: {row['bytes_per_particle_step']:.0f} bytes per "
                   f"particle-step if each step went through all grains, {100 * row['bandwidth_share']:.0f} % of the "
                   "bandwidth")
-    print(f"\n{'case':18} {'size':>5}  {'ratio':22} {'median':>8}  span")
+    print(f"\n{'case':18} {'size':>5}  {'ratio':27} {'median':>8}  span")
     for case, size, name, ratio in inner_ratios(results):
-        print(f"{case:18} {size:>5}  {name:22} {ratio}")
+        print(f"{case:18} {size:>5}  {name:27} {ratio}")
 
 
 def print_growth(results):
     """How the cost of a particle-step grows with the number of grains."""
-    print(f"\n{'case':18} {'variant':12} cost of a particle-step: largest size over the cheapest one")
+    print(f"\n{'case':18} {'variant':15} cost of a particle-step: largest size over the cheapest one")
     for case, variants in flow_rows(results).items():
         for variant, rows in variants.items():
             if len(rows) > 1:
                 largest, best = max(rows, key=lambda r: r["grains"]), max(rows, key=lambda r: r["per_second"]["median"])
                 growth = best["per_second"]["median"] / largest["per_second"]["median"]
-                print(f"{case:18} {variant:12} {growth:6.2f}  ({largest['size']} over {best['size']})")
+                print(f"{case:18} {variant:15} {growth:6.2f}  ({largest['size']} over {best['size']})")
 
 
 def print_between(a, b):

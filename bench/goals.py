@@ -108,18 +108,11 @@ def goals():
     for state, limit in (("tube_start", 10), ("tube_slow", 10), ("tube_stiff", 60)):
         rows.append(Goal(f"windows {limit} times LAMMPS, one core", state, PEERS, ratio("riesel windows 1", "lammps 1"),
                          everywhere(limit), digits=1))
-    for variant in ("plain", "windows"):
-        for state in ("tube_slow", "tube_stiff", "tube_fast"):
-            rows.append(Goal(f"two threads 1.8 (1.4 k) and 1.9 times one, {variant}", state, SUITE,
-                             ratio(f"{variant} 2", f"{variant} 1"), threads))
-    for variant in ("plain", "windows"):
-        for state in ("tube_slow", "tube_stiff", "tube_fast"):
-            rows.append(Goal(f"the same with a part each, {variant}", state, SUITE,
-                             ratio(f"{variant} 2 apart", f"{variant} 1"), threads))
-    for variant in ("plain", "windows"):
-        for state in ("tube_slow", "tube_stiff", "tube_fast"):
-            rows.append(Goal(f"the same of two runs side by side, {variant}", state, SUITE,
-                             ratio(f"{variant} 2 runs", f"{variant} 1"), threads))
+    for name, two in (("two threads 1.8 (1.4 k) and 1.9 times one", "2"), ("the same with a part each", "2 apart"),
+                      ("the same of two runs side by side", "2 runs")):
+        for variant in ("plain", "windows"):
+            for state in ("tube_slow", "tube_stiff", "tube_fast"):
+                rows.append(Goal(f"{name}, {variant}", state, SUITE, ratio(f"{variant} {two}", f"{variant} 1"), threads))
     for state in ("tube_slow", "tube_stiff", "tube_fast", "dense_sheared"):
         rows.append(Goal("`auto` 0.95 times the better way on one thread", state, SUITE, automatic_beside_one_thread, everywhere(0.95)))
     rows.append(Goal("two jobs 1.9 times one", "ensemble", SUITE, ratio("jobs 2", "jobs 1"), everywhere(1.9)))

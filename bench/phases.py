@@ -28,7 +28,7 @@ PHASES = [
      r"Border::list_\w+|Courses::start_over|FlightRegion::(land|start_over|set_out|make_all_appointments)|Flights::(land|renew|begin)|candidate_in"),
     ("foresight and entering of appointments", r"foresee|gather|FlightRegion::(foresee|fetch)|fetch|ForesightLoop|Appointments::\w+|Calendar::\w+|flight_of|steps_\w+"),
     ("looking at what is due",
-     r"FlightRegion::(look_\w+|keep_appointments|collide|position|foreign_position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
+     r"FlightRegion::(look_\w+|keep_appointments|collide|position)|WatchLoop|CloseWatch::\w+|Border::foreign_motion"),
     ("moving deflected grains, and their courses",
      r"move_lanes|find_off_course|DeflectedGrains::\w+|SkinGuard::\w+|Border::\w+|"
      r"FlightRegion::(move|correct_courses|set_course|deflect|invite|release|suffer|announce|settle|set_out_again|watch_strays)|"

@@ -92,6 +92,8 @@ void print_machine(const Results& results) {
                1e-9 * b.bytes_per_second());
 }
 
+constexpr auto row_format = "{:18} {:>5} {:>9} {:15} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6}  {}\n";
+
 void print_heading() {
   fmt::print(
       "\nSpeeds in millions of particle-steps, impacts or bytes per second, of the median "
@@ -99,19 +101,17 @@ void print_heading() {
       "the best one; contacts per grain; ns: time of a step over its contacts; bytes of memory "
       "per grain;\n"
       "the part of the memory bandwidth that plain stepping would need if each step went through "
-      "all grains\n\n"
-      "{:18} {:>5} {:>9} {:10} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6}  {}\n",
-      "case", "size", "grains", "variant", "median", "best", "contacts", "ns", "bytes", "part",
-      "state hash");
+      "all grains\n\n");
+  fmt::print(row_format, "case", "size", "grains", "variant", "median", "best", "contacts", "ns",
+             "bytes", "part", "state hash");
   std::fflush(stdout);
 }
 
 void add(Results& results, Row row) {
-  fmt::print("{:18} {:>5} {:>9} {:10} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6}  {}\n", row.case_name,
-             row.size, row.grains, row.variant, speed_of(row, row.timing.median()),
-             speed_of(row, row.timing.least()), cell(row.contacts_per_grain, "{:.4f}"),
-             cell(row.ns_per_contact, "{:.1f}"), cell(row.bytes_per_grain, "{:.0f}"),
-             cell(row.bandwidth_share, "{:.2f}"),
+  fmt::print(row_format, row.case_name, row.size, row.grains, row.variant,
+             speed_of(row, row.timing.median()), speed_of(row, row.timing.least()),
+             cell(row.contacts_per_grain, "{:.4f}"), cell(row.ns_per_contact, "{:.1f}"),
+             cell(row.bytes_per_grain, "{:.0f}"), cell(row.bandwidth_share, "{:.2f}"),
              row.state_hash ? fmt::format("{:016x}", *row.state_hash) : "-");
   std::fflush(stdout);
   results.rows.push_back(std::move(row));

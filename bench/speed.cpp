@@ -8,16 +8,16 @@
 // line.
 #include "bench/commands.hpp"
 #include "bench/ensemble.hpp"
+#include "bench/mistake.hpp"
 #include "bench/other_rows.hpp"
+#include "bench/output_place.hpp"
 #include "io/durable_file.hpp"
 #include "io/settings_error.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <exception>
+#include <fmt/core.h>
 #include <functional>
 #include <stdexcept>
 #include <system_error>
@@ -77,11 +77,6 @@ std::vector<std::string> other_cases() {
   return names;
 }
 
-/// What the command line asks for, and cannot be done.
-struct Mistake : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// Of each case that is asked for there must be one of the sizes.
 void reject_missing_sizes(const Options& options) {
   for (const FlowCase& one : flow_cases()) {
@@ -131,16 +126,6 @@ void measure_all(const Options& options, const std::vector<Flow>& flows, const S
     measure_ensemble(RIESEL_COMMAND, states.folder(), effort, results);
 }
 
-/// Makes its folder. Before anything is timed: nobody measures for minutes what cannot be kept.
-void reject_unfit_place(const std::filesystem::path& out) {
-  const std::filesystem::path folder = std::filesystem::absolute(out).parent_path();
-  std::error_code none;
-  std::filesystem::create_directories(folder, none);
-  const bool fit = std::filesystem::is_directory(folder) && ::access(folder.c_str(), W_OK) == 0
-                   && !std::filesystem::is_directory(out);
-  if (!fit) throw Mistake(out.string() + ": cannot be written; choose another place with --out");
-}
-
 int run_suite(const Options& options) {
   reject_missing_sizes(options);
   const StartStates states(options.cache);
@@ -165,13 +150,12 @@ int run_suite(const Options& options) {
 }
 
 void list_cases() {
-  for (const ImpactCase& one : impact_cases()) fmt::print("{}\n", one.name);
+  for (const std::string& name : other_cases()) fmt::print("{}\n", name);
   for (const FlowCase& one : flow_cases()) {
     fmt::print("{}:", one.name);
     for (const Size& size : one.sizes) fmt::print(" {}", size.name);
     fmt::print("\n");
   }
-  fmt::print("checkpoint\nstart_up\nensemble\n");
 }
 
 /// Of many grains.

@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_RIESEL_DESCRIPTION "molecular dynamics of rapid granular flow
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libriesel-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-  "g++, cmake, libhdf5-dev, libyaml-cpp-dev, libfmt-dev, libudunits2-dev, zlib1g-dev")
+  "riesel (= ${PROJECT_VERSION}), g++, cmake, libhdf5-dev, libyaml-cpp-dev, libfmt-dev, libudunits2-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "molecular dynamics of rapid granular flow: libraries
  Static libraries, headers and a CMake package, for programs that add contact
  laws and scenarios to riesel, and an example of one.")

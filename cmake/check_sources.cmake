@@ -18,16 +18,16 @@ foreach(unit IN LISTS units)
 endforeach()
 
 foreach(room engine io scenarios app tests bench)
-  file(GLOB_RECURSE sources "${SOURCE_DIR}/${room}/*.cpp")
-  list(FILTER sources EXCLUDE REGEX "/tests/package/")   # an outside project
+  file(GLOB_RECURSE sources RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/${room}/*.cpp")
+  list(FILTER sources EXCLUDE REGEX "^tests/package/")   # an outside project
   foreach(optional bench bench/simd)   # not built everywhere: then nothing of it is
     string(FIND "${named}" "\"${SOURCE_DIR}/${optional}/" found)
     if(found EQUAL -1)
-      list(FILTER sources EXCLUDE REGEX "/${optional}/")
+      list(FILTER sources EXCLUDE REGEX "^${optional}/")
     endif()
   endforeach()
   foreach(source IN LISTS sources)
-    string(FIND "${named}" "\"${source}\"" found)
+    string(FIND "${named}" "\"${SOURCE_DIR}/${source}\"" found)
     if(found EQUAL -1)
       report_forgotten("${source}" "is in no target: list it in ${room}/CMakeLists.txt")
     endif()

@@ -61,11 +61,14 @@ void reject_rounded_gravity(const io::Settings& settings, const State& state) {
 void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& grains,
                         const State& state) {
   const double largest = largest_speed(state.box, state.time_step, grains.size());
-  const bool held =
-      std::ranges::all_of(grains, [&](const Grain& g) { return std::hypot(g.vx, g.vy) < largest; });
-  if (held) return;
+  double fastest = 0.0;
+  for (const Grain& g : grains) fastest = std::max(fastest, std::hypot(g.vx, g.vy));
+  if (fastest < largest) return;
   const std::string problem = "too fast for this tube and time step";
-  const std::string remedy = fmt::format("choose velocities below {:.3g} m/s", largest);
+  const std::string remedy =
+      fmt::format("choose velocities with which the fastest grain, now {:.3g} m/s, stays below "
+                  "{:.3g} m/s",
+                  fastest, largest);
   const std::string kind = settings.text("start.kind");
   if (kind == "file") settings.reject("start.from", problem, remedy);
   if (kind == "continued")

@@ -135,9 +135,7 @@ Flow start_with(const std::vector<Grain>& grains, const io::Settings& settings,
 }
 
 Flow start_from_file(const io::Settings& settings, const ContactModel& model, Room room) {
-  const std::vector<Grain> grains = grains_of_file(settings, room.empty);
-  const double largest = 2.0 * std::ranges::max(grains, {}, &Grain::radius).radius;
-  room.reject_too_small(settings, largest, room.empty);
+  const std::vector<Grain> grains = grains_of_file(settings, room);
   return start_with(grains, settings, model, std::move(room.empty));
 }
 

@@ -122,7 +122,8 @@ void reject_in_each_other(const io::CsvTable& table, const Box& box,
 
 }  // namespace
 
-std::vector<Grain> grains_of_file(const io::Settings& settings, const State& empty) {
+std::vector<Grain> grains_of_file(const io::Settings& settings, const Room& room) {
+  const State& empty = room.empty;
   const io::CsvTable table = read_table(settings);
   std::vector<Grain> grains;
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -136,6 +137,8 @@ std::vector<Grain> grains_of_file(const io::Settings& settings, const State& emp
                       .mass = mass_of(settings, table, row),
                       .spin = spin_of(table, row, empty.grains.rotate())});
   }
+  // First, as walls are looked at grain by grain of theirs.
+  room.reject_too_small(settings, 2.0 * std::ranges::max(grains, {}, &Grain::radius).radius, empty);
   reject_in_a_wall(table, empty, grains);
   reject_in_each_other(table, empty.box, grains);
   return grains;

@@ -3,14 +3,15 @@
 
 #include "engine/state.hpp"
 #include "io/settings.hpp"
+#include "scenarios/flow_start.hpp"
 
 #include <vector>
 
 namespace riesel::scenarios {
 
-/// The grains of the file at `start.from`. `empty` has the box and the walls, but no grains. Throws
-/// io::SettingsError, with file, line and column, for a grain outside the tube, in a wall grain or
-/// in another grain.
-std::vector<Grain> grains_of_file(const io::Settings& settings, const State& empty);
+/// The grains of the file at `start.from`. Throws io::SettingsError for room that is too small for
+/// them, and, with file, line and column, for a grain outside of it, in a wall grain or in another
+/// grain.
+std::vector<Grain> grains_of_file(const io::Settings& settings, const Room& room);
 
 }  // namespace riesel::scenarios

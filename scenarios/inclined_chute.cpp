@@ -64,15 +64,17 @@ State empty_chute(const io::Settings& settings) {
   return state;
 }
 
-void reject_low_chute(const io::Settings& settings, double needed, const State& empty) {
+/// `other_way`: what could be chosen besides a higher chute.
+void reject_low_chute(const io::Settings& settings, double needed, const State& empty,
+                      const char* other_way) {
   if (empty.box.width < needed)
     settings.reject("chute.height", "too low for the grains at their start",
-                    fmt::format("choose fewer layers, or chute.height above {:.6g} m", needed));
+                    fmt::format("choose {}, or chute.height above {:.6g} m", other_way, needed));
 }
 
 void reject_small_chute(const io::Settings& settings, double largest, const State& empty) {
   reject_short_period(settings, largest, empty, "chute.length");
-  reject_low_chute(settings, largest + empty.walls.front().radius, empty);
+  reject_low_chute(settings, largest + empty.walls.front().radius, empty, "smaller grains");
 }
 
 /// Packs the grains between the bottom and a lid, which is not part of the flow.
@@ -83,7 +85,7 @@ std::vector<Grain> place_grains(const io::Settings& settings, const SizeDistribu
   State covered = empty;
   covered.box.width =
       area / (loose * empty.box.length) + sizes.largest() + 2.0 * empty.walls.front().radius;
-  reject_low_chute(settings, covered.box.width, empty);
+  reject_low_chute(settings, covered.box.width, empty, "fewer layers");
   covered.walls.push_back(empty.walls.front());  // whatever its motion: nothing moves yet
   covered.walls.back().line = covered.box.width;
   std::vector<Grain> grains =

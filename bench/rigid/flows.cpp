@@ -1,5 +1,6 @@
 #include "bench/rigid/flows.hpp"
 
+#include "bench/output_place.hpp"
 #include "bench/rigid/rigid_record.hpp"
 #include "io/build_info.hpp"
 #include "io/durable_file.hpp"
@@ -45,13 +46,16 @@ io::Settings settings_of(const FlowsOptions& options, const Point& point) {
   return io::Settings::from_file(options.settings, scenarios::settings_tables(), all);
 }
 
+void reject_mistakes(const io::Settings& settings) {
+  if (!std::holds_alternative<scenarios::Flow>(scenarios::problem_of(settings)))
+    settings.reject("scenario", "is no flow", "choose periodic_tube");
+}
+
 /// A row of the table.
 std::string run(const FlowsOptions& options, const Point& point) {
   const io::Settings settings = settings_of(options, point);
-  const scenarios::Problem problem = scenarios::problem_of(settings);
-  const auto* flow = std::get_if<scenarios::Flow>(&problem);
-  if (flow == nullptr) throw std::runtime_error(settings.scenario() + " is no flow");
-  RigidFlow rigid(flow->state, flow->model, point.shortest_interval);
+  const auto flow = std::get<scenarios::Flow>(scenarios::problem_of(settings));
+  RigidFlow rigid(flow.state, flow.model, point.shortest_interval);
   RigidRecord record(rigid, between_rows);
   const auto rows = std::lround(settings.number("run.duration") / between_rows);
   for (long row = 0; row < rows; ++row) {
@@ -60,15 +64,16 @@ std::string run(const FlowsOptions& options, const Point& point) {
   }
   return fmt::format("{},{},{},{},{},{},{},{}\n", point.restitution, point.start,
                      point.shortest_interval, point.seed, rigid.size(),
-                     static_cast<double>(rows) * between_rows,
-                     record.columns(flow->state.gravity.y), build_info().git_commit.substr(0, 7));
+                     static_cast<double>(rows) * between_rows, record.columns(flow.state.gravity.y),
+                     build_info().git_commit.substr(0, 7));
 }
 
 }  // namespace
 
 void run_flows(const FlowsOptions& options) {
   const std::vector<Point> all = points(options);
-  settings_of(options, all.front());  // mistakes are told before anything runs
+  for (const Point& point : all) reject_mistakes(settings_of(options, point));
+  reject_unfit_place(options.out);
   std::vector<std::string> rows(all.size());
   std::vector<std::string> failures(all.size());
 #pragma omp parallel for schedule(dynamic, 1)

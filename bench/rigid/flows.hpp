@@ -19,7 +19,8 @@ struct FlowsOptions {
 };
 
 /// Runs all points side by side and writes their table, one row for each, in the order in which the
-/// lists go. Throws SettingsError before anything runs; std::runtime_error for what fails then.
+/// lists go. Throws SettingsError and Mistake before anything runs; std::runtime_error for what
+/// fails then.
 void run_flows(const FlowsOptions& options);
 
 }  // namespace riesel::bench

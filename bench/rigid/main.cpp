@@ -4,6 +4,7 @@
 //   rigid speed STATE.h5        how fast that is, in turns with the engine (docs/performance.md)
 //
 // Exit status: 1 if something fails, 2 for a wrong command line or settings.
+#include "bench/mistake.hpp"
 #include "bench/rigid/beside_windows.hpp"
 #include "bench/rigid/flows.hpp"
 #include "io/settings_error.hpp"
@@ -80,6 +81,9 @@ int main(int argc, char** argv) {
   try {
     return riesel::bench::CommandLine().run(argc, argv);
   } catch (const riesel::io::SettingsError& error) {
+    fmt::print(stderr, "rigid: {}\n", error.what());
+    return 2;
+  } catch (const riesel::bench::Mistake& error) {
     fmt::print(stderr, "rigid: {}\n", error.what());
     return 2;
   } catch (const std::exception& error) {

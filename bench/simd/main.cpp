@@ -93,6 +93,7 @@ int compare(const std::string& path) {
   const io::Checkpoint checkpoint = io::read_checkpoint(path);
   const ContactModel model = model_of(checkpoint);
   const std::vector<Way> all = ways();
+  if (all.empty()) throw std::runtime_error("this processor has neither AVX2 nor AVX-512");
   Original engine(at_rest(checkpoint.state), model);
 
   PairSearch search(engine);

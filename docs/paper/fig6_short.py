@@ -1,6 +1,6 @@
 """Fig. 6 in a tube of 100 mm: three stiffnesses and one seed, read from the kept table of the sweep as it is."""
 from results import print_table, rows_of, save
-from tube import KNOWN, plus_minus
+from tube import is_settled, plus_minus
 
 MARKERS = {"slow": ("o", "C0"), "fast": ("^", "C3")}
 
@@ -10,8 +10,7 @@ def cell_of(row):
     velocity, error, share, share_error, gravity = (float(row[key] or "nan") for key in (
         "mean_axial_velocity.value", "mean_axial_velocity.error", "balance.n_dot_dv_y", "balance.errors.n_dot_dv_y",
         "balance.gravity"))
-    settled = (row["state"] in ("steady", "too_short") and share_error < KNOWN * gravity
-               and abs(share - gravity) < 2 * share_error + 0.03 * gravity)
+    settled = is_settled(row["state"], share / gravity, share_error / gravity)
     return plus_minus(velocity, error) if settled else f"wall {share / gravity:.2f}"
 
 

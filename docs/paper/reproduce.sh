@@ -20,7 +20,7 @@ Usage: docs/paper/reproduce.sh FIGURE...
   fig6_map     tube, slow and fast starts over the spacing of the wall grains (ten minutes)
   fig6_short   tube of 100 mm, one seed, 3 s (five minutes)
   fig6_rigid   tube, rigid grains and stiffer ones (40 minutes; wants the program \$RIGID, or else $rigid)
-  fig6_balance predicted states from single impacts (seconds; reads the tables and runs of the first two)
+  fig6_balance predicted states from single impacts (seconds; reads the tables and runs of fig6 and fig6_fast)
 
 The program is \$RIESEL, or else $riesel (./setup.sh build).
 END

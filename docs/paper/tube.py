@@ -17,6 +17,11 @@ STILL_GAINING = {(2e5, 0.76)}
 WORDS = ("point", "branch", "leg", "state", "attraction", "verdict", "commit")
 
 
+def is_settled(state, share, share_error):
+    """No trend, and the wall carries the weight, eq. (9), within two error bars and three per cent, as far as is known."""
+    return state in ("steady", "too_short") and share_error < KNOWN and abs(share - 1) < 2 * share_error + 0.03
+
+
 class Run:
     """A row of a kept table; its columns are attributes, SI units."""
 
@@ -26,9 +31,7 @@ class Run:
 
     @property
     def settled(self):
-        """No trend, and the wall carries the weight, eq. (9), within two error bars and three per cent, as far as is known."""
-        return (self.state in ("steady", "too_short") and self.share_error < KNOWN
-                and abs(self.share - 1) < 2 * self.share_error + 0.03)
+        return is_settled(self.state, self.share, self.share_error)
 
     @property
     def lost(self):
@@ -108,5 +111,5 @@ def plus_minus(value, error):
     """1.234 ± 0.056: two digits of the error; the value alone if it has none that is known."""
     if not error > 0:
         return f"{value:.5g}"
-    digits = max(0, 1 - int(np.floor(np.log10(error))))
+    digits = max(0, 1 - int(f"{error:.1e}".partition("e")[2]))  # of the error as it is printed
     return f"{value:.{digits}f} ± {error:.{digits}f}"

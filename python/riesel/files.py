@@ -18,7 +18,7 @@ _SEAL = re.compile(rb"riesel run\nAn HDF5 file behind a block of 512 bytes\n"
                    rb"bytes in all: (?P<size>\d{1,18})\n"
                    rb"FNV-1a of those behind the block: [0-9a-f]{16}\n"
                    rb"(CRC-32 of those behind the block: (?P<crc>[0-9a-f]{8})\n)?\0*")
-_RESTORE = "restore the file, or make the run again"
+RESTORE = "restore the file, or make the run again"
 
 
 class NotThere(LookupError):
@@ -31,7 +31,7 @@ class Unreadable(ValueError):
 
 
 @contextlib.contextmanager
-def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE,
+def opened(path: pathlib.Path, if_missing: str, if_damaged: str = RESTORE,
            sealed: bool = False) -> Iterator[Any]:
     """The HDF5 file, open as long as the `with` block lasts. The texts are remedies for the
     messages. Raises NotThere if it is missing, and Unreadable for any flaw that shows in the
@@ -47,7 +47,7 @@ def opened(path: pathlib.Path, if_missing: str, if_damaged: str = _RESTORE,
 
 @contextlib.contextmanager
 def part(path: pathlib.Path, name: str, if_missing: str, if_without: str,
-         if_damaged: str = _RESTORE, sealed: bool = False) -> Iterator[Any]:
+         if_damaged: str = RESTORE, sealed: bool = False) -> Iterator[Any]:
     """A group of the HDF5 file, like `opened`. Raises NotThere if it is missing or empty, too:
     riesel makes that of the series for every run, even if it has none."""
     with opened(path, if_missing, if_damaged, sealed) as file:
@@ -69,7 +69,7 @@ def _unsealed(path: pathlib.Path) -> io.BytesIO:
 
 
 def members(path: pathlib.Path, parse: Callable[[str], Any], if_missing: str,
-            if_damaged: str = _RESTORE) -> dict[str, Any]:
+            if_damaged: str = RESTORE) -> dict[str, Any]:
     """The mapping that the text file holds; `parse` is json.loads or yaml.safe_load. The texts are
     remedies for the messages. Raises NotThere, and Unreadable if it is damaged or no mapping."""
     _require(path, if_missing)

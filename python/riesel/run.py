@@ -17,7 +17,7 @@ import yaml
 from numpy.typing import NDArray
 
 from .estimate import Estimate
-from .files import NotThere, Unreadable, members, part
+from .files import RESTORE, NotThere, Unreadable, members, part
 from .names import there_is
 from .table import Table, table_of, text
 from .trajectory import Trajectory
@@ -220,7 +220,7 @@ class Run:
         """What to do about a damaged one."""
         if (self.directory / "checkpoint.h5").exists():
             return f"restore the file, or make it anew by 'riesel resume {self.directory}'"
-        return "restore the file, or make the run again"
+        return RESTORE
 
     @property
     def _go_on(self) -> str:

@@ -78,6 +78,10 @@ class GrainFile(CommandTest):
         self.assert_refused(self.check("x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n5, 5, 0, 1, 1e-300\n"),
                             "grains.csv:2", "diameter", "at least")
 
+    def test_walls_of_too_many_grains_are_refused_before_these_are_looked_at(self):
+        self.write("here/tube.yaml", SETTINGS + "wall: {spacing: 1e-12 m}\n")
+        self.assert_refused(self.check(GRAINS), "wall.spacing", "too close together")
+
     def test_what_moves_or_turns_too_fast_for_a_step_is_refused(self):
         header = "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm), spin (1/s)\n"
         self.settings = self.write("here/tube.yaml", SETTINGS + "grains: {rotation: disc}\n")

@@ -6,7 +6,7 @@ import pathlib
 import shutil
 import subprocess
 
-from riesel_command import COMMAND, DONE, FAILED, PATIENCE, SMALL_TUBE, CommandTest
+from riesel_command import BAD_INPUT, COMMAND, DONE, FAILED, PATIENCE, SMALL_TUBE, CommandTest
 
 SETUP = pathlib.Path(__file__).resolve().parents[2] / "setup.sh"
 INSTALLED = "echo installed"
@@ -34,9 +34,9 @@ class Setup(CommandTest):
     def calls(self):
         return (self.home / "calls").read_text(encoding="utf-8")
 
-    def setup_run(self):
+    def setup_run(self, *arguments):
         path = f"{self.home / 'stand-ins'}:{os.environ['PATH']}"
-        return subprocess.run(["bash", "setup.sh", "run"], cwd=self.home, env={**os.environ, "PATH": path}, check=False,
+        return subprocess.run(["bash", "setup.sh", "run", *arguments], cwd=self.home, env={**os.environ, "PATH": path}, check=False,
                               capture_output=True, text=True, timeout=PATIENCE)
 
     def assert_says(self, *words):
@@ -77,6 +77,17 @@ class Setup(CommandTest):
         self.setup_run()
         self.assert_done(self.riesel("resume", "runs/setup", "--set", "run.duration=6 ms"))
         self.assert_says("runs/setup was resumed since: its result is in runs/setup/summary.json")
+
+    def test_a_result_whose_text_was_lost(self):
+        self.setup_run()
+        (self.home / "runs/setup.txt").write_text("", encoding="utf-8")
+        self.assert_says("what it printed at its end was lost", "runs/setup/summary.json")
+
+    def test_it_runs_no_other_input(self):
+        result = self.setup_run("scenarios/inclined_chute.yaml")
+        self.assertEqual(result.returncode, BAD_INPUT, result)
+        self.assertIn("'run' takes no arguments, as scenarios/inclined_chute.yaml", result.stderr)
+        self.assertFalse((self.home / "calls").exists())
 
     def test_packages_that_are_missing_are_installed_or_named(self):
         self.stand_in("dpkg-query", f'case "$3" in cmake | libhdf5-dev) ;; *) {INSTALLED} ;; esac')

@@ -97,6 +97,8 @@ TEST_CASE("a chute of one layer can be shaken") {
 TEST_CASE("what does not fit into a chute is refused") {
   check_mentions(complaint(chute_yaml, {"chute.layers=40"}),
                  {"chute.height", "too low", "fewer layers"});
+  check_mentions(complaint(chute_yaml, {"chute.height=0.8 mm"}),
+                 {"chute.height", "too low", "smaller grains"});
   check_mentions(complaint(chute_yaml, {"chute.length=3 mm"}),
                  {"chute.length", "too short", "four diameters"});
   check_mentions(complaint(chute_yaml, {"wall.spacing=11 mm"}), {"wall.spacing", "chute.length"});

@@ -115,6 +115,22 @@ TEST_CASE("the same seed gives the same state, another seed another one") {
   CHECK(hashes.size() == 4);
 }
 
+TEST_CASE("grains that are too fast are told by the fastest one") {
+  // Random velocities are those of all grains together; single ones have several times as much.
+  const auto with = [](double velocity) {
+    return complaint(tube_yaml, {"start.random_velocity=" + std::to_string(velocity)});
+  };
+  const std::string refusal = with(1e4), said = "the fastest grain, now ", limit = "stays below ";
+  check_mentions(refusal, {"start.random_velocity", "too fast", said, limit});
+  const auto number_after = [&](const std::string& words) {
+    return std::stod(refusal.substr(refusal.find(words) + words.size()));
+  };
+  const double part = number_after(limit) / number_after(said);
+  CHECK(part < 1.0);
+  CHECK(with(0.98 * part * 1e4) == "accepted");
+  CHECK(with(1.02 * part * 1e4) != "accepted");
+}
+
 TEST_CASE("a seed decides about sizes, places and velocities") {
   const State a = tube({"seed=1"}).state, b = tube({"seed=2"}).state;
   const auto n = std::min(a.grains.size(), b.grains.size());
