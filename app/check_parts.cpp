@@ -59,7 +59,8 @@ void print_slip(const io::Settings& settings, const SlipLaw& slip, double reduce
     line("tangential spring", "half a period = {:.4g} s", time);
   constexpr auto damping = "contact.slip_damping";
   const double gamma_t = settings.has(damping) ? settings.number(damping) : 0.0;
-  const double stable = 2.0 / slip_gain_by_turning(inertia);
+  // As the slip is predicted from the last step, its error is then reversed in each step.
+  const double stable = 1.0 / slip_gain_by_turning(inertia);
   if (gamma_t * time_step >= stable)
     warn("{} is too strong for the time step: friction would change its sign from step to step; "
          "raise run.steps_per_collision above {:.3g}",

@@ -40,7 +40,7 @@ sums_over_motion(const Strips& strips, const State& state, const Frame& frame) {
       strip[i] = strips.at(g.x);
       const double u = g.vx - frame.vx, w = g.vy - frame.vy;
       const double z = g.x / strips.width - (static_cast<double>(strip[i]) + 0.5);
-      const double m = g.mass, turning = g.radius * g.spin;
+      const double m = g.mass, gyration2 = state.grains.inertia * g.radius * g.radius;
       terms[i] = {1.0,
                   g.vy,
                   u * u,
@@ -50,7 +50,9 @@ sums_over_motion(const Strips& strips, const State& state, const Frame& frame) {
                   z * z,
                   z * w,
                   g.spin,
-                  state.grains.inertia * turning * turning,
+                  gyration2,
+                  gyration2 * g.spin,
+                  gyration2 * g.spin * g.spin,
                   m,
                   m * g.vx * g.vx,
                   m * g.vx * w,

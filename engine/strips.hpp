@@ -29,29 +29,31 @@ struct Frame {
 /// the strip, from the middle on in widths of the strip. F is the force on a body of a contact, l
 /// the vector from the centre of the other body to its own.
 enum class StripSum {
-  area,        ///< m^2, covered by grains
-  grains,      ///< number of grains with their centre in the strip
-  vy,          ///< m/s, sum of v_y
-  u2,          ///< (m/s)^2, sum of u^2
-  w,           ///< m/s
-  w2,          ///< (m/s)^2
-  z,           ///< sum of z
-  z2,          ///< sum of z^2
-  zw,          ///< m/s
-  spin,        ///< rad/s
-  rotation,    ///< (m/s)^2, sum of I spin^2 / m
-  mass,        ///< kg
-  mass_vx2,    ///< J, sum of m v_x^2
-  mass_vx_w,   ///< J
-  mass_w,      ///< kg m/s
-  mass_w2,     ///< J
-  mass_z,      ///< kg
-  mass_z2,     ///< kg
-  mass_zw,     ///< kg m/s
-  contact_xx,  ///< J, sum of l_x F_x
-  contact_xy,  ///< J, sum of l_x F_y: momentum along y that goes across the tube
-  contact_yx,  ///< J, sum of l_y F_x
-  contact_yy,  ///< J, sum of l_y F_y
+  area,             ///< m^2, covered by grains
+  grains,           ///< number of grains with their centre in the strip
+  vy,               ///< m/s, sum of v_y
+  u2,               ///< (m/s)^2, sum of u^2
+  w,                ///< m/s
+  w2,               ///< (m/s)^2
+  z,                ///< sum of z
+  z2,               ///< sum of z^2
+  zw,               ///< m/s
+  spin,             ///< rad/s
+  gyration2,        ///< m^2, sum of I / m, as are the factors of the next two
+  gyration2_spin,   ///< m^2/s
+  gyration2_spin2,  ///< (m/s)^2
+  mass,             ///< kg
+  mass_vx2,         ///< J, sum of m v_x^2
+  mass_vx_w,        ///< J
+  mass_w,           ///< kg m/s
+  mass_w2,          ///< J
+  mass_z,           ///< kg
+  mass_z2,          ///< kg
+  mass_zw,          ///< kg m/s
+  contact_xx,       ///< J, sum of l_x F_x
+  contact_xy,       ///< J, sum of l_x F_y: momentum along y that goes across the tube
+  contact_yx,       ///< J, sum of l_y F_x
+  contact_yy,       ///< J, sum of l_y F_y
 };
 inline constexpr std::size_t strip_sums = static_cast<std::size_t>(StripSum::contact_yy) + 1;
 

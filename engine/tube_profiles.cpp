@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <initializer_list>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -57,9 +56,6 @@ public:
   /// describe.
   Estimate mean_over_grains(double value, std::span<const LinearTerm> terms) const {
     return {value, error_per_weight(linear(terms), means(StripSum::grains))};
-  }
-  Estimate mean_over_grains(double value, std::initializer_list<LinearTerm> terms) const {
-    return mean_over_grains(value, std::span(terms));
   }
 
 private:
@@ -118,13 +114,16 @@ Estimate stress(const ZoneBlocks& b, double area, StripSum kinetic, StripSum con
   return known_by_contacts(b, density(b, area, {{kinetic, 1.0}, {contact, 1.0}}));
 }
 
-/// Mean over the grains of the zone.
-Estimate per_grain(const ZoneBlocks& b, StripSum sum) {
+/// The sum of the terms over the number of grains in the zone.
+Estimate per_grain(const ZoneBlocks& b, std::vector<LinearTerm> terms) {
   const double grains = b.mean(StripSum::grains);
   if (grains == 0.0) return not_known;
-  const double ratio = b.mean(sum) / grains;
-  return b.mean_over_grains(ratio, {{sum, 1.0 / grains}, {StripSum::grains, -ratio / grains}});
+  const double mean = b.sum(terms) / grains;
+  terms.push_back({StripSum::grains, -mean});
+  for (LinearTerm& term : terms) term.derivative /= grains;
+  return b.mean_over_grains(mean, terms);
 }
+Estimate per_grain(const ZoneBlocks& b, StripSum sum) { return per_grain(b, {{sum, 1.0}}); }
 
 /// Which sums are those of weights alone, times w and so on.
 struct Moments {
@@ -169,14 +168,20 @@ std::vector<LinearTerm> random_part(const ZoneBlocks& b, const Moments& moments)
 }
 
 /// Mean over the grains of the squares of w about the line in their strip.
-Estimate variance_of_w(const ZoneBlocks& b) {
-  const double grains = b.mean(StripSum::grains);
-  if (grains == 0.0) return not_known;
-  std::vector<LinearTerm> terms = random_part(b, of_grains);
-  const double variance = b.sum(terms) / grains;
-  terms.push_back({StripSum::grains, -variance});
-  for (LinearTerm& term : terms) term.derivative /= grains;
-  return b.mean_over_grains(variance, terms);
+Estimate variance_of_w(const ZoneBlocks& b) { return per_grain(b, random_part(b, of_grains)); }
+
+/// Mean over the grains of (I / m) (spin - W)^2, where W is the mean spin of the strip, weighted
+/// with I / m. As the sum is least for this W, it may be taken as given in the derivatives.
+Estimate rotational_temperature(const ZoneBlocks& b) {
+  std::vector<LinearTerm> terms;
+  for (const std::size_t strip : b.strips()) {
+    const double weight = b.mean(StripSum::gyration2, strip);
+    const double mean = weight > 0.0 ? b.mean(StripSum::gyration2_spin, strip) / weight : 0.0;
+    terms.insert(terms.end(), {{StripSum::gyration2_spin2, 1.0, strip},
+                               {StripSum::gyration2_spin, -2.0 * mean, strip},
+                               {StripSum::gyration2, mean * mean, strip}});
+  }
+  return per_grain(b, std::move(terms));
 }
 
 Estimate kinetic_stress_yy(const ZoneBlocks& b, double area) {
@@ -214,8 +219,10 @@ constexpr std::array<Quantity, 18> quantities = {{
     {"mean_spin", "rad/s",
      "Mean spin of the grains, positive from x towards y; 0 where they do not rotate.",
      [](const B& b, double) { return per_grain(b, S::spin); }},
-    {"rotational_temperature", "m^2/s^2", "Mean of I w^2 / m over the grains.",
-     [](const B& b, double) { return per_grain(b, S::rotation); }},
+    {"rotational_temperature", "m^2/s^2",
+     "Mean of I (w - W)^2 / m over the grains, W the mean spin in their strip, weighted with I / "
+     "m.",
+     [](const B& b, double) { return rotational_temperature(b); }},
     {"stress_xx", "N/m", "Normal stress across the tube, positive in compression.",
      [](const B& b, double a) { return stress(b, a, S::mass_vx2, S::contact_xx); }},
     {"stress_xy", "N/m", "Shear stress: momentum along y that goes to larger x.",

@@ -87,19 +87,19 @@ void reject_fast_grains(const io::Settings& settings, const std::vector<Grain>& 
 }
 
 /// At most an eighth of a turn in a step: a few times more would wrap around and seem slow again.
-/// And the sum of the squares of the velocities of their rims must be held.
+/// And their sum, and that of the squares of the velocities of their rims, must be held.
 void reject_fast_spins(const io::Settings& settings, const std::vector<Grain>& grains,
                        const State& state) {
-  const double fastest_rim =
-      std::sqrt(ExactSum::largest_sum / static_cast<double>(grains.size()));  // m/s
+  const double share = ExactSum::largest_sum / static_cast<double>(grains.size());
   const double largest = 0.25 * std::numbers::pi / state.time_step;
   for (const Grain& g : grains) {
     if (std::abs(g.spin) >= largest)
       settings.reject("start.from", "has spins too fast for this time step",
                       fmt::format("choose spins below {:.3g} 1/s", largest));
-    if (std::abs(g.spin) * g.radius >= fastest_rim)
-      settings.reject("start.from", "has spins whose energy is beyond what sums hold",
-                      fmt::format("choose spins below {:.3g} 1/s", fastest_rim / g.radius));
+    const double most = std::min(std::sqrt(share) / g.radius, share);
+    if (std::abs(g.spin) >= most)
+      settings.reject("start.from", "has spins whose sum or energy is beyond what sums hold",
+                      fmt::format("choose spins below {:.3g} 1/s", most));
   }
 }
 

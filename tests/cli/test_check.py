@@ -156,9 +156,9 @@ class Check(CommandTest):
                            "10 steps per collision", "50")
 
     def test_of_damping_of_the_slip_that_the_step_does_not_follow(self):
-        """gamma_t dt above 2, or 2/3 of discs; more steps mend it as the warning says."""
+        """gamma_t dt above 1, or 1/3 of discs; more steps mend it as the warning says."""
         dt = plain_number(self.check(MILD_TUBE), r"time step +(\S+) s")
-        for rotation, limit in (("none", 2.0), ("disc", 2.0 / 3.0)):
+        for rotation, limit in (("none", 1.0), ("disc", 1.0 / 3.0)):
             options = ["--set", "contact.slip=viscous", "--set", f"grains.rotation={rotation}"]
             for factor, is_due in ((0.95, False), (1.05, True)):
                 damping = f"contact.slip_damping={factor * limit / dt} 1/s"

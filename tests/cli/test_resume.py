@@ -36,7 +36,7 @@ class Resume(CommandTest):
                 self.assert_same_result(long, short)
 
     def test_runs_of_riesel_0_12_and_0_13_can_be_started_from_but_not_gone_on_with(self):
-        """Their checkpoints have 15 and 21 sums per strip for the profiles, not 23."""
+        """Their checkpoints have 15 and 21 sums per strip for the profiles, not 25."""
         new = self.run_small_tube("new", "--set", "run.duration=1 ms")
         for version, format_version, kept in (("0.12.2", 10, 15), ("0.13.0", 11, 21)):
             with self.subTest(version):
@@ -46,9 +46,9 @@ class Resume(CommandTest):
                         file.attrs.modify("format_version", format_version)
                         file.attrs.modify("riesel_version", np.bytes_(version))
                         profiles = file["profiles"]
-                        strips = profiles.attrs["columns"] // 23
+                        strips = profiles.attrs["columns"] // 25
                         profiles.attrs.modify("columns", kept * strips)
-                        sums = profiles["sums"][()].reshape(-1, 23 * strips)[:, :kept * strips].ravel()
+                        sums = profiles["sums"][()].reshape(-1, 25 * strips)[:, :kept * strips].ravel()
                         del profiles["sums"]
                         profiles.create_dataset("sums", data=sums, chunks=sums.shape, fletcher32=True)
                 before = bytes_of_files(old)

@@ -112,8 +112,8 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
       const double left = static_cast<double>(s) * strips.width, right = left + strips.width;
       const double middle = 0.5 * (left + right);
       double area = 0.0, grains = 0.0, u2 = 0.0, w2 = 0.0, z2 = 0.0, zw = 0.0, spin = 0.0,
-             rotation = 0.0, mass_vx_w = 0.0, mass_z = 0.0, mass_zw = 0.0, xx = 0.0, xy = 0.0,
-             yx = 0.0, yy = 0.0;
+             turning = 0.0, rotation = 0.0, mass_vx_w = 0.0, mass_z = 0.0, mass_zw = 0.0, xx = 0.0,
+             xy = 0.0, yx = 0.0, yy = 0.0;
       for (std::size_t slot = 0; slot < state.grains.size(); ++slot) {
         const Grain g = grain_at(state, slot);
         area += area_between(g, left, right);
@@ -126,6 +126,7 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
         zw += z * w;
         if (state.grains.rotate()) {
           spin += g.spin;
+          turning += disc * g.radius * g.radius * g.spin;
           rotation += disc * g.radius * g.radius * g.spin * g.spin;
         }
         mass_vx_w += g.mass * g.vx * w;
@@ -146,7 +147,8 @@ TEST_CASE("the strips of a tube hold what brute force finds there") {
       CHECK(value(sums, s, StripSum::z2) == Approx(z2));
       CHECK(value(sums, s, StripSum::zw) == Approx(zw).margin(1e-9));
       CHECK(value(sums, s, StripSum::spin) == Approx(spin).margin(1e-6));
-      CHECK(value(sums, s, StripSum::rotation) == Approx(rotation));
+      CHECK(value(sums, s, StripSum::gyration2_spin) == Approx(turning).margin(1e-12));
+      CHECK(value(sums, s, StripSum::gyration2_spin2) == Approx(rotation));
       CHECK(value(sums, s, StripSum::mass_vx_w) == Approx(mass_vx_w).margin(1e-15));
       CHECK(value(sums, s, StripSum::mass_z) == Approx(mass_z).margin(1e-15));
       CHECK(value(sums, s, StripSum::mass_zw) == Approx(mass_zw).margin(1e-15));

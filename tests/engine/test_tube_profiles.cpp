@@ -56,7 +56,7 @@ constexpr Strips odd_strip{.width = 2.0, .length = 5.0, .count = 1};
 constexpr std::array<double, strip_sums> odd_sums = {
     3.0,  4.0,    20.0, 1.6,  2.0,  5.0,  // area, grains, v_y, u^2, w, w^2
     1.0,  1.25,   1.5,                    // z, z^2, z w
-    8.0,  3.2,                            // spin, I spin^2 / m
+    8.0,  2.0,    3.0,  7.7,              // spin, I / m and with spin, spin^2
     7.0,  11.0,   13.0, 14.0, 45.0,       // mass and with v_x^2, v_x w, w, w^2
     1.75, 3.9375, 10.5,                   // with z, z^2, z w
     19.0, 23.0,   29.0, 31.0};            // of contacts: xx, xy, yx, yy
@@ -82,7 +82,9 @@ std::vector<OddProfile> odd_profiles() {
           {"temperature_x", 0.4, {S::u2, S::grains}},
           {"temperature_y", 1.0 - 0.25, of_w2},
           {"mean_spin", 2.0, {S::spin, S::grains}},
-          {"rotational_temperature", 0.8, {S::rotation, S::grains}},
+          {"rotational_temperature",
+           0.8,
+           {S::gyration2_spin2, S::gyration2_spin, S::gyration2, S::grains}},
           {"stress_xx", 3.0, {S::mass_vx2, S::contact_xx}},
           {"stress_xy", 3.6, {S::mass_vx_w, S::contact_xy}},
           {"stress_yx", 4.2, {S::mass_vx_w, S::contact_yx}},

@@ -103,6 +103,19 @@ TEST_CASE("viscous slip tends to the capped one as its rate grows") {
   CHECK(last < 1e-4);
 }
 
+TEST_CASE("the step follows damping of the slip up to gamma_t dt = 1") {
+  // With v(n) predicted as w(n-1/2) + a(n-1) dt/2, slips of alternating sign die out below and
+  // grow beyond.
+  const double dt = step_of(0.0), part = GENERATE(0.9, 1.1);
+  ContactModel model = frictionless(0.0);
+  model.friction = 1.0;
+  model.slip = ViscousSlip{part / dt};
+  const std::vector<double> slip = slips(model, 1.0, 1e-3, dt);
+  REQUIRE(slip.size() > 40);
+  CHECK((std::abs(slip[40]) < 0.1 * std::abs(slip[10])) == (part < 1.0));
+  CHECK((std::abs(slip[40]) > std::abs(slip[10])) == (part > 1.0));
+}
+
 TEST_CASE("oblique impacts are those of the reference, whether they slide, stick or are clipped") {
   // t / 1000. Left over: second order, 1e-6; a clipped force, a stop of the slip or the root of
   // Hertz's damping falls somewhere in a step, 1e-3 of a contact's duration, weighted with the
