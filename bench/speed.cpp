@@ -15,9 +15,10 @@
 #include "io/settings_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <exception>
-#include <fmt/core.h>
 #include <functional>
 #include <stdexcept>
 #include <system_error>
