@@ -1,6 +1,9 @@
 """A start from a file of grains, and sizes from a file, through the command."""
 
 import os
+import shutil
+
+import h5py
 
 from riesel_command import CommandTest, plain_number
 
@@ -77,6 +80,19 @@ class GrainFile(CommandTest):
     def test_grains_that_positions_cannot_tell_apart_are_refused(self):
         self.assert_refused(self.check("x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n5, 5, 0, 1, 1e-300\n"),
                             "grains.csv:2", "diameter", "at least")
+
+    def test_a_run_from_other_grains_is_another_run(self):
+        """With the same settings, letter by letter."""
+        def number(out):
+            with h5py.File(out / "run.h5") as file:
+                return file["provenance/run"][()]
+        mine = self.run_to_end("here/tube.yaml", "mine")
+        self.assertEqual(number(self.run_to_end("here/tube.yaml", "again")), number(mine))
+        self.write("here/grains.csv", GRAINS.replace("2.0, 0.5, -2", "2.0, 0.5, -1"))
+        other = self.run_to_end("here/tube.yaml", "other")
+        self.assertNotEqual(number(other), number(mine))
+        shutil.copy(other / "run.h5", mine / "run.h5")
+        self.assert_refused(self.riesel("resume", "mine", "--set", "run.duration=6 ms"), "it belongs to another run")
 
     def test_walls_of_too_many_grains_are_refused_before_these_are_looked_at(self):
         self.write("here/tube.yaml", SETTINGS + "wall: {spacing: 1e-12 m}\n")

@@ -178,6 +178,18 @@ class WallArray(Impacts, CommandTest):
         self.assertIn(True, deep)
         self.assertIn(False, deep)
 
+    def test_means_over_starts_are_means(self):
+        """A sum over eight starts would be some eight times as much as one of them."""
+        curves = []
+        for starts in (1, 8):
+            out = self.run_to_end(SHIPPED / "wall_array.yaml", f"of{starts}", "--set", f"impact.starts={starts}", "--set",
+                                  "impact.normal_velocity=0.3", "--set",
+                                  "impact.axial_velocity={from: 0.02, to: 0.08, points: 3, spacing: linear}")
+            curves.append(self.summary(out)["curve"])
+        for one, several in zip(*curves):
+            for name in ("contacts", "contact_time"):
+                self.assertTrue(0.2 < several[name] / one[name] < 3.0, (name, one[name], several[name]))
+
     def test_two_contacts_by_chance_are_not_taken_for_the_rise(self):
         """With few starts the mean touches 2 at a low velocity; with many it comes to it between 20 and 30 m/s."""
         out = self.run_to_end(SHIPPED / "wall_array.yaml", "wide", "--set", "wall.spacing=2.5 mm",
@@ -209,6 +221,13 @@ class BeadColumn(CommandTest):
                 if name == "verdict":
                     of_column = [VERDICTS.index(verdict) for verdict in of_column]
                 self.assertEqual(list(column), of_column, name)
+
+    def test_a_bead_alone_rebounds_as_fast_as_it_came_and_a_column_does_not(self):
+        for beads, are_alike in ((1, True), (5, False)):
+            out = self.drop(f"of{beads}", "--set", f"column.beads={beads}")
+            summary = self.summary(out)
+            for point in [*summary["column"], summary["rigid"]]:
+                self.assertEqual(abs(point["rebound"] / point["restitution"] - 1.0) < 1e-6, are_alike, point)
 
     def test_the_result_depends_neither_on_threads_nor_on_the_way_the_settings_came(self):
         one = self.drop("one")

@@ -59,6 +59,16 @@ class Resume(CommandTest):
                                                            f"start: {{kind: continued, from: {old.name}}}"))
                 self.run_to_end("next.yaml", f"next_{version}", "--set", "run.duration=1 ms")
 
+    def test_the_time_of_all_lives_of_a_run_counts(self):
+        run = self.run_small_tube("run", "--set", "run.duration=100 ms")
+        first = self.summary(run)["performance"]["wall_seconds"]
+        self.resume_to_end(run, "--set", "run.duration=100.1 ms")
+        summary = self.summary(run)
+        seconds = summary["performance"]["wall_seconds"]
+        self.assertGreaterEqual(seconds, first)
+        work = summary["performance"]["particle_steps_per_second"] * seconds
+        self.assertAlmostEqual(work / (summary["grains"] * summary["steps"]), 1.0, delta=1e-6)
+
     def test_grains_that_rotate_on_springs_go_on_by_other_ways(self):
         spinning = [option for setting in ("grains.rotation=disc", "contact.slip=spring", "contact.slip_stiffness=500 N/m",
                                            "contact.rolling_friction=0.1", "output.interval=0.5 ms")

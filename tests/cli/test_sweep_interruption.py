@@ -156,6 +156,43 @@ class Interruption(SweepTest):
         self.wait_until(lambda: not any(map(is_alive, children)), "the end of the runs")
         self.assertIn("2 interrupted, 1 waiting", self.riesel("status", "out").stdout)
 
+    def test_runs_of_a_killed_sweep_save_what_they_have_reached(self):
+        process = self.start_sweep(saved_by_its_end(ENDLESS))
+        children, running = children_of(process.pid), self.wait_until_two_get_on()
+        self.stop(process, signal.SIGKILL)
+        self.wait_until(lambda: not any(map(is_alive, children)), "the end of the runs")
+        for run in running:
+            self.assertGreater(saved_step(run), 0)
+
+    def test_a_second_wish_to_end_does_not_wait_for_the_runs(self):
+        process = self.start_sweep(ENDLESS)
+        slow, other = children_of(process.pid)
+        os.kill(slow, signal.SIGSTOP)
+        try:
+            process.send_signal(signal.SIGINT)
+            self.wait_until(lambda: not is_alive(other), "the end of the other run")
+            self.assertIsNone(process.poll())
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(PATIENCE), 128 + signal.SIGINT)
+        finally:
+            os.kill(slow, signal.SIGCONT)
+        self.wait_until(lambda: not is_alive(slow), "the end of the run that slept")
+
+    def test_a_run_that_is_stopped_again_and_again_is_started_three_times(self):
+        self.write("sweep.yaml", ENDLESS.replace("[0.7, 0.8, 0.9]", "[0.7]"))
+        process = self.start("sweep", "sweep.yaml", "--out", "out", "--jobs", 1)
+        stopped = set()
+        for _ in range(3):
+            self.wait_until(lambda: set(children_of(process.pid)) - stopped, "a start of the run")
+            run, = set(children_of(process.pid)) - stopped
+            os.kill(run, signal.SIGKILL)
+            stopped.add(run)
+        _, stderr = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, FAILED)
+        self.assertIn("was stopped 3 times", stderr)
+        point, = self.points()
+        self.assertEqual((point["attempts"], point["status"]), (3, "interrupted"))
+
     def test_a_run_killed_before_its_first_checkpoint_begins_again(self):
         self.write("sweep.yaml", """\
 base: tube.yaml

@@ -1,6 +1,7 @@
 """Trajectories: what h5py and netCDF find in them is what the run did, and a run that was stopped leaves
 the same frames as one that was not."""
 
+import re
 import time
 import unittest
 
@@ -84,6 +85,11 @@ class Contents(TrajectoryTest):
         mean = np.array([velocity[i:len(velocity) - 20 + i] for i in range(21)])
         mean = (mean.sum(axis=0) - 0.5 * (mean[0] + mean[-1])) / 20
         self.assertLess(abs(way / (20 * dt) - mean).max(), 0.01)
+
+    def test_the_index_has_the_times_of_the_frames(self):
+        text = (self.out / "trajectory.xdmf2").read_text(encoding="utf-8")
+        times = [float(time) for time in re.findall(r'<Time Value="([^"]+)"', text)]
+        np.testing.assert_allclose(times, self.file[f"{GRAINS}/position/time"][:], rtol=1e-6, atol=1e-12)
 
     def test_positions_are_in_the_box(self):
         y = self.file[f"{GRAINS}/position/value"][:, :, 1]

@@ -177,6 +177,20 @@ TEST_CASE("lasting contacts count before they end") {
   CHECK(std::abs(o.energies.residual) < 0.02 * o.energies.normal_loss);
 }
 
+TEST_CASE("grains may fly an eighth of the shorter side in a step, and no faster than sums hold") {
+  // m/s; the numbers of docs/reliability.md where there are many grains.
+  CHECK(largest_speed({.width = 1e-2, .length = 2e-2}, 1e-6, 1) == Approx(1250.0));
+  CHECK(largest_speed({.width = 2e-2, .length = 1e-2}, 1e-6, 1) == Approx(1250.0));
+  CHECK(largest_speed({.width = 1.0, .length = 1.0}, 1e-6, 1'000'000)
+        == Approx(260.0).epsilon(0.02));
+  CHECK(largest_speed({.width = 1.0, .length = 1.0}, 1e-6, 10'000'000)
+        == Approx(83.0).epsilon(0.02));
+}
+
+TEST_CASE("all work turns energy over, whatever its sign") {
+  CHECK(energy_turned_over(1.0, -2.0, -4.0) == 7.0);
+}
+
 TEST_CASE("observables do not depend on the order of the slots") {
   const State state = advanced(small_tube(61), paper_model(), 400);
   const Observables a = observe(state), b = observe(shuffled(state, 9));

@@ -164,6 +164,14 @@ TEST_CASE("a flow that breaks away at the end accelerates, however long it was h
   CHECK(held_to_the_end == runs);
 }
 
+TEST_CASE("growth at the end by less than half of gravity is no breakaway", "[steady_state]") {
+  // Three tenths of free fall in the last sixth of 3 s at 10 m/s^2.
+  const auto held = [](double s) { return 20.0 + 0.3 * 10.0 * 3.0 * std::max(0.0, s - 0.84); };
+  for (unsigned seed = 0; seed < 20; ++seed)
+    CHECK(riesel::assess_steady_state(noisy(300, 0.05, 0.9, seed, held), 10.0 * 3.0 / 300).verdict
+          != SteadyVerdict::accelerating);
+}
+
 TEST_CASE("slowing down is a drift, however fast", "[steady_state]") {
   const auto decay = [](double s) { return 1.0 + 2.0 * std::exp(-2.0 * s); };
   auto count = verdicts(decay);

@@ -25,7 +25,7 @@ HOME = pathlib.Path(__file__).resolve().parents[2]
 COPY = HOME / "build/mutation/source"
 BUILD = HOME / "build/mutation/build"
 ROOMS = ["engine", "physics", "scenarios", "io", "properties"]  # tests_ROOM is the program, ROOM the label
-REST = ["reliability", "cli|fuzz|package", "regression"]  # labels, after the room's own programs
+REST = ["reliability", "cli|fuzz|package|python|manual", "regression"]  # labels, after the room's own programs
 RESULT = HOME / "tests/mutation/result.md"
 COMPILER = "the compiler, not a test"
 

@@ -1,0 +1,193 @@
+"""What a run says of its flow: means are those after the transient, series those of what the frames show."""
+
+import h5py
+import numpy as np
+
+from riesel_command import SMALL_TUBE, CommandTest
+
+# 85 grains, which come to rest against their walls within half of the run: 121 rows, the first sixty a transient.
+TUBE = """\
+scenario: periodic_tube
+contact: {stiffness: 2000 N/m, restitution: 0.92}
+tube: {width: 10 mm, length: 12 mm}
+run: {duration: 0.12 s}
+"""
+
+# A frame for each row; grains rotate, and the walls work on them.
+SEEN = SMALL_TUBE + """\
+output: {interval: 0.05 ms, trajectory_interval: 0.05 ms}
+wall: {shake_amplitude: 0.5 mm, shake_frequency: 3000, shake_angle: 30 degrees}
+"""
+
+# One grain that hits the wall, or two that hit each other.
+FEW = """\
+scenario: periodic_tube
+contact: {stiffness: 2000 N/m, restitution: 0.9}
+tube: {width: 10 mm, length: 10 mm}
+start: {kind: file, from: grains.csv}
+run: {duration: 3 ms}
+"""
+HEAD = "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n"
+
+
+def series_of(directory):
+    with h5py.File(directory / "run.h5") as file:
+        return {name: column[()] for name, column in file["series"].items()}
+
+
+class AfterTheTransient(CommandTest):
+
+    @classmethod
+    def setUpClass(cls):
+        maker = cls.maker()
+        cls.out = maker.run_to_end(maker.write("tube.yaml", TUBE), "out")
+        cls.said = maker.summary(cls.out)
+        cls.series = series_of(cls.out)
+        cls.first = int(np.argmax(cls.series["time"] >= cls.said["transient_end"] - 1e-12))
+        with h5py.File(cls.out / "run.h5") as file:
+            cls.profiles = {name: column[()] for name, column in file["profiles"].items()}
+            cls.rates = {name: group["rate"][()].sum() for name, group in file["histograms"].items()}
+
+    def test_there_is_a_transient(self):
+        self.assertGreater(self.first, 20)
+        self.assertLess(self.first, len(self.series["time"]) - 20)
+
+    def test_the_rates_of_histograms(self):
+        time = self.series["time"][-1] - self.series["time"][self.first]
+        for histogram, column in (("wall_contact_duration", "wall_contacts_ended"),
+                                  ("grain_contact_duration", "grain_contacts_ended"),
+                                  ("wall_visit_entry_slip", "wall_visits")):
+            gained = self.series[column][-1] - self.series[column][self.first]
+            self.assertAlmostEqual(self.rates[histogram] * time / gained, 1.0, delta=1e-9, msg=histogram)
+
+    def test_means_of_series(self):
+        for name, mean in self.said["fluctuations"].items():
+            self.assertAlmostEqual(mean["value"], self.series[name][self.first:].mean(), msg=name)
+        for n, mean in self.said["structure_factor"].items():
+            self.assertAlmostEqual(mean["value"], self.series[f"structure_factor_{n}"][self.first:].mean(), msg=n)
+
+    def test_the_zones_are_the_strips_of_the_profiles(self):
+        weight = self.profiles["density"]  # that of numbers of grains within a hundredth or two
+        for zone, strips in (("core", slice(2, 8)), ("wall_layers", [0, -1])):
+            for name, mean in self.said["profiles"][zone].items():
+                values, by_area = self.profiles[name][strips], name == "area_fraction" or name.startswith("stress")
+                expected = np.average(values, weights=None if by_area else weight[strips])
+                self.assertAlmostEqual(mean["value"] / expected, 1.0, delta=1e-9 if by_area else 0.03, msg=f"{zone} {name}")
+
+    def test_energies(self):
+        columns = {"residual": "energy_residual", "kinetic": "kinetic_energy", "rotational": "rotational_energy",
+                   "elastic": "elastic_energy"}
+        for name, end in self.said["energy"].items():
+            if name != "initial":
+                last = self.series[columns.get(name, name)][-1]
+                # The run goes on for a step or so after the last row.
+                self.assertAlmostEqual(end, last, delta=1e-3 * self.said["energy"]["gravity_work"], msg=name)
+
+
+class FromFrames(CommandTest):
+
+    @classmethod
+    def setUpClass(cls):
+        maker = cls.maker()
+        cls.out = maker.run_to_end(maker.write("tube.yaml", SEEN), "out", "--set", "grains.rotation=disc")
+        cls.series = series_of(cls.out)
+        with h5py.File(cls.out / "trajectory.h5") as file, h5py.File(cls.out / "run.h5") as run:
+            grains = file["particles/grains"]
+            cls.y, cls.v = grains["position/value"][()][:, :, 1], grains["velocity/value"][()][:, :, :2].astype(float)
+            cls.spin = grains["spin/value"][()].astype(float)
+            cls.mass, cls.radius = grains["mass"][()].astype(float), grains["radius"][()].astype(float)
+            cls.length = run["final"].attrs["box_length"]
+            assert np.allclose(grains["position/time"][()], cls.series["time"], atol=1e-9)
+        cls.initial = maker.summary(cls.out)["energy"]["initial"]
+
+    def assert_seen(self, name, expected):
+        scale = abs(expected).max()
+        self.assertGreater(scale, 0.0, name)
+        np.testing.assert_allclose(self.series[name], expected, rtol=0.0, atol=1e-5 * scale, err_msg=name)
+
+    def test_motion(self):
+        inertia = 0.5 * self.mass * self.radius**2
+        self.assert_seen("mean_vx", self.v[:, :, 0].mean(axis=1))
+        self.assert_seen("mean_vy", self.v[:, :, 1].mean(axis=1))
+        self.assert_seen("sigma_vx", self.v[:, :, 0].std(axis=1))
+        self.assert_seen("sigma_vy", self.v[:, :, 1].std(axis=1))
+        self.assert_seen("kinetic_energy", 0.5 * (self.mass * (self.v**2).sum(axis=2)).sum(axis=1))
+        self.assert_seen("mean_spin", self.spin.mean(axis=1))
+        self.assert_seen("rotational_energy", 0.5 * (inertia * self.spin**2).sum(axis=1))
+        self.assert_seen("rotational_temperature", (inertia / self.mass * self.spin**2).mean(axis=1))
+
+    def test_waves(self):
+        for n in range(1, 5):
+            wave = np.exp(2j * np.pi * n * self.y / self.length).sum(axis=1)
+            expected = abs(wave) ** 2 / len(self.mass)
+            # Places along the tube count in steps of a 1024th of its length.
+            np.testing.assert_allclose(self.series[f"structure_factor_{n}"], expected, rtol=0.0,
+                                       atol=0.02 * n * expected.max())
+
+    def test_the_energies_of_each_row_add_up(self):
+        s = self.series
+        for name in ("wall_work", "normal_loss", "friction_loss"):
+            self.assertGreater(abs(s[name][-1]), 0.01 * self.initial, name)
+        self.assertGreater(abs(s["wall_work"][-1] - s["gravity_work"][-1]), 0.01 * self.initial)
+        missing = (self.initial + s["gravity_work"] + s["wall_work"] - s["kinetic_energy"] - s["rotational_energy"]
+                   - s["elastic_energy"] - s["normal_loss"] - s["friction_loss"])
+        np.testing.assert_allclose(s["energy_residual"], missing, rtol=0.0, atol=1e-9 * self.initial)
+        self.assertGreater(abs(missing).max(), 1e-6 * self.initial)
+
+
+class OneKindOnly(CommandTest):
+
+    def few(self, grains, *options):
+        self.write("grains.csv", HEAD + grains)
+        out = self.run_to_end(self.write("few.yaml", FEW), f"out{len(list(self.home.iterdir()))}", *options)
+        return {name: column[-1] for name, column in series_of(out).items()}
+
+    def assert_zero_but(self, row, others, *names):
+        for name in names:
+            self.assertNotEqual(row[name], 0.0, name)
+        for name in others:
+            self.assertEqual(row[name], 0.0, name)
+
+    def test_what_grains_and_walls_did_is_told_apart(self):
+        grains = ("grain_contacts_ended", "grain_contact_time", "grain_slip_path")
+        walls = ("wall_contacts_ended", "wall_contact_time", "wall_slip_path", "wall_impulse_y", "wall_visits")
+        self.assert_zero_but(self.few("4,5,1,0,1\n6,5.1,-1,0,1\n"), walls, *grains)
+        self.assert_zero_but(self.few("2,5,-1,0.5,1\n"), grains, *walls)
+
+    def test_damping_and_friction_are_told_apart(self):
+        meeting = "4,5,1,0,1\n6,5.3,-1,0,1\n"
+        self.assert_zero_but(self.few(meeting, "--set", "contact.friction=0"), ["friction_loss"], "normal_loss")
+        self.assert_zero_but(self.few(meeting, "--set", "contact.restitution=1"), ["normal_loss"], "friction_loss")
+        energy = self.summary(max(self.home.glob("out*"), key=lambda path: path.stat().st_mtime_ns))["energy"]
+        self.assertEqual(energy["normal_loss"], 0.0)
+        self.assertGreater(energy["friction_loss"], 0.0)
+
+
+class Evidence(CommandTest):
+
+    def test_fewer_than_twenty_contacts_with_walls_are_none(self):
+        path = self.write("tube.yaml", TUBE)
+        ratios = ("brake_failure_fraction", "passages_per_wall_visit", "wall_speed_over_v_crit", "pulling_fraction")
+        seen = set()
+        for duration in (2, 4, 6, 8, 12, 16, 24):
+            out = self.run_to_end(path, f"out{duration}", "--set", f"run.duration={duration} ms")
+            found = {finding["name"]: finding["value"] for finding in self.summary(out)["validity"]["findings"]}
+            series = series_of(out)
+            first = np.argmax(series["time"] >= self.summary(out)["transient_end"] - 1e-12)
+            of_walls = series["wall_contacts_ended"][-1] - series["wall_contacts_ended"][first]
+            if 0 < of_walls < 20:
+                seen.add("few")
+                self.assertEqual([found[name] for name in ratios], [None] * len(ratios), of_walls)
+            elif of_walls >= 20:
+                seen.add("enough")
+                self.assertNotIn(None, [found[name] for name in ratios], of_walls)
+        self.assertEqual(seen, {"few", "enough"})
+
+    def test_fewer_than_twenty_contacts_do_not_tell_how_long_contacts_are(self):
+        path = self.write("tube.yaml", TUBE)
+        for duration, known in (("0.2 ms", False), ("2 ms", True)):
+            out = self.run_to_end(path, f"out{known}", "--set", f"run.duration={duration}", "--set", "output.interval=0.1 ms")
+            steps = next(finding["value"] for finding in self.summary(out)["validity"]["findings"]
+                         if finding["name"] == "steps_per_contact")
+            self.assertGreater(series_of(out)["grain_contacts_ended"][-1], 1)
+            self.assertEqual(steps is not None, known, steps)
