@@ -3,6 +3,7 @@
 A fault is (what, file, text, replacement); the text must stand in the file exactly once.
 """
 
+from faults_of_measures import FAULTS_OF_MEASURES
 from faults_of_results import FAULTS_OF_RESULTS
 
 FAULTS = [
@@ -411,5 +412,12 @@ FAULTS = [
      "now() - received_at < same_wish", "now() - received_at < 0 * same_wish"),
     ("a checkpoint thrown away as its series is missing", "app/sweep_directory.cpp",
      "if (has_checkpoint(point) && !can_resume(point))", "if (!has_checkpoint(point) && can_resume(point))"),
+    ("runs killed with their sweep", "app/child_process.cpp",
+     "prctl(PR_SET_PDEATHSIG, SIGTERM);", "prctl(PR_SET_PDEATHSIG, SIGKILL);"),
+    ("a second wish to end that nobody hears", "app/interrupt.cpp",
+     "if (!again) _exit(128 + signal);", "static_cast<void>(again);"),
+    ("started for ever", "app/sweep_runner.cpp",
+     "constexpr int most_starts = 3; ", "constexpr int most_starts = 3000; "),
+    *FAULTS_OF_MEASURES,
     *FAULTS_OF_RESULTS,
 ]
