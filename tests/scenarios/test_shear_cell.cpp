@@ -189,7 +189,8 @@ TEST_CASE("temperature and stresses of a sheared cell are those of the kinetic t
 }
 
 TEST_CASE("grains that turn in a sheared cell turn with the flow") {
-  // Where nothing varies but the velocity, no torque is left if grains have half the vorticity.
+  // Where nothing varies but the velocity, no torque is left if grains have half the vorticity, or
+  // some per cent less, as the stress is not isotropic.
   const Sheared turning(cell({"contact.friction=0.5", "grains.rotation=disc"}), 20'000);
   const Estimate spin = turning.profile("mean_spin", core_of(turning.strips()));
   const double half_of_vorticity = 0.5 * turning.core().shear_rate;
