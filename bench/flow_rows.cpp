@@ -28,16 +28,10 @@ struct Contender {
   double contacts = 0.0;                 ///< per grain, summed over the repetitions
 
   const State& state() const { return runs.front()->state(); }
-  /// Returns when all runs are done.
+  /// Returns when all runs are done. A single one is not solved in a team, where it would have no
+  /// threads of its own.
   void advance(std::int64_t steps) {
-    if (runs.size() == 1)
-      runs.front()->advance(steps);
-    else
-      side_by_side(steps);
-  }
-
-private:
-  void side_by_side(std::int64_t steps) {
+    if (runs.size() == 1) return runs.front()->advance(steps);
     solve_all(runs, variant.runs, [&](const auto& run) {
       run->advance(steps);
       return run->state().step;

@@ -62,6 +62,12 @@ def data_of(run_directory, part="/"):
     return data
 
 
+def series_of(run_directory):
+    """{name: values} of the time series."""
+    with h5py.File(run_directory / "run.h5", "r") as file:
+        return {name: column[()] for name, column in file["series"].items()}
+
+
 def saved_step(run_directory):
     """Up to which a run is in its last checkpoint."""
     with h5py.File(run_directory / "checkpoint.h5", "r") as file:

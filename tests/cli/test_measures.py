@@ -3,7 +3,7 @@
 import h5py
 import numpy as np
 
-from riesel_command import SMALL_TUBE, CommandTest
+from riesel_command import SMALL_TUBE, CommandTest, series_of
 
 # 85 grains, which come to rest against their walls within half of the run: 121 rows, the first sixty a transient.
 TUBE = """\
@@ -28,11 +28,6 @@ start: {kind: file, from: grains.csv}
 run: {duration: 3 ms}
 """
 HEAD = "x (mm), y (mm), vx (m/s), vy (m/s), diameter (mm)\n"
-
-
-def series_of(directory):
-    with h5py.File(directory / "run.h5") as file:
-        return {name: column[()] for name, column in file["series"].items()}
 
 
 class AfterTheTransient(CommandTest):

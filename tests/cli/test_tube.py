@@ -5,7 +5,7 @@ import re
 import h5py
 import numpy as np
 
-from riesel_command import FAILED, SHIPPED, SMALL_TUBE, CommandTest, data_of
+from riesel_command import FAILED, SHIPPED, SMALL_TUBE, CommandTest, data_of, series_of
 
 SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
                  "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
@@ -154,8 +154,7 @@ class Tube(CommandTest):
 
     def test_fluctuations_and_density_waves_are_means_of_their_series(self):
         summary = self.summary(self.out)
-        with h5py.File(self.out / "run.h5", "r") as file:
-            series = {name: column[()] for name, column in file["series"].items()}
+        series = series_of(self.out)
         after = series["time"] >= summary["transient_end"] - 1e-12
         for name, mean in summary["fluctuations"].items():
             self.assertAlmostEqual(mean["value"], series[name][after].mean())
@@ -178,8 +177,7 @@ class Tube(CommandTest):
             self.assertEqual(counts["wall_visit_entry_slip"], sum(visits))
 
     def test_wall_contacts_slip_about_as_far_as_their_speed_and_duration_say(self):
-        with h5py.File(self.out / "run.h5", "r") as file:
-            series = {name: column[-1] for name, column in file["series"].items()}
+        series = {name: column[-1] for name, column in series_of(self.out).items()}
         speed = series["wall_slip_path"] / series["wall_contact_time"]
         at_first = series["wall_entry_slip"] / series["wall_contacts_ended"]
         # Friction slows the grains down, and at most reverses what is along the surface.
@@ -224,8 +222,8 @@ class Tube(CommandTest):
 
     def test_the_braking_of_each_wall_is_that_of_its_series(self):
         summary = self.summary(self.out)
+        series = series_of(self.out)
         with h5py.File(self.out / "run.h5", "r") as file:
-            series = {name: column[()] for name, column in file["series"].items()}
             weight = 10.0 * file["final/mass"][()].sum()
         after = series["time"] >= summary["transient_end"] - 1e-12
         braking = summary["braking_force"]

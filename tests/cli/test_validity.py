@@ -9,7 +9,7 @@ import math
 import h5py
 import numpy as np
 
-from riesel_command import DONE, SHIPPED, SMALL_TUBE, CommandTest
+from riesel_command import DONE, SHIPPED, SMALL_TUBE, CommandTest, series_of
 
 TUBE = """\
 scenario: periodic_tube
@@ -35,8 +35,7 @@ class Validity(CommandTest):
         return self.summary(self.home / out), result.stdout
 
     def series(self, out):
-        with h5py.File(self.home / out / "run.h5", "r") as file:
-            return {name: data[()] for name, data in file["series"].items()}
+        return series_of(self.home / out)
 
     @staticmethod
     def gained_after_the_transient(summary, series):

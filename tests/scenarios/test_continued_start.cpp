@@ -286,7 +286,7 @@ TEST_CASE("A continued start is refused if its time step is too long for the ear
   check_mentions(complaint(continued_yaml(earlier.directory()),
                            {"gravity=0", "contact.damping=", "contact.restitution=0.9",
                             "contact.stiffness=1e-4 N/m"}),
-                 {"start.from", "too fast", "choose velocities"});
+                 {"start.from", "too fast", "the fastest grain", "stays below"});
 
   const std::string rotating = yaml + "grains: {rotation: disc}\n";
   State state = flow(rotating).state;
