@@ -224,7 +224,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.state = steady.verdict;
   const Judged judged = judged_by(state, interval);
   s.judged_by = judged.series;
-  if (steady.is_held_back) s.held_back_by = judged.other;
+  if (steady.held_back_by) s.held_back_by = judged.others[*steady.held_back_by];
   s.mean_axial_velocity = mean_of(file, "mean_vy", first);
   s.independent_samples = steady.independent_samples;
   s.fluctuations = fluctuations_of(file, first);

@@ -22,17 +22,31 @@ std::string call_of(std::string_view subcommand) {
   return fmt::format("{} {}", io::in_quotes(program_invocation_short_name), subcommand);
 }
 
+namespace {
+
+/// " of the granular temperature", say: the series that decided; empty for the usual one.
+std::string_view deciding_series(const io::FlowSummary& s) {
+  switch (s.held_back_by.value_or(s.judged_by)) {
+  case io::JudgedBy::granular_temperature:
+    return " of the granular temperature";
+  case io::JudgedBy::rotational_temperature:
+    return " of the rotational temperature";
+  case io::JudgedBy::mean_vy:
+    break;
+  }
+  return s.held_back_by ? " of the mean velocity" : "";
+}
+
+}  // namespace
+
 std::string explanation_of_state(const io::FlowSummary& s) {
-  const bool by_temperature =
-      s.held_back_by.value_or(s.judged_by) == io::JudgedBy::granular_temperature;
-  const char* of_what = by_temperature   ? " of the granular temperature"
-                        : s.held_back_by ? " of the mean velocity"
-                                         : "";
+  const std::string_view of_what = deciding_series(s);
   if (s.state == SteadyVerdict::steady)
     return fmt::format("no trend{} after the transient", of_what);
   if (s.state == SteadyVerdict::accelerating)
-    return by_temperature ? "the granular temperature still grows: its mean is not a steady one"
-                          : "the grains still gain speed: the mean is not a steady velocity";
+    return s.judged_by == io::JudgedBy::granular_temperature
+               ? "the granular temperature still grows: its mean is not a steady one"
+               : "the grains still gain speed: the mean is not a steady velocity";
   if (s.state == SteadyVerdict::drifting)
     return fmt::format("there is still a trend{}: the mean is not a steady one", of_what);
   if (s.independent_samples < min_independent_samples)

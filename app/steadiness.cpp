@@ -8,18 +8,24 @@
 namespace riesel::app {
 
 Judged judged_by(const State& state, double interval) {
-  constexpr auto velocity = io::JudgedBy::mean_vy, temperature = io::JudgedBy::granular_temperature;
-  if (state.gravity.y == 0.0)
-    return {.series = temperature, .other = velocity, .free_fall_gain = {}};
-  return {.series = velocity, .other = temperature, .free_fall_gain = state.gravity.y * interval};
+  using enum io::JudgedBy;
+  Judged by =
+      state.gravity.y == 0.0
+          ? Judged{.series = granular_temperature, .others = {mean_vy}, .free_fall_gain = {}}
+          : Judged{.series = mean_vy,
+                   .others = {granular_temperature},
+                   .free_fall_gain = state.gravity.y * interval};
+  if (state.grains.rotate()) by.others.push_back(rotational_temperature);
+  return by;
 }
 
 /// Calls `by` with the series of the flow.
 template <class By>
 auto Steadiness::judge(By by) const {
-  const std::vector<double> judged = record_->series(name(by_.series)),
-                            other = record_->series(name(by_.other));
-  return by(FlowSeries{judged, by_.free_fall_gain, other});
+  const std::vector<double> judged = record_->series(name(by_.series));
+  std::vector<std::vector<double>> others;
+  for (const io::JudgedBy other : by_.others) others.push_back(record_->series(name(other)));
+  return by(FlowSeries{judged, by_.free_fall_gain, {others.begin(), others.end()}});
 }
 
 SteadyState Steadiness::state() const { return judge(assess_flow); }

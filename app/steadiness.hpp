@@ -7,13 +7,16 @@
 #include "io/summary.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace riesel::app {
 
 /// The names of the series by which a flow is judged steady (FlowSeries): its mean axial velocity
-/// and its granular temperature, the latter first if gravity does not drive it along the walls.
+/// and its granular temperature, the latter first if gravity does not drive it along the walls; and
+/// its rotational temperature, if grains rotate.
 struct Judged {
-  io::JudgedBy series, other;
+  io::JudgedBy series;
+  std::vector<io::JudgedBy> others;
   std::optional<double> free_fall_gain;  ///< m/s per row, of free fall; see assess_steady_state()
 };
 

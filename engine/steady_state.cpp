@@ -69,16 +69,28 @@ SteadyState assess_steady_state(std::span<const double> velocities,
           .trend_error = trend.error};
 }
 
+FlowSeries FlowSeries::first(std::size_t samples) const {
+  FlowSeries begin{judged.first(samples), free_fall_gain, {}};
+  for (const std::span<const double> other : others) begin.others.push_back(other.first(samples));
+  return begin;
+}
+
 SteadyState assess_flow(const FlowSeries& flow) {
   SteadyState state = assess_steady_state(flow.judged, flow.free_fall_gain);
   if (state.verdict != SteadyVerdict::steady) return state;
-  const SteadyState other = assess_steady_state(flow.other);
-  const bool is_constant = other.error == 0.0 && other.trend == 0.0;
-  if (is_constant || other.verdict == SteadyVerdict::steady) return state;
-  state.verdict = other.verdict == SteadyVerdict::too_short ? SteadyVerdict::too_short
-                                                            : SteadyVerdict::drifting;
-  state.independent_samples = other.independent_samples;
-  state.is_held_back = true;
+  for (std::size_t i = 0; i < flow.others.size(); ++i) {
+    const SteadyState other = assess_steady_state(flow.others[i]);
+    const bool is_constant = other.error == 0.0 && other.trend == 0.0;
+    if (is_constant || other.verdict == SteadyVerdict::steady) continue;
+    const bool drifts = other.verdict != SteadyVerdict::too_short;
+    const auto verdict = drifts ? SteadyVerdict::drifting : SteadyVerdict::too_short;
+    const bool is_told_already =
+        state.verdict == SteadyVerdict::drifting || state.verdict == verdict;
+    if (is_told_already) continue;
+    state.verdict = verdict;
+    state.independent_samples = other.independent_samples;
+    state.held_back_by = i;
+  }
   return state;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace riesel {
 
@@ -30,7 +31,7 @@ struct SteadyState {
   double independent_samples;   ///< how many the error rests on
   double trend;                 ///< velocity gained per sample interval
   double trend_error;           ///< 68 %
-  bool is_held_back = false;    ///< see assess_flow()
+  std::optional<std::size_t> held_back_by = {};  ///< which of FlowSeries::others, see assess_flow()
 };
 
 /// A significant growth is a runaway if what it gains in the time over which it is seen is this
@@ -52,22 +53,21 @@ inline constexpr double breakaway_fraction = 0.5;
 SteadyState assess_steady_state(std::span<const double> velocities,
                                 std::optional<double> free_fall_gain = std::nullopt);
 
-/// Two series of a flow, sampled at the same moments.
+/// Series of a flow, sampled at the same moments.
 struct FlowSeries {
-  std::span<const double> judged;        ///< gives the mean
-  std::optional<double> free_fall_gain;  ///< of `judged`, see assess_steady_state()
-  std::span<const double> other;         ///< has to be steady, too
+  std::span<const double> judged;               ///< gives the mean
+  std::optional<double> free_fall_gain;         ///< of `judged`, see assess_steady_state()
+  std::vector<std::span<const double>> others;  ///< have to be steady, too
 
-  FlowSeries first(std::size_t samples) const {
-    return {judged.first(samples), free_fall_gain, other.first(samples)};
-  }
+  FlowSeries first(std::size_t samples) const;
 };
 
 /// Judges a flow: its velocity may be steady while it cools, or its temperature while it slows
-/// down, and what is slow in either is slow in the profiles. So a flow whose judged series is
-/// `steady` is `drifting` or `too_short` if the other series is no better than that; it is then
-/// held back, and `independent_samples` is that of the other series. A constant series holds
-/// nothing back. Throws std::invalid_argument for a sample that is not finite.
+/// down, or both while grains still begin to spin, and what is slow in any of them is slow in the
+/// profiles. So a flow whose judged series is `steady` is `drifting`, or else `too_short`, if
+/// another series is no better than that; it is then held back by the first of these, and
+/// `independent_samples` is that of this series. A constant series holds nothing back. Throws
+/// std::invalid_argument for a sample that is not finite.
 SteadyState assess_flow(const FlowSeries& flow);
 
 /// The verdict as it is written to files: "steady", "accelerating", "drifting", "too_short".

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -53,9 +54,11 @@ public:
     return mean_with_error(linear(terms)).error;
   }
   /// A mean over the grains of the zone; its error is that of its linear part, which `terms`
-  /// describe.
+  /// describe. Not known if nothing has varied, as when all rows caught one grain in one flight.
   Estimate mean_over_grains(double value, std::span<const LinearTerm> terms) const {
-    return {value, error_per_weight(linear(terms), means(StripSum::grains))};
+    const double error = error_per_weight(linear(terms), means(StripSum::grains));
+    const bool constant = error <= 1e-12 * std::abs(value);  // but for rounding
+    return {value, constant && value != 0.0 ? unknown : error};
   }
 
 private:

@@ -123,6 +123,8 @@ std::string_view name(JudgedBy judged_by) {
     return "mean_vy";
   case JudgedBy::granular_temperature:
     return "granular_temperature";
+  case JudgedBy::rotational_temperature:
+    return "rotational_temperature";
   }
   return "unknown";
 }
@@ -134,7 +136,7 @@ std::optional<EndedBy> ended_by_named(std::string_view text) {
 
 std::optional<JudgedBy> judged_by_named(std::string_view text) {
   using enum JudgedBy;
-  return named(text, {mean_vy, granular_temperature});
+  return named(text, {mean_vy, granular_temperature, rotational_temperature});
 }
 
 std::string to_json(const FlowSummary& s) {

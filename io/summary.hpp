@@ -47,7 +47,7 @@ enum class EndedBy {
 };
 
 /// The series by which a flow is judged steady.
-enum class JudgedBy { mean_vy, granular_temperature };
+enum class JudgedBy { mean_vy, granular_temperature, rotational_temperature };
 
 /// The word that stands in the file, for JudgedBy also the name of the series.
 std::string_view name(EndedBy ended_by);
@@ -65,7 +65,7 @@ struct FlowSummary {
   EndedBy ended_by = EndedBy::duration;
   SteadyVerdict state = SteadyVerdict::too_short;
   JudgedBy judged_by = JudgedBy::mean_vy;
-  std::optional<JudgedBy> held_back_by;  ///< the other series, if it alone is not steady
+  std::optional<JudgedBy> held_back_by;  ///< another series, if the judged one is steady
   Measured mean_axial_velocity;          ///< m/s; while a flow accelerates its error is unknown
   Measured mass_flow_rate{unknown, unknown};  ///< kg/s, through a section of the tube; likewise
   double independent_samples = 0.0;   ///< of the series that holds back, else of the judged one

@@ -9,12 +9,8 @@ import riesel
 
 def runs_by_setting(sweep):
     """[runs that are done and differ in the seed alone, each once], in the order of the sweep file."""
-    groups = {}
-    for point in riesel.Sweep(sweep).points:
-        if point.is_done:
-            others = tuple(item for item in point.settings.items() if item[0] != "seed")
-            groups.setdefault((others, point.branch, point.leg), {})[point.name] = point.run
-    return [list(group.values()) for group in groups.values()]
+    groups = ([point.run for point in group if point.is_done] for group in riesel.Sweep(sweep).groups())
+    return [runs for runs in groups if runs]
 
 
 def mean_of(values):

@@ -105,11 +105,23 @@ class Sweep:
         with part(self.directory / "sweep.h5", "points", remedy, remedy, remedy) as group:
             return table_of(group)
 
+    def groups(self, over: str = "seed") -> list[list[Point]]:
+        """The points in groups that differ only in the setting `over`, each point once, in the
+        order of the sweep file. Raises NotThere if the sweep does not vary it."""
+        if over not in self.varied:
+            raise NotThere(f"{self.directory}: does not vary {over}; "
+                           f"choose one of {', '.join(self.varied)}")
+        groups: dict[tuple[Any, ...], dict[str, Point]] = {}
+        for point in self.points:
+            others = tuple(item for item in point.settings.items() if item[0] != over)
+            groups.setdefault((others, point.branch, point.leg), {})[point.name] = point
+        return [list(group.values()) for group in groups.values()]
+
     def means(self, column: str, over: str = "seed") -> list[Mean]:
         """The means of a column of `table` over the points that differ only in the setting `over`,
         in the order of the sweep file. All runs count; each mean tells how many are steady and how
         many are valid, and whether the others may count is for you to decide."""
-        groups = self._groups(over)
+        groups = self.groups(over)
         table = self.table
         if column not in table or table[column].dtype.kind != "f":
             raise NotThere(f"{self.directory}: no run has a numeric column {column}; "
@@ -135,7 +147,7 @@ class Sweep:
         """The means of the profiles, strip by strip, over the points that differ only in the
         setting `over`, otherwise as means(). Raises ValueError if their strips differ."""
         found = []
-        for group in self._groups(over):
+        for group in self.groups(over):
             done = [point.run for point in group if point.is_done]
             states = [run.summary.get("state") for run in done]
             verdicts = [run.summary.get("validity.verdict") for run in done]
@@ -143,18 +155,6 @@ class Sweep:
                                       steady=states.count("steady"), valid=verdicts.count("valid"),
                                       profiles=_mean_of_profiles(done)))
         return found
-
-    def _groups(self, over: str) -> list[list[Point]]:
-        """Groups of points that differ only in this setting, each point once, in the order of the
-        file."""
-        if over not in self.varied:
-            raise NotThere(f"{self.directory}: does not vary {over}; "
-                           f"choose one of {', '.join(self.varied)}")
-        groups: dict[tuple[Any, ...], dict[str, Point]] = {}
-        for point in self.points:
-            others = tuple(item for item in point.settings.items() if item[0] != over)
-            groups.setdefault((others, point.branch, point.leg), {})[point.name] = point
-        return [list(group.values()) for group in groups.values()]
 
     def _point(self, entry: Mapping[str, Any]) -> Point:
         if not isinstance(entry["settings"], dict):

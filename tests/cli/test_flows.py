@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from report_files import SVG
-from riesel_command import BAD_INPUT, CommandTest, with_error
+from riesel_command import BAD_INPUT, SHIPPED, CommandTest, with_error
 
 CONTACT = "contact: {stiffness: 500 N/m, restitution: 0.8, friction: 0.5}\n"
 CHUTE = f"""
@@ -118,6 +118,16 @@ class Flows(CommandTest):
             self.assertIn(told, page)
         for of_a_tube in ("left wall", "right wall", "across the tube", "along the tube"):
             self.assertNotIn(of_a_tube, page)
+
+    def test_a_flow_is_not_steady_before_its_spins_are(self):
+        cell = ["run", SHIPPED / "shear_cell.yaml", "--set", "seed=3", "--set", "contact.friction=0.0005", "--set",
+                "cell.width=10 mm", "--set", "cell.length=10 mm", "--set", "run.duration=0.6 s", "--set",
+                "output.interval=1 ms", "--set", "grains.rotation=disc", "--out", "spins"]
+        result = self.riesel(*cell)
+        self.assert_done(result)
+        self.assertIn("there is still a trend of the rotational temperature", result.stdout)
+        summary = self.summary(self.home / "spins")
+        self.assertEqual((summary["state"], summary["held_back_by"]), ("drifting", "rotational_temperature"))
 
     def test_a_shear_cell_is_judged_by_how_hot_it_is(self):
         out = self.run_of("cell", CELL)

@@ -272,7 +272,7 @@ void print_stopped(const char* label, double variance, double time, double enoug
     Series series;
     while (series.size() < at_most) {
       series.push_back(mean + next());
-      const riesel::FlowSeries flow{series, std::nullopt, series};
+      const riesel::FlowSeries flow{series, std::nullopt, {series}};
       if (!riesel::is_time_to_look(series.size()) || !riesel::is_precise(flow, relative_error))
         continue;
       const riesel::SteadyState state = riesel::assess_steady_state(series);

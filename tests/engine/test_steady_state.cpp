@@ -12,7 +12,9 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -234,28 +236,59 @@ TEST_CASE("a random walk is not steady", "[steady_state]") {
   CHECK(steady <= 3);
 }
 
-TEST_CASE("a flow is as steady as the worse of its two series", "[steady_state]") {
+TEST_CASE("a flow is as steady as the worst of its series", "[steady_state]") {
   const Series good = noisy(2000, 0.05, 0.9, 1, constant);
-  const auto beside = [&](const Series& other) { return riesel::assess_flow({good, {}, other}); };
+  const auto beside = [&](const Series& other) { return riesel::assess_flow({good, {}, {other}}); };
   REQUIRE(beside(good).verdict == SteadyVerdict::steady);
-  CHECK_FALSE(beside(good).is_held_back);
+  CHECK_FALSE(beside(good).held_back_by);
 
   const SteadyState cooling = beside(noisy(2000, 0.05, 0.9, 2, [](double s) { return 2.0 - s; }));
   CHECK(cooling.verdict == SteadyVerdict::drifting);
-  CHECK(cooling.is_held_back);
+  CHECK(cooling.held_back_by == 0);
   CHECK(cooling.mean == riesel::assess_steady_state(good).mean);
 
   const Series slow = noisy(2000, 0.05, 0.995, 3, constant);  // five independent samples
   CHECK(beside(slow).verdict == SteadyVerdict::too_short);
-  CHECK(beside(slow).is_held_back);
+  CHECK(beside(slow).held_back_by == 0);
   CHECK(beside(slow).independent_samples == riesel::assess_steady_state(slow).independent_samples);
+}
+
+TEST_CASE("of several series that hold a flow back the one that drifts is told", "[steady_state]") {
+  const Series good = noisy(2000, 0.05, 0.9, 1, constant);
+  const Series slow = noisy(2000, 0.05, 0.995, 3, constant);
+  const Series cooling = noisy(2000, 0.05, 0.9, 2, [](double s) { return 2.0 - s; });
+  const Series cooling_too = noisy(2000, 0.05, 0.9, 4, [](double s) { return 2.0 - s; });
+  const auto with = [&](std::vector<std::span<const double>> others) {
+    return riesel::assess_flow({good, {}, std::move(others)});
+  };
+  CHECK_FALSE(with({}).held_back_by);
+  CHECK(with({good, slow}).held_back_by == 1);
+  CHECK(with({good, slow}).verdict == SteadyVerdict::too_short);
+  for (const auto& [state, which] : {std::pair{with({slow, cooling}), 1},
+                                     {with({cooling, slow}), 0},
+                                     {with({cooling, cooling_too}), 0}}) {
+    CHECK(state.held_back_by == which);
+    CHECK(state.verdict == SteadyVerdict::drifting);
+  }
+}
+
+TEST_CASE("the beginning of a flow has that of each of its series", "[steady_state]") {
+  const Series a{1.0, 2.0, 3.0}, b{4.0, 5.0, 6.0}, c{7.0, 8.0, 9.0};
+  const riesel::FlowSeries begin = riesel::FlowSeries{a, 0.5, {b, c}}.first(2);
+  CHECK(begin.judged.size() == 2);
+  CHECK(begin.free_fall_gain == 0.5);
+  REQUIRE(begin.others.size() == 2);
+  for (const auto& [other, whole] : {std::pair{begin.others[0], &b}, {begin.others[1], &c}}) {
+    CHECK(other.size() == 2);
+    CHECK(other.data() == whole->data());
+  }
 }
 
 TEST_CASE("growth of the other series makes a flow drift, not run away", "[steady_state]") {
   const Series good = noisy(2000, 0.05, 0.9, 1, constant);
   const Series heating = noisy(2000, 0.05, 0.9, 2, free_fall);
   REQUIRE(riesel::assess_steady_state(heating).verdict == SteadyVerdict::accelerating);
-  CHECK(riesel::assess_flow({good, {}, heating}).verdict == SteadyVerdict::drifting);
+  CHECK(riesel::assess_flow({good, {}, {heating}}).verdict == SteadyVerdict::drifting);
 }
 
 TEST_CASE("a constant series, such as the temperature of one grain, holds nothing back",
@@ -263,14 +296,14 @@ TEST_CASE("a constant series, such as the temperature of one grain, holds nothin
   const Series good = noisy(2000, 0.05, 0.9, 1, constant);
   for (const double value : {0.0, 3.0}) {
     const Series same(2000, value);
-    CHECK(riesel::assess_flow({good, {}, same}).verdict == SteadyVerdict::steady);
+    CHECK(riesel::assess_flow({good, {}, {same}}).verdict == SteadyVerdict::steady);
   }
 }
 
 TEST_CASE("a flow whose judged series is not steady is judged by it alone", "[steady_state]") {
   const Series good = noisy(2000, 0.05, 0.9, 1, constant);
   const Series falling = noisy(2000, 0.05, 0.9, 2, free_fall);
-  const SteadyState state = riesel::assess_flow({falling, {}, good});
+  const SteadyState state = riesel::assess_flow({falling, {}, {good}});
   CHECK(state.verdict == SteadyVerdict::accelerating);
-  CHECK_FALSE(state.is_held_back);
+  CHECK_FALSE(state.held_back_by);
 }

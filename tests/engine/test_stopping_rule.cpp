@@ -21,8 +21,8 @@ using Series = std::vector<double>;
 /// Of a flow whose other series is the same.
 bool is_precise(std::span<const double> series, double relative_error,
                 std::optional<double> free_fall_gain = {}) {
-  return riesel::is_precise({.judged = series, .free_fall_gain = free_fall_gain, .other = series},
-                            relative_error);
+  return riesel::is_precise(
+      {.judged = series, .free_fall_gain = free_fall_gain, .others = {series}}, relative_error);
 }
 
 /// 1 with white noise of standard deviation `noise`.
@@ -130,7 +130,7 @@ TEST_CASE("a sample that is not finite is refused by the rule", "[stopping_rule]
 TEST_CASE("a flow whose other series drifts is never precise", "[stopping_rule]") {
   const Series series = steady(590, 0.3, 3);
   Series cooling = steady(590, 0.03, 4);
-  CHECK(riesel::is_precise({series, {}, cooling}, 1.0));
+  CHECK(riesel::is_precise({series, {}, {cooling}}, 1.0));
   for (std::size_t i = 0; i < cooling.size(); ++i) cooling[i] -= 1e-3 * static_cast<double>(i);
-  CHECK_FALSE(riesel::is_precise({series, {}, cooling}, 1.0));
+  CHECK_FALSE(riesel::is_precise({series, {}, {cooling}}, 1.0));
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -312,6 +313,19 @@ TEST_CASE("what was not seen is not known") {
   profiles = tube_profiles(blocks, strips, each_strip(strips), 29);  // one sample has no scatter
   CHECK(find(profiles, "density").zones[0].value == 0.0);
   CHECK(std::isnan(find(profiles, "density").zones[0].error));
+}
+
+TEST_CASE("how a mean over grains scatters is not known if all rows have caught the same flight") {
+  const Strips strips{.width = 1.0, .length = 1.0, .count = 1};
+  TimeBlocks blocks(strip_sums);
+  for (int i = 0; i < 30; ++i) blocks.add(one_strip(i % 3 == 0 ? 1.0 : 0.0, 3.0, 0.0));
+  for (const auto& [name, known] : std::map<std::string, bool>{
+           {"density", true}, {"mean_axial_velocity", false}, {"mean_spin", true}}) {
+    INFO(name);
+    const auto zone = find(tube_profiles(blocks, strips, each_strip(strips), 0), name).zones[0];
+    CHECK(std::isfinite(zone.value));
+    CHECK(std::isfinite(zone.error) == known);
+  }
 }
 
 TEST_CASE("error bars of profiles cover the truth as often as they say, correlations or not") {

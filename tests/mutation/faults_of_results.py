@@ -103,7 +103,7 @@ FAULTS_OF_RESULTS = [
      "friction_loss.add(contact.friction_loss);", "friction_loss.add(0.5 * contact.friction_loss);"),
     # Verdicts and errors
     ("a flow judged by one series", "engine/steady_state.cpp",
-     "is_constant || other.verdict == SteadyVerdict::steady", "is_constant || !other.is_held_back"),
+     "is_constant || other.verdict == SteadyVerdict::steady", "is_constant || !other.held_back_by"),
     ("a constant series that holds a flow back", "engine/steady_state.cpp",
      "const bool is_constant = other.error == 0.0 && other.trend == 0.0;", "const bool is_constant = false;"),
     ("zero throughout known exactly", "engine/steady_state.cpp",

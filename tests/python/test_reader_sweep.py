@@ -75,7 +75,10 @@ class OfSweep(CommandTest):
         means = sweep.means(column)
         self.assertEqual([(mean.settings["contact.restitution"], mean.branch) for mean in means],
                          [(0.7, "slow"), (0.7, "fast"), (0.9, "slow"), (0.9, "fast")])
-        for mean in means:
+        for mean, group in zip(means, sweep.groups(), strict=True):
+            self.assertEqual([point.settings["seed"] for point in group], [1, 2, 3])
+            self.assertEqual({(point.settings["contact.restitution"], point.branch) for point in group},
+                             {(mean.settings["contact.restitution"], mean.branch)})
             values = [point.run.summary[column] for point in sweep.points
                       if (point.settings["contact.restitution"], point.branch)
                       == (mean.settings["contact.restitution"], mean.branch)]
