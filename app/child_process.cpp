@@ -89,7 +89,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
 
 ChildProcess::~ChildProcess() {
   if (end()) return;
-  send(SIGTERM);
+  if (!has_been_sent_a_signal_) send(SIGTERM);
   io::uninterrupted([&] { return waitpid(id_, nullptr, 0); });
 }
 
@@ -99,8 +99,9 @@ std::optional<ProcessEnd> ChildProcess::end() {
   return end_;
 }
 
-void ChildProcess::send(int signal) const {
+void ChildProcess::send(int signal) {
   if (!end_) kill(id_, signal);
+  has_been_sent_a_signal_ = true;
 }
 
 }  // namespace riesel::app

@@ -41,7 +41,8 @@ public:
   /// What it prints is appended to `log`. Throws io::FileError if `log` cannot be written,
   /// NoProcess if no process can be started.
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log);
-  /// Asks a process that still runs to stop (SIGTERM), and waits for its end.
+  /// Asks a process that still runs to stop (SIGTERM), unless it has been sent a signal before: a
+  /// run takes the second one for impatience. Waits for its end.
   ~ChildProcess();
 
   ChildProcess(const ChildProcess&) = delete;
@@ -53,10 +54,11 @@ public:
   std::optional<ProcessEnd> end();
 
   /// Does nothing once end() has returned a value.
-  void send(int signal) const;
+  void send(int signal);
 
 private:
   pid_t id_;
+  bool has_been_sent_a_signal_ = false;
   std::optional<ProcessEnd> end_;
 };
 

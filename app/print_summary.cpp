@@ -2,6 +2,7 @@
 
 #include "app/plain_words.hpp"
 #include "app/terminal.hpp"
+#include "io/run_file.hpp"
 
 #include <fmt/core.h>
 
@@ -80,8 +81,8 @@ void print_common(const io::RunSummary& run, const std::filesystem::path& direct
   fmt::print("  {:<22}{:.1f} million particle-steps/s on {} ({:.1f} s)\n", "speed",
              run.particle_steps_per_second / 1e6, so_many(run.threads, "thread"), run.wall_seconds);
   fmt::print("  {:<22}{:016x}\n", "state hash", run.state_hash);
-  fmt::print("  {:<22}{}/{}, run.h5, effective.yaml\n", "files", directory.string(),
-             io::summary_name);
+  fmt::print("  {:<22}{}, {}, {}\n", "files", (directory / io::summary_name).string(),
+             io::run_file_name, io::effective_settings_name);
 }
 
 }  // namespace

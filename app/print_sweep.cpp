@@ -113,7 +113,7 @@ void print_status(const io::Manifest& manifest, const std::filesystem::path& swe
                has_chains(manifest) ? "" : " (with changes by --set, if any)",
                call_of("sweep", sweep));
   if (std::filesystem::exists(sweep / io::sweep_csv_name))
-    fmt::print("  table in {}/{} and {}\n", sweep.string(), io::sweep_csv_name, io::sweep_h5_name);
+    fmt::print("  table in {} and {}\n", (sweep / io::sweep_csv_name).string(), io::sweep_h5_name);
 }
 
 }  // namespace riesel::app

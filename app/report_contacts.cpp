@@ -98,11 +98,6 @@ std::vector<Brake> brakes_of(const io::FlowSummary::BrakingForce& force) {
   return brakes;
 }
 
-/// Whether gravity pulls along the walls.
-bool has_weight(const io::FlowSummary::BrakingForce& force) {
-  return std::isfinite(force.weight) && force.weight != 0.0;
-}
-
 /// Times (s) and mean forces (N) of a wall, for each of at most `parts` parts of the rows.
 std::array<std::vector<double>, 2> force_of(const io::Series& time, const io::Series& impulse,
                                             std::size_t parts) {
@@ -118,9 +113,11 @@ std::array<std::vector<double>, 2> force_of(const io::Series& time, const io::Se
   return force;
 }
 
-/// Bars with errors on logarithmic axes; `marks` ascend.
+/// Bars with errors on logarithmic axes. Marks that are not known are left out.
 io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_label,
-                       const std::vector<HistogramMark>& marks) {
+                       std::vector<HistogramMark> marks) {
+  std::erase_if(marks, [](const HistogramMark& mark) { return !std::isfinite(mark.at); });
+  std::ranges::sort(marks, {}, &HistogramMark::at);  // as Plot::marker() asks for
   io::Plot plot(figure_width, 270.0, h.column.doc, axis_of_values(h, x_label, marks),
                 axis_of_rates(h));
   plot.svg().begin_group("bars", {.fill = pale_blue, .stroke = ink::blue});
@@ -137,13 +134,10 @@ io::Svg draw_histogram(const io::HistogramWithErrors& h, const std::string& x_la
   plot.svg().end_group();
   plot.svg().begin_group("marks");
   int row = static_cast<int>(marks.size());
-  for (const HistogramMark& mark : marks) {
-    --row;
-    if (std::isfinite(mark.at))
-      plot.marker(mark.at, mark.label,
-                  {.stroke = mark.label == "unphysical" ? ink::red : ink::grey, .dashes = "4 3"},
-                  row);
-  }
+  for (const HistogramMark& mark : marks)
+    plot.marker(mark.at, mark.label,
+                {.stroke = mark.label == "unphysical" ? ink::red : ink::grey, .dashes = "4 3"},
+                --row);
   plot.svg().end_group();
   return plot.svg();
 }
@@ -163,7 +157,7 @@ io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary)
   }
   if (with_weight) extent.push_back(summary.braking_force.weight);
 
-  io::Plot plot(figure_width, 250.0, "Braking force of the walls",
+  io::Plot plot(figure_width, 250.0, fmt::format("Braking force of {}", brake_of(summary.braking_force)),
                 {.label = "time (s)", .range = io::range_of(time.values)},
                 {.label = "braking force (N)", .range = io::range_of(extent)});
   mark_transient(summary.transient_end, plot);
@@ -186,12 +180,20 @@ std::string left_wall_of(const io::FlowSummary::BrakingForce& force) {
   return force.right ? "left wall" : "bottom";
 }
 
+std::string_view brake_of(const io::FlowSummary::BrakingForce& force) {
+  return force.right ? "the walls" : "the bottom";
+}
+
+bool has_weight(const io::FlowSummary::BrakingForce& force) {
+  return std::isfinite(force.weight) && force.weight != 0.0;
+}
+
 void show_braking(const io::RunContents& run, const io::FlowSummary& summary, ReportDraft& draft) {
   const auto& force = summary.braking_force;
   std::string caption =
       fmt::format("Axial force of {} on the grains, positive where it brakes, in means over parts "
                   "of the time.",
-                  force.right ? "the walls" : "the bottom");
+                  brake_of(force));
   if (has_weight(force))
     caption += fmt::format(" Dashed: the weight of all grains along {} in a steady state.",
                            force.right ? "the walls, which carry it together"

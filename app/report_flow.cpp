@@ -170,9 +170,10 @@ private:
     page().paragraph(fmt::format(
         "Stresses are positive in compression{}. The error bars do not account for drift: if the "
         "flow is not steady, these are merely means over the observed time.",
-        summary().braking_force.weight == 0.0
-            ? ""
-            : "; in a steady state stress_xy carries the weight of the grains to the walls"));
+        has_weight(summary().braking_force)
+            ? fmt::format("; in a steady state stress_xy carries the weight of the grains to {}",
+                          brake_of(summary().braking_force))
+            : ""));
   }
 
   void show_energy() {
@@ -212,7 +213,8 @@ private:
           {fmt::format("braking force of the {}", right_wall), with_error(*force.right, "N")});
     rows.insert(
         rows.end(),
-        {{"weight of all grains along the walls, carried by them in a steady state",
+        {{fmt::format("weight of all grains along {0}, carried by {0} in a steady state",
+                      brake_of(force)),
           number(force.weight) + " N"},
          {"visits to a wall", number(v.visits, "{:.0f}")},
          {"contacts per visit", with_error(v.contacts, "")},

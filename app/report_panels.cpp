@@ -7,8 +7,6 @@ namespace riesel::app {
 
 namespace {
 
-constexpr std::size_t most_curves = 8;  // the number of colours
-
 using Curves = std::vector<std::vector<Mark>>;
 using Indices = std::vector<std::size_t>;
 
@@ -38,7 +36,7 @@ Panel panel_of(const Curves& curves, const Indices& chosen) {
 /// Adds panels for the chosen curves, which are divided by the marks from `first` on.
 void part(const Curves& curves, const Indices& chosen, std::size_t first,
           std::vector<Panel>& panels) {
-  if (chosen.size() <= most_curves || first == curves[chosen.front()].size()) {
+  if (chosen.size() <= io::different_looks || first == curves[chosen.front()].size()) {
     panels.push_back(panel_of(curves, chosen));
     return;
   }

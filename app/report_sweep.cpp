@@ -50,27 +50,13 @@ private:
   io::HtmlPage& page() { return draft_.page(); }
 
   const io::FlowSummary* flow(std::size_t i) const {
-    const auto& summary = record_->results[i].summary;
-    return summary ? std::get_if<io::FlowSummary>(&*summary) : nullptr;
-  }
-
-  const io::CurveSummary* curve(std::size_t i) const {
-    const auto& summary = record_->results[i].summary;
-    return summary ? std::get_if<io::CurveSummary>(&*summary) : nullptr;
-  }
-
-  const io::ColumnSummary* column(std::size_t i) const {
-    const auto& summary = record_->results[i].summary;
-    return summary ? std::get_if<io::ColumnSummary>(&*summary) : nullptr;
+    return record_->results[i].as<io::FlowSummary>();
   }
 
   std::string scenario() const {
-    for (std::size_t i = 0; i < record_->results.size(); ++i) {
-      if (const auto* summary = flow(i)) return summary->run.scenario;
-      if (const auto* summary = curve(i)) return summary->run.scenario;
-      if (const auto* summary = column(i)) return summary->run.scenario;
-    }
-    return "nothing";
+    const auto& results = record_->results;
+    const auto result = std::ranges::find_if(results, [](auto& r) { return r.summary.has_value(); });
+    return std::visit([](auto& summary) { return summary.run.scenario; }, *result->summary);
   }
 
   void tell_result() {
@@ -153,9 +139,9 @@ private:
   }
 
   bool scenario_has_curves() const {
-    for (std::size_t i = 0; i < record_->results.size(); ++i)
-      if (curve(i) != nullptr || column(i) != nullptr) return true;
-    return false;
+    return std::ranges::any_of(record_->results, [](const SweepResult& result) {
+      return result.summary && result.as<io::FlowSummary>() == nullptr;
+    });
   }
 
   void show_impacts() {
@@ -198,9 +184,9 @@ private:
     for (const io::Cell& value : point.values) row.emplace_back(text_of(value));
     row.emplace_back(point.branch);
     row.emplace_back(point.leg);
-    if (const auto* summary = flow(i)) add_flow(*summary, row);
-    if (const auto* summary = curve(i)) add_curve(*summary, row);
-    if (const auto* summary = column(i)) add_column(*summary, row);
+    if (const auto* summary = result.as<io::FlowSummary>()) add_flow(*summary, row);
+    if (const auto* summary = result.as<io::CurveSummary>()) add_curve(*summary, row);
+    if (const auto* summary = result.as<io::ColumnSummary>()) add_column(*summary, row);
     row.resize(cells - 2, "");
     row.push_back(result.has_report ? io::HtmlCell("report", result.directory + "/" + report_name)
                                     : io::HtmlCell(""));

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace riesel::app {
@@ -17,6 +18,12 @@ struct SweepResult {
   std::string flaw;                    ///< why it cannot be read, or ""
   std::string directory;               ///< of the point, relative to that of the sweep
   bool has_report = false;
+
+  /// The summary, if there is one of this kind.
+  template <class Kind>
+  const Kind* as() const {
+    return summary ? std::get_if<Kind>(&*summary) : nullptr;
+  }
 };
 
 /// What a sweep has left so far.

@@ -135,11 +135,6 @@ FlowCurve curve_of(const SweepRecord& record, std::size_t axis, const FlowQuanti
   return curve;
 }
 
-template <class Kind>
-bool holds(const SweepResult& result) {
-  return result.summary && std::holds_alternative<Kind>(*result.summary);
-}
-
 }  // namespace
 
 std::optional<std::size_t> axis_of(const io::Manifest& manifest) {
@@ -160,7 +155,7 @@ std::vector<FlowPanel> flow_panels(const SweepRecord& record, std::size_t axis,
   std::vector<Marks> curves;
   std::vector<std::vector<std::size_t>> runs;
   for (std::size_t i = 0; i < record.results.size(); ++i) {
-    if (!holds<io::FlowSummary>(record.results[i])) continue;
+    if (record.results[i].as<io::FlowSummary>() == nullptr) continue;
     const Marks marks = marks_of(record.manifest, record.manifest.points[i], told);
     const auto place = std::ranges::find(curves, marks) - curves.begin();
     if (place == std::ssize(curves)) {
@@ -185,8 +180,9 @@ std::vector<ImpactPanel> impact_panels(const SweepRecord& record) {
   std::vector<Marks> marks;
   std::vector<ImpactLine> lines;
   for (std::size_t i = 0; i < record.results.size(); ++i) {
-    if (!holds<io::CurveSummary>(record.results[i])) continue;
-    for (ImpactLine& line : impact_lines(std::get<io::CurveSummary>(*record.results[i].summary))) {
+    const auto* summary = record.results[i].as<io::CurveSummary>();
+    if (summary == nullptr) continue;
+    for (ImpactLine& line : impact_lines(*summary)) {
       marks.push_back(marks_of(record.manifest, record.manifest.points[i], told));
       marks.back().push_back({.name = "v_x", .value = text_of(line.points.front().v_x, "m/s")});
       lines.push_back(std::move(line));

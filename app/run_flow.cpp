@@ -352,11 +352,15 @@ private:
   /// Keeps the series and the state, which may show why the run failed.
   int fail(const RunFailure& failure, const std::string& way_on) {
     progress_.finish();
-    tell("riesel: the run failed: {}\n", failure.what());  // first, as writing files may fail, too
-    files_.flush(simulation_.state());
-    const auto post_mortem = files_.directory().file(post_mortem_name);
-    io::write_checkpoint(post_mortem, checkpoint());
-    tell("the state of that moment is in {}{}\n", post_mortem.string(), way_on);
+    tell("riesel: the run failed: {}\n", failure.what());  // the last message: a sweep keeps it
+    try {
+      files_.flush(simulation_.state());
+      const auto post_mortem = files_.directory().file(post_mortem_name);
+      io::write_checkpoint(post_mortem, checkpoint());
+      tell("the state of that moment is in {}{}\n", post_mortem.string(), way_on);
+    } catch (const io::FileError& error) {
+      tell("the state of that moment could not be kept: {}\n", error.what());
+    }
     return exit_failed;
   }
 

@@ -89,6 +89,7 @@ bool has_changed(io::Manifest& manifest, const fs::path& sweep) {
 }  // namespace
 
 bool write_table(io::Manifest& manifest, const fs::path& sweep) {
+  const std::string sweep_file = io::read_kept_text(sweep / sweep_file_name);
   const std::set<std::string> misplaced = note_misplaced(manifest, sweep);
   bool all_taken = misplaced.empty();
   io::SweepTable table(manifest.points.size());
@@ -112,7 +113,7 @@ bool write_table(io::Manifest& manifest, const fs::path& sweep) {
     }
   }
   io::write_durably(sweep / io::sweep_csv_name, io::to_csv(table));
-  io::write_hdf5(sweep / io::sweep_h5_name, table, io::read_kept_text(sweep / sweep_file_name));
+  io::write_hdf5(sweep / io::sweep_h5_name, table, sweep_file);
   return all_taken;
 }
 

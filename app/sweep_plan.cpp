@@ -9,6 +9,8 @@
 #include "scenarios/continued_start.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -211,6 +213,18 @@ std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep,
   return varied;
 }
 
+/// Each point has its values in the manifest, which long lists on an axis make too large to be read.
+void reject_huge(const io::Manifest& manifest, const std::filesystem::path& file) {
+  const std::size_t size = io::to_json(manifest).size();
+  if (size > io::largest_plan)
+    throw io::SettingsError({.source = file.string()}, "axes",
+                            fmt::format("the list of its {} points with their values takes {} MB, "
+                                        "and may take {}",
+                                        manifest.points.size(), size / 1'000'000,
+                                        io::largest_plan / 1'000'000),
+                            "shorten the lists among the values, or split the sweep");
+}
+
 }  // namespace
 
 SweepPlan plan_sweep(const std::filesystem::path& file) {
@@ -232,6 +246,7 @@ SweepPlan plan_sweep(const std::filesystem::path& file) {
     plan.manifest.points.push_back(row_of(point, points, plan.manifest.varied, costs));
     plan.settings.push_back(point.yaml);
   }
+  reject_huge(plan.manifest, file);
   return plan;
 }
 

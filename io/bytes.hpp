@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace riesel::io {
@@ -19,6 +20,11 @@ inline constexpr bool checksums_are_forged = false;
 
 /// The least multiple of 8 that is at least `size`: where the next part of a file begins.
 constexpr std::uint64_t padded_to_8(std::uint64_t size) { return (size + 7) / 8 * 8; }
+
+/// The text without the zeros that fill it up to a fixed length.
+inline std::string without_padding(std::string_view text) {
+  return std::string(text.substr(0, text.find_last_not_of('\0') + 1));
+}
 
 /// Something beyond the end was asked for.
 class OutOfBytes : public std::runtime_error {

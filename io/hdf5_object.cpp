@@ -1,5 +1,7 @@
 #include "io/hdf5_object.hpp"
 
+#include "io/bytes.hpp"
+
 #include <hdf5.h>
 
 #include <algorithm>
@@ -45,11 +47,6 @@ Hdf5Handle text_type(std::size_t length) {
 
 /// Where HDF5 may read at least one byte, even if the text is empty.
 const char* bytes_of(std::string_view text) { return text.empty() ? "" : text.data(); }
-
-std::string without_padding(std::string text) {
-  text.erase(text.find_last_not_of('\0') + 1);
-  return text;
-}
 
 void check_type(hid_t type, hid_t expected, const std::string& what) {
   const htri_t equal = H5Tequal(type, expected);
@@ -176,7 +173,7 @@ std::string Hdf5Object::text_attribute(const std::string& name) const {
   const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose, what);
   std::string text(text_length(type.id(), what), '\0');
   check_hdf5(H5Aread(attribute.id(), type.id(), text.data()), what);
-  return without_padding(std::move(text));
+  return without_padding(text);
 }
 
 Hdf5Shape Hdf5Data::shape() const {
@@ -294,7 +291,7 @@ std::string Hdf5Group::read_text(const std::string& name, std::size_t most_bytes
   if (length > most_bytes) throw Hdf5Error("cannot " + what + ": it is too long");
   std::string text(length, '\0');
   check_hdf5(H5Dread(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), what);
-  return without_padding(std::move(text));
+  return without_padding(text);
 }
 
 #define RIESEL_INSTANTIATE(T)                                                                      \

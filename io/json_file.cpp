@@ -8,14 +8,11 @@
 namespace riesel::io {
 namespace {
 
-// The manifest of the largest sweep takes 5 MB, the summary of the longest curve 22 MB. Reading
-// takes up to 16 times as much memory.
-constexpr std::uint64_t most_bytes = 32'000'000;
 constexpr int deepest_nesting = 16;
 
 std::vector<char> read_bytes(const std::filesystem::path& path, const std::string& remedy) {
   try {
-    return read_whole_file(path, most_bytes);
+    return read_whole_file(path, largest_json);
   } catch (const FileError& error) {
     throw FileError(path, error.problem(), remedy);
   }

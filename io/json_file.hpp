@@ -21,6 +21,10 @@ struct JsonRemedies {
   std::string damaged;     ///< it is not complete JSON
 };
 
+/// Larger files are not read. The summary of the longest curve takes 22 MB; reading takes up to 16
+/// times as much memory.
+inline constexpr std::uint64_t largest_json = 32'000'000;  // bytes
+
 /// The content of the file. Throws FileError if it cannot be read or is not JSON; that includes
 /// what is nested deeper than anything that this program writes (code that walks through it could
 /// exhaust the stack).

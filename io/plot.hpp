@@ -27,7 +27,8 @@ struct Look {
   Symbol symbol = Symbol::disc;
 };
 
-/// A different one for each index below 8; then they begin again.
+/// A different one for each index below this number; then they begin again.
+inline constexpr std::size_t different_looks = 8;
 Look look_of(std::size_t index);
 
 class Plot {

@@ -23,7 +23,7 @@ struct Place {
 /// "tube.yaml:3:14", or the source alone.
 std::string to_string(const Place& place);
 
-/// Bad input. what() is "FILE:LINE:COLUMN: key: problem; remedy", on one line.
+/// Bad input. what() is "FILE:LINE:COLUMN: key: problem; remedy", on one line for each error.
 class SettingsError : public std::runtime_error {
 public:
   /// `key` is the dotted path, or empty if the problem does not concern a key.

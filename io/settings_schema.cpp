@@ -1,10 +1,10 @@
 #include "io/settings_schema.hpp"
 
+#include "io/json_file.hpp"
 #include "io/settings_quantity.hpp"
 #include "io/sweep_file.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,6 @@
 
 namespace riesel::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // --- values ---
 

@@ -32,10 +32,6 @@ auto attempt(const std::string& what, Read read) {
   }
 }
 
-std::string without_padding(std::string_view text) {
-  return std::string(text.substr(0, text.find_last_not_of('\0') + 1));
-}
-
 /// The address of the root's header (superblock, version 0).
 std::uint64_t find_root(const StoredBytes& bytes, std::size_t user_block) {
   using namespace std::string_view_literals;

@@ -247,8 +247,7 @@ std::string remedy_for_summary(const std::filesystem::path& path) {
   const auto directory = path.parent_path();
   if (!std::filesystem::exists(directory / checkpoint_name))
     return "restore the file, or make the run again";
-  return "restore the file, or make it anew by 'riesel resume " + in_quotes(directory.string())
-         + "'";
+  return "restore the file, or make it anew by 'riesel resume " + path_argument(directory) + "'";
 }
 
 Summary read_summary(const std::filesystem::path& path) {

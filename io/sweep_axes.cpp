@@ -2,6 +2,7 @@
 
 #include "io/settings_names.hpp"
 #include "io/settings_quantity.hpp"
+#include "io/units.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ std::vector<double> without_rounding_noise(std::vector<double> values) {
   for (std::size_t i = 1; i + 1 < values.size(); ++i)
     values[i] = std::abs(values[i]) < rounding * largest
                     ? 0.0
-                    : std::stod(fmt::format("{:.14g}", values[i]));
+                    : decimal_value(fmt::format("{:.14g}", values[i])).value_or(values[i]);
   return values;
 }
 

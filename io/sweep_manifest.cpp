@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+static_assert(2 * largest_plan <= largest_json);
+
 constexpr int format_version = 1;
 constexpr auto format_name = "riesel sweep";
 

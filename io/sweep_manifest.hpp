@@ -7,6 +7,7 @@
 
 #include "io/settings.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -51,6 +52,9 @@ inline constexpr auto manifest_name = "manifest.json";
 Cell cell_of(const Settings& settings, const std::string& key);
 
 std::string to_json(const Manifest& manifest);
+
+/// The text of a plan that is longer could not be read any more once it tells of failures.
+inline constexpr std::size_t largest_plan = 16'000'000;  // bytes
 
 /// Reads the manifest of the sweep in `directory`. Throws FileError if there is none or it cannot
 /// be understood.

@@ -8,6 +8,7 @@
 #include "io/json_cell.hpp"
 #include "io/json_file.hpp"
 #include "io/summary_reader.hpp"
+#include "io/utf8.hpp"
 
 #include <fmt/format.h>
 
@@ -93,6 +94,8 @@ void SweepTable::set(std::size_t row, const std::string& column, Cell value,
     columns_.push_back({.name = column, .unit = unit, .cells = std::vector<Cell>(rows_)});
     found = columns_.end() - 1;
   }
+  // Paths may be any bytes, but texts of HDF5 are read as UTF-8.
+  if (auto* text = std::get_if<std::string>(&value)) *text = made_utf8(*text);
   found->cells.at(row) = std::move(value);
 }
 

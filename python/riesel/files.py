@@ -6,6 +6,7 @@ import contextlib
 import io
 import pathlib
 import re
+import shlex
 import zlib
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -19,6 +20,12 @@ _SEAL = re.compile(rb"riesel run\nAn HDF5 file behind a block of 512 bytes\n"
                    rb"FNV-1a of those behind the block: [0-9a-f]{16}\n"
                    rb"(CRC-32 of those behind the block: (?P<crc>[0-9a-f]{8})\n)?\0*")
 RESTORE = "restore the file, or make the run again"
+
+
+def call(subcommand: str, directory: pathlib.Path) -> str:
+    """The command, to be shown: quoted such that a shell takes it."""
+    path = str(directory)
+    return f"riesel {subcommand} {shlex.quote('./' + path if path.startswith('-') else path)}"
 
 
 class NotThere(LookupError):

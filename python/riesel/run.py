@@ -17,7 +17,7 @@ import yaml
 from numpy.typing import NDArray
 
 from .estimate import Estimate
-from .files import RESTORE, NotThere, Unreadable, members, part
+from .files import RESTORE, NotThere, Unreadable, call, members, part
 from .names import there_is
 from .table import Table, table_of, text
 from .trajectory import Trajectory
@@ -219,14 +219,14 @@ class Run:
     def _restored_summary(self) -> str:
         """What to do about a damaged one."""
         if (self.directory / "checkpoint.h5").exists():
-            return f"restore the file, or make it anew by 'riesel resume {self.directory}'"
+            return f"restore the file, or make it anew by '{call('resume', self.directory)}'"
         return RESTORE
 
     @property
     def _go_on(self) -> str:
         checkpoints = ("checkpoint.h5", "checkpoint.h5.previous")
         if any((self.directory / name).exists() for name in checkpoints):
-            return f"let the run come to its end, or see 'riesel resume {self.directory}'"
+            return f"let the run come to its end, or see '{call('resume', self.directory)}'"
         # Impacts and columns of beads write no checkpoints, nor has a flow that has just begun.
         return "let the run come to its end, or start it again if it was stopped"
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .estimate import Estimate, mean_of
-from .files import NotThere, Unreadable, members, part
+from .files import NotThere, Unreadable, call, members, part
 from .run import Run
 from .table import Table, table_of
 
@@ -101,7 +101,7 @@ class Sweep:
         """The table of the last `riesel sweep` or `riesel collect`: a row per point, done or not,
         with its settings and all single values of its summary, NaN or "" where there is none. It
         does not know what points have become since, by `riesel resume` for one."""
-        remedy = f"make it with 'riesel collect {self.directory}'"
+        remedy = f"make it with '{call('collect', self.directory)}'"
         with part(self.directory / "sweep.h5", "points", remedy, remedy, remedy) as group:
             return table_of(group)
 
@@ -133,7 +133,7 @@ class Sweep:
         for group in groups:
             if any(point.name not in row_of for point in group):
                 raise NotThere(f"{self.directory}: its table lacks a point; make it again with "
-                               f"'riesel collect {self.directory}'")
+                               f"'{call('collect', self.directory)}'")
             rows = [row for point in group
                     if math.isfinite(table[column][row := row_of[point.name]])]
             mean = mean_of([float(value) for value in table[column][rows]])

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from .names import there_is
+from .names import NoSuchName
 
 
 class Table(Mapping[str, NDArray[Any]]):
@@ -28,7 +28,7 @@ class Table(Mapping[str, NDArray[Any]]):
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Raises KeyError, which lists the names most like this one."""
         if name not in self._columns:
-            raise KeyError(f"{name}: there is no such column; {there_is(name, self._columns)}")
+            raise NoSuchName(name, "column", self._columns)
         return self._columns[name]
 
     def __iter__(self) -> Iterator[str]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from .names import there_is
+from .names import NoSuchName
 
 
 class Tree(Mapping[str, Any]):
@@ -21,7 +21,7 @@ class Tree(Mapping[str, Any]):
         value: Any = self._values
         for part in str(name).split("."):
             if not isinstance(value, Mapping) or part not in value:
-                raise KeyError(f"{name}: there is no such value; {there_is(name, self)}")
+                raise NoSuchName(name, "value", self)
             value = value[part]
         return Tree(value) if isinstance(value, Mapping) else value
 

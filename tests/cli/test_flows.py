@@ -114,9 +114,10 @@ class Flows(CommandTest):
         self.assert_done(self.riesel("report", "chute"))
         page = (self.home / "chute/report.html").read_text(encoding="utf-8")
         for told in ("braking force of the bottom", "x (the height above the bottom) to the right", "across the flow",
-                     "along the bottom, which carries it in a steady state"):
+                     "along the bottom, which carries it in a steady state",
+                     "along the bottom, carried by the bottom in a steady state", "of the grains to the bottom"):
             self.assertIn(told, page)
-        for of_a_tube in ("left wall", "right wall", "across the tube", "along the tube"):
+        for of_a_tube in ("left wall", "right wall", "across the tube", "along the tube", "the walls"):
             self.assertNotIn(of_a_tube, page)
 
     def test_a_flow_is_not_steady_before_its_spins_are(self):

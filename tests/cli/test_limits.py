@@ -45,6 +45,14 @@ class Limits(CommandTest):
         result = self.tube("speed", "limits.speed=3.5 m/s")
         self.assert_stopped("speed", result, "limits.speed", "grain ", "m/s")
 
+    def test_why_it_failed_is_told_even_if_its_state_cannot_be_kept(self):
+        path = self.write("tube.yaml", TUBE)
+        result = self.riesel_with_files_of_at_most(20_000, "run", path, "--set", "limits.speed=3.5 m/s")
+        self.assertEqual(result.returncode, FAILED, result)
+        (complaint,) = [line for line in result.stderr.splitlines() if line.startswith("riesel: ")]
+        self.assertIn("the run failed: ", complaint)
+        self.assertIn("the state of that moment could not be kept: ", result.stderr)
+
     def test_grains_too_fast_for_the_numbers_of_the_state_stop_it(self):
         """An eighth of the tube in a step; a few more, and they would seem slow again."""
         result = self.tube("fast", "gravity=1e5 m/s^2", "wall.surface=smooth", "start.random_velocity=0", "run.duration=0.1 s")

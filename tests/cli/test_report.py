@@ -147,6 +147,18 @@ class FinishedRun(Report):
                     self.assertGreater(slope, 0.0)
                     np.testing.assert_allclose(drawn, slope * expected + offset, atol=0.05)
 
+    def test_marks_further_right_are_higher(self):
+        """So that no line crosses a label. With few steps per t_col ten of them come last."""
+        for steps, last in ((50, "t_col"), (6, "10 steps")):
+            out = self.run_small_tube(f"marks_{steps}", "--set", f"run.steps_per_collision={steps}")
+            self.assert_done(self.riesel("report", out))
+            marks = self.figure(out, "wall_contact_duration").find(f"{SVG}g[@class='marks']")
+            heights = [float(text.get("y")) for text in marks.findall(f"{SVG}text")]
+            places = [float(line.get("x1")) for line in marks.findall(f"{SVG}line")]
+            self.assertEqual(marks.findall(f"{SVG}text")[places.index(max(places))].text, last)
+            by_place = [height for _, height in sorted(zip(places, heights, strict=True))]
+            self.assertEqual(by_place, sorted(heights, reverse=True), steps)
+
     def test_t_col_and_the_thresholds_are_marked_where_they_are(self):
         summary = self.summary(self.out)
         t_col = summary["validity"]["t_col"]

@@ -5,7 +5,7 @@ import json
 import re
 import shutil
 
-from riesel_command import DONE, FAILED, OUT_OF_TIME, bytes_of_files
+from riesel_command import BAD_INPUT, DONE, FAILED, OUT_OF_TIME, bytes_of_files
 from sweep_command import CHAIN, GRID, ONE_FAILS, ONE_POINT, SweepTest
 
 
@@ -269,6 +269,14 @@ start: {kind: file, from: a.csv}
                                    "raise the limit on the size of files")
                 after = bytes_of_files(out)
                 self.assertEqual({**after, ".lock": before[".lock"]}, before)
+
+    def test_tables_stay_as_they_are_if_the_copy_of_the_sweep_file_is_gone(self):
+        out = self.sweep_to_end(ONE_POINT)
+        (out / "sweep.yaml").unlink()
+        (out / "points" / self.points()[0]["name"] / "summary.json").unlink()
+        before = {name: (out / name).read_bytes() for name in ("sweep.csv", "sweep.h5")}
+        self.assertEqual(self.riesel("collect", "out").returncode, BAD_INPUT)
+        self.assertEqual({name: (out / name).read_bytes() for name in before}, before)
 
     def test_a_point_out_of_reach_fails_alone(self):
         point = self.prepare_three()[0]

@@ -1,6 +1,6 @@
 """Mistakes in sweep files and on their command lines."""
 
-from riesel_command import BAD_INPUT, SMALL_TUBE, bytes_of_files
+from riesel_command import BAD_INPUT, SHIPPED, SMALL_TUBE, bytes_of_files
 from sweep_command import GRID, SweepTest
 
 
@@ -62,6 +62,18 @@ class Mistakes(SweepTest):
                 before = bytes_of_files(self.home)
                 self.assert_refused(self.riesel("sweep", "sweep.yaml"), *mentions)
                 self.assert_nothing_written(before)
+
+    def test_a_plan_too_large_to_be_read_again(self):
+        """The lists of its points are in the manifest."""
+        self.write("impacts.yaml", (SHIPPED / "single_wall_grain.yaml").read_text(encoding="utf-8"))
+        velocities = ", ".join(f"{1 + i / 1000:.3f}" for i in range(700))
+        sweep = (f"base: impacts.yaml\naxes:\n  impact.axial_velocity: [[{velocities}]]\n"
+                 "  contact.friction: {from: 0.1, to: 0.5, points: POINTS, spacing: linear}\n")
+        self.write("sweep.yaml", sweep.replace("POINTS", "4000"))
+        before = bytes_of_files(self.home)
+        self.assert_refused(self.riesel("sweep", "sweep.yaml", "--prepare"), "sweep.yaml: axes:",
+                            "4000 points", "MB", "split the sweep")
+        self.assert_nothing_written(before)
 
     def test_in_the_base(self):
         self.write("tube.yaml", SMALL_TUBE.replace("area_fraction", "area_fracton"))

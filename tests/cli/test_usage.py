@@ -48,6 +48,7 @@ class Usage(CommandTest):
                 result = self.riesel("help", *words)
                 self.assert_done(result)
                 self.assertEqual(result.stdout, self.riesel(*words, "--help").stdout)
+        self.assertEqual(self.riesel("help", "help").stdout, self.riesel("--help").stdout)
 
     def test_the_fuzzer_knows_every_key_of_the_settings(self):
         keys = re.findall(r"^\| `([a-z_.]+)` \|", self.riesel("settings").stdout, re.MULTILINE)

@@ -2,13 +2,14 @@
 
 import csv
 import json
+import os
 import shutil
 import statistics
 
 import numpy as np
 import riesel
 
-from riesel_command import SMALL_TUBE, CommandTest
+from riesel_command import FAILED, SMALL_TUBE, CommandTest
 from seal import changed_behind_seal
 
 SWEEP = """\
@@ -107,6 +108,16 @@ class OfSweep(CommandTest):
         after = riesel.Sweep(self.home / "out").means(column)
         self.assertEqual([mean.runs for mean in after], [0, 0, 2, 3, 3, 3])
         self.assertEqual([mean.value for mean in after[3:]], [mean.value for mean in before[1:]])
+
+    def test_the_table_of_a_sweep_with_a_name_that_is_no_text(self):
+        """Its name is in the reason why the summary of a point was not taken."""
+        out = self.home / os.fsdecode(b"sw\xe9p")
+        self.write("tube.yaml", SMALL_TUBE)
+        self.write("sweep.yaml", SWEEP)
+        self.assert_done(self.riesel("sweep", "sweep.yaml", "--out", out))
+        next((out / "points").glob("*/summary.json")).write_text("{", encoding="utf-8")
+        self.assertEqual(self.riesel("collect", out).returncode, FAILED)
+        self.assertIn("sw?p", " ".join(riesel.Sweep(out).table["reason"]))
 
     def test_points_and_table(self):
         self.write("tube.yaml", SMALL_TUBE)
