@@ -87,8 +87,9 @@ void add_flow_options(CLI::App& command, app::FlowOptions& options) {
 
 void add_verbosity(CLI::App& command, app::Verbosity& verbosity) {
   const auto set = [&verbosity](app::Verbosity to) { return [&verbosity, to] { verbosity = to; }; };
-  CLI::Option* quiet = command.add_flag_callback("-q,--quiet", set(app::Verbosity::quiet),
-                                                 "Print errors and warnings only; results are in the files");
+  CLI::Option* quiet =
+      command.add_flag_callback("-q,--quiet", set(app::Verbosity::quiet),
+                                "Print errors and warnings only; results are in the files");
   command
       .add_flag_callback("-v,--verbose", set(app::Verbosity::verbose),
                          "Also report the start of the run and each checkpoint")
@@ -203,7 +204,9 @@ private:
     CLI::Option* slurm = sweep.add_flag("--slurm", sweep_.to_slurm,
                                         "Submit the sweep to Slurm; --dry-run shows the script");
     sweep
-        .add_option("--tasks", sweep_.slurm.tasks, "Maximum number of Slurm tasks [one per point, or chain of points, as far as Slurm allows]")
+        .add_option("--tasks", sweep_.slurm.tasks,
+                    "Maximum number of Slurm tasks [one per point, or chain of points, as far as "
+                    "Slurm allows]")
         ->transform(app::whole_number(1, most_tasks))
         ->needs(slurm);
     sweep.add_option("--threads", sweep_.slurm.threads, "Threads of each task of Slurm [1]")

@@ -157,7 +157,8 @@ io::Svg draw_braking(const io::RunContents& run, const io::FlowSummary& summary)
   }
   if (with_weight) extent.push_back(summary.braking_force.weight);
 
-  io::Plot plot(figure_width, 250.0, fmt::format("Braking force of {}", brake_of(summary.braking_force)),
+  io::Plot plot(figure_width, 250.0,
+                fmt::format("Braking force of {}", brake_of(summary.braking_force)),
                 {.label = "time (s)", .range = io::range_of(time.values)},
                 {.label = "braking force (N)", .range = io::range_of(extent)});
   mark_transient(summary.transient_end, plot);

@@ -55,7 +55,8 @@ private:
 
   std::string scenario() const {
     const auto& results = record_->results;
-    const auto result = std::ranges::find_if(results, [](auto& r) { return r.summary.has_value(); });
+    const auto result =
+        std::ranges::find_if(results, [](auto& r) { return r.summary.has_value(); });
     return std::visit([](auto& summary) { return summary.run.scenario; }, *result->summary);
   }
 

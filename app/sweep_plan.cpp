@@ -213,7 +213,8 @@ std::vector<io::VariedSetting> varied_settings(const io::SweepFile& sweep,
   return varied;
 }
 
-/// Each point has its values in the manifest, which long lists on an axis make too large to be read.
+/// Each point has its values in the manifest, which long lists on an axis make too large to be
+/// read.
 void reject_huge(const io::Manifest& manifest, const std::filesystem::path& file) {
   const std::size_t size = io::to_json(manifest).size();
   if (size > io::largest_plan)

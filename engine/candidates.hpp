@@ -129,6 +129,8 @@ public:
   std::int64_t hold_until() const { return hold_until_; }
   double skin() const { return skin_; }                       ///< m
   double range() const { return 2.0 * max_radius_ + skin_; }  ///< m, the least height of a row
+  /// Whether a stray that has gone this far (m) may be past the slices that are searched for it.
+  bool is_beyond_search(double gone) const { return gone > range(); }
   const CoarsePositions& when_sorted() const { return when_sorted_; }
   const FixedVector& drift() const { return drift_; }    ///< quanta per step
   std::int64_t sorted_at() const { return sorted_at_; }  ///< step

@@ -49,7 +49,7 @@ std::optional<T> first_of(const std::optional<T>& a,
 struct Contact {
   ContactName name{};
   double begin = 0.0;           ///< s, since step 0
-  double end = 0.0;             ///< s, when the contact ends, if within a step; else in a step
+  double end = 0.0;             ///< s, when the bodies part, or a step from now if that is later
   double entry_rate = 0.0;      ///< m/s, normal approach velocity at the beginning
   double entry_slip = 0.0;      ///< m/s, slip velocity of the centres at the beginning
   double overlap = 0.0;         ///< m, now

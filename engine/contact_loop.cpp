@@ -1,6 +1,6 @@
 #include "engine/contact_loop.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace riesel {
 

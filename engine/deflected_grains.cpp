@@ -3,7 +3,6 @@
 #include "engine/vector_kernel.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 namespace riesel {

@@ -6,15 +6,12 @@
 // for speed.
 #include "engine/flight_region.hpp"
 
-#include <cmath>
-
 namespace riesel {
 
 void FlightRegion::watch_strays(std::int64_t step) {
   for (const Stray& stray : border_.mine().strays) {
-    // Beyond the height of a row of cells it may be past the slices that are searched here.
-    if (skin_guard_.gone(stray.slot, airspace_.courses.motion(stray.slot, step), step)
-        > airspace_.candidates.range())
+    const Motion course = airspace_.courses.motion(stray.slot, step);
+    if (airspace_.candidates.is_beyond_search(skin_guard_.gone(stray.slot, course, step)))
       lose(stray, step);
     look_around(stray, {slice_.begin, slice_.end}, step);
     for (const std::size_t after : border_.after()) {

@@ -1,17 +1,34 @@
 // Enumerations as words in files.
 #pragma once
 
-#include <initializer_list>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
 namespace riesel {
 
-/// The one of `all` whose name() is the text; nothing if there is none.
-template <class Word>
-std::optional<Word> named(std::string_view text, std::initializer_list<Word> all) {
-  for (const Word word : all)
-    if (name(word) == text) return word;
+/// The word of each value of an enumeration.
+template <class Value>
+struct Word {
+  Value value;
+  std::string_view text;
+};
+
+/// The word of a value; all of them must be in the table.
+template <class Value, std::size_t n>
+constexpr std::string_view name_in(const std::array<Word<Value>, n>& words, Value value) {
+  for (const Word<Value>& word : words)
+    if (word.value == value) return word.text;
+  return "unknown";
+}
+
+/// The value whose word is this text; nothing if there is none.
+template <class Value, std::size_t n>
+constexpr std::optional<Value> value_in(const std::array<Word<Value>, n>& words,
+                                        std::string_view text) {
+  for (const Word<Value>& word : words)
+    if (word.text == text) return word.value;
   return std::nullopt;
 }
 

@@ -10,7 +10,6 @@
 #include "engine/state.hpp"
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace riesel {

@@ -1,7 +1,8 @@
 #include "engine/state_check.hpp"
 
+#include "engine/contact_tile.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
@@ -85,19 +86,8 @@ std::string flaw_of_grains(const Grains& grains) {
   return {};
 }
 
-/// Tests all members but the name. The compiler demands that a new one is added to the binding; it
-/// must be added to the array as well.
 bool is_finite(const Contact& contact) {
-  const auto& [name, begin, end, entry_rate, entry_slip, overlap, max_overlap, slip_path,
-               elastic_energy, normal_loss, friction_loss, impulse_x, impulse_y,
-               impulse_y_times_time, friction_x, friction_y, spring, torque, rolling_torque] =
-      contact;
-  const std::array values = {
-      begin,       end,       entry_rate,           entry_slip,  overlap,
-      max_overlap, slip_path, elastic_energy,       normal_loss, friction_loss,
-      impulse_x,   impulse_y, impulse_y_times_time, friction_x,  friction_y,
-      spring,      torque,    rolling_torque};
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  return std::ranges::all_of(life_of(contact), [](double value) { return std::isfinite(value); });
 }
 
 std::string flaw_of_contacts(const State& state) {

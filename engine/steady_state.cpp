@@ -4,10 +4,17 @@
 #include "engine/time_series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace riesel {
 namespace {
+
+constexpr std::array<Word<SteadyVerdict>, 4> verdicts = {
+    {{SteadyVerdict::steady, "steady"},
+     {SteadyVerdict::accelerating, "accelerating"},
+     {SteadyVerdict::drifting, "drifting"},
+     {SteadyVerdict::too_short, "too_short"}}};
 
 bool is_runaway(const TrendEstimate& trend, double mean, double trend_duration,
                 std::optional<double> free_fall_gain) {
@@ -94,23 +101,10 @@ SteadyState assess_flow(const FlowSeries& flow) {
   return state;
 }
 
-std::string_view name(SteadyVerdict verdict) {
-  switch (verdict) {
-  case SteadyVerdict::steady:
-    return "steady";
-  case SteadyVerdict::accelerating:
-    return "accelerating";
-  case SteadyVerdict::drifting:
-    return "drifting";
-  case SteadyVerdict::too_short:
-    return "too_short";
-  }
-  return "unknown";
-}
+std::string_view name(SteadyVerdict verdict) { return name_in(verdicts, verdict); }
 
 std::optional<SteadyVerdict> steady_verdict_named(std::string_view text) {
-  using enum SteadyVerdict;
-  return named(text, {steady, accelerating, drifting, too_short});
+  return value_in(verdicts, text);
 }
 
 }  // namespace riesel

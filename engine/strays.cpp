@@ -42,8 +42,8 @@ void Candidates::catch_strays(const State& state, const PackedPositions& coarse,
     for (auto slot = static_cast<std::uint32_t>(home->begin); slot < home->end; ++slot) {
       const double gone = distance(squared_displacement(coarse.at(slot), slot, common));
       if (gone <= 0.5 * skin_) continue;
-      // Beyond the height of a row of cells it may be past the slices that are searched here.
-      if (gone > range()) mine.lost = first_of(mine.lost, LostGrain{step, g.id[slot], true});
+      if (is_beyond_search(gone))
+        mine.lost = first_of(mine.lost, LostGrain{step, g.id[slot], true});
       look(slot, mine);
       if (home == &mine) {
         look(slot, next);

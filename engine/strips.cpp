@@ -5,6 +5,7 @@
 #include "engine/vector_kernel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +23,8 @@ void add(Sums& sums, StripSum which, double term) {
 /// read again.
 constexpr std::size_t at_a_time = 32;
 
-/// The sums over the motion of the grains in a strip: those from StripSum::grains on.
+/// The sums over the motion of the grains in a strip: those from StripSum::grains on. That of spins
+/// is in radians per step here, as spins of small grains may exceed ExactSum's range.
 constexpr std::size_t motion_sums =
     static_cast<std::size_t>(StripSum::contact_xx) - static_cast<std::size_t>(StripSum::grains);
 using MotionSums = ExactSums<motion_sums>;
@@ -49,7 +51,7 @@ sums_over_motion(const Strips& strips, const State& state, const Frame& frame) {
                   z,
                   z * z,
                   z * w,
-                  g.spin,
+                  g.spin * state.time_step,
                   gyration2,
                   gyration2 * g.spin,
                   gyration2 * g.spin * g.spin,
@@ -189,6 +191,8 @@ std::vector<double> sum_over_strips(const Strips& strips, const State& state,
   values.reserve(strips.columns());
   for (const Sums& strip : sums)
     for (const ExactSum& sum : strip) values.push_back(sum.value());
+  for (std::size_t s = 0; s < strips.count; ++s)
+    values[Strips::column(s, StripSum::spin)] /= state.time_step;
   return values;
 }
 

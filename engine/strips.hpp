@@ -14,7 +14,6 @@
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

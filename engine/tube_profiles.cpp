@@ -58,7 +58,7 @@ public:
   Estimate mean_over_grains(double value, std::span<const LinearTerm> terms) const {
     const double error = error_per_weight(linear(terms), means(StripSum::grains));
     const bool constant = error <= 1e-12 * std::abs(value);  // but for rounding
-    return {value, constant && value != 0.0 ? unknown : error};
+    return {value, constant ? unknown : error};
   }
 
 private:
@@ -197,6 +197,12 @@ Estimate stress_yy(const ZoneBlocks& b, double area) {
   return known_by_contacts(b, density(b, area, std::move(terms)));
 }
 
+/// What is known of spins: where grains do not rotate, that they are 0.
+Estimate of_spins(const ZoneBlocks& b, Estimate (*of)(const ZoneBlocks&)) {
+  const bool none_rotates = b.mean(StripSum::grains) > 0.0 && b.mean(StripSum::gyration2) == 0.0;
+  return none_rotates ? Estimate{0.0, 0.0} : of(b);
+}
+
 struct Quantity {
   std::string_view name, unit, meaning;
   Estimate (*of)(const ZoneBlocks&, double area);
@@ -221,11 +227,11 @@ constexpr std::array<Quantity, 18> quantities = {{
      [](const B& b, double) { return variance_of_w(b); }},
     {"mean_spin", "rad/s",
      "Mean spin of the grains, positive from x towards y; 0 where they do not rotate.",
-     [](const B& b, double) { return per_grain(b, S::spin); }},
+     [](const B& b, double) { return of_spins(b, [](auto& z) { return per_grain(z, S::spin); }); }},
     {"rotational_temperature", "m^2/s^2",
      "Mean of I (w - W)^2 / m over the grains, W the mean spin in their strip, weighted with I / "
      "m.",
-     [](const B& b, double) { return rotational_temperature(b); }},
+     [](const B& b, double) { return of_spins(b, rotational_temperature); }},
     {"stress_xx", "N/m", "Normal stress across the tube, positive in compression.",
      [](const B& b, double a) { return stress(b, a, S::mass_vx2, S::contact_xx); }},
     {"stress_xy", "N/m", "Shear stress: momentum along y that goes to larger x.",

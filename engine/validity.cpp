@@ -12,6 +12,10 @@ namespace riesel {
 
 namespace {
 
+constexpr std::array<Word<Validity>, 3> verdicts = {{{Validity::valid, "valid"},
+                                                     {Validity::suspect, "suspect"},
+                                                     {Validity::unphysical, "unphysical"}}};
+
 constexpr double none = std::numeric_limits<double>::infinity();
 
 struct Criterion {
@@ -165,21 +169,8 @@ double detachment(double restitution, double rigid_restitution) {
   return (restitution * restitution - rigid_energy) / (1.0 - rigid_energy);
 }
 
-std::optional<Validity> validity_named(std::string_view text) {
-  using enum Validity;
-  return named(text, {valid, suspect, unphysical});
-}
+std::optional<Validity> validity_named(std::string_view text) { return value_in(verdicts, text); }
 
-std::string_view name(Validity validity) {
-  switch (validity) {
-  case Validity::valid:
-    return "valid";
-  case Validity::suspect:
-    return "suspect";
-  case Validity::unphysical:
-    return "unphysical";
-  }
-  return "unknown";
-}
+std::string_view name(Validity validity) { return name_in(verdicts, validity); }
 
 }  // namespace riesel

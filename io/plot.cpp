@@ -46,8 +46,8 @@ std::vector<Point> thinned(std::span<const Point> points, std::size_t columns) {
 }
 
 Look look_of(std::size_t index) {
-  constexpr std::array<std::string_view, different_looks> colours = {"#26548c", "#d9730d", "#2e7d32", "#a3245b",
-                                                       "#6b4fa0", "#8a6d1d", "#0f8a8a", "#555555"};
+  constexpr std::array<std::string_view, different_looks> colours = {
+      "#26548c", "#d9730d", "#2e7d32", "#a3245b", "#6b4fa0", "#8a6d1d", "#0f8a8a", "#555555"};
   constexpr std::array symbols = {Symbol::disc, Symbol::square, Symbol::triangle, Symbol::diamond};
   return {.colour = colours.at(index % colours.size()),
           .symbol = symbols.at(index % symbols.size())};

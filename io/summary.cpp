@@ -12,6 +12,14 @@ namespace riesel::io {
 
 namespace {
 
+constexpr std::array<Word<EndedBy>, 3> ends = {{{EndedBy::duration, "duration"},
+                                                {EndedBy::precision, "precision"},
+                                                {EndedBy::at_most, "at_most"}}};
+constexpr std::array<Word<JudgedBy>, 3> judged_series = {
+    {{JudgedBy::mean_vy, "mean_vy"},
+     {JudgedBy::granular_temperature, "granular_temperature"},
+     {JudgedBy::rotational_temperature, "rotational_temperature"}}};
+
 Json common_part(const RunSummary& run) {
   return {{"format", summary_format},
           {"scenario", run.scenario},
@@ -105,38 +113,14 @@ Json validity(const FlowSummary& s) {
 
 }  // namespace
 
-std::string_view name(EndedBy ended_by) {
-  switch (ended_by) {
-  case EndedBy::duration:
-    return "duration";
-  case EndedBy::precision:
-    return "precision";
-  case EndedBy::at_most:
-    return "at_most";
-  }
-  return "unknown";
-}
+std::string_view name(EndedBy ended_by) { return name_in(ends, ended_by); }
 
-std::string_view name(JudgedBy judged_by) {
-  switch (judged_by) {
-  case JudgedBy::mean_vy:
-    return "mean_vy";
-  case JudgedBy::granular_temperature:
-    return "granular_temperature";
-  case JudgedBy::rotational_temperature:
-    return "rotational_temperature";
-  }
-  return "unknown";
-}
+std::string_view name(JudgedBy judged_by) { return name_in(judged_series, judged_by); }
 
-std::optional<EndedBy> ended_by_named(std::string_view text) {
-  using enum EndedBy;
-  return named(text, {duration, precision, at_most});
-}
+std::optional<EndedBy> ended_by_named(std::string_view text) { return value_in(ends, text); }
 
 std::optional<JudgedBy> judged_by_named(std::string_view text) {
-  using enum JudgedBy;
-  return named(text, {mean_vy, granular_temperature, rotational_temperature});
+  return value_in(judged_series, text);
 }
 
 std::string to_json(const FlowSummary& s) {

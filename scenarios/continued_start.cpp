@@ -219,8 +219,7 @@ void take_over(const State& earlier, const ContactModel& model, State& state) {
     Grains& g = state.grains;
     g.position[i] = earlier.grains.position[i];
     g.kick[i] = {rescaled(earlier.grains.kick[i].x), rescaled(earlier.grains.kick[i].y)};
-    g.u[i].x -= g.kick[i].x / 2;
-    g.u[i].y -= g.kick[i].y / 2;
+    g.u[i] = wrapped_difference(g.u[i], FixedVector{g.kick[i].x / 2, g.kick[i].y / 2});
     if (!g.rotate()) continue;
     g.spin_kick[i] = rescaled(earlier.grains.spin_kick[i]);
     g.spin[i] -= g.spin_kick[i] / 2;

@@ -211,7 +211,7 @@ std::vector<Grain> fill_between_walls(const io::Settings& settings, const SizeDi
       empty.box.width - (empty.walls.front().radius + empty.walls.back().radius);
   const double densest = pi / std::sqrt(12.0);  // discs on a triangular lattice
   if (wanted > densest * free_width)
-    settings.reject(fraction_key, "more than can be packed between the wall grains",
+    settings.reject(fraction_key, "more than a start can place clear of the wall grains",
                     fmt::format("choose at most {:.3f}, and less for grains of unequal size",
                                 std::floor(1e3 * densest * free_width / empty.box.width) / 1e3));
   const std::vector<double> radii = radii_of_area(settings, sizes, wanted * empty.box.length);

@@ -54,8 +54,7 @@ State empty_tube(const io::Settings& settings) {
 }
 
 void reject_small_tube(const io::Settings& settings, double largest, const State& empty) {
-  reject_short_period(settings, largest, empty, "tube.length");
-  reject_narrow_gap(settings, largest, empty, "tube.width");
+  reject_small_space(settings, largest, empty, "tube");
 }
 
 Problem prepare(const io::Settings& settings) {

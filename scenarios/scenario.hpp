@@ -77,7 +77,7 @@ struct Law {
 };
 
 /// To be called at the start of a program, before settings_tables() is. Throw std::logic_error for
-/// a name that is taken, or if it is too late.
+/// a name that is taken, without the function, or if it is too late.
 void add(Scenario scenario);
 void add(Law law);
 

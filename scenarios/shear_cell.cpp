@@ -46,8 +46,7 @@ State empty_cell(const io::Settings& settings) {
 }
 
 void reject_small_cell(const io::Settings& settings, double largest, const State& empty) {
-  reject_short_period(settings, largest, empty, "cell.length");
-  reject_narrow_gap(settings, largest, empty, "cell.width");
+  reject_small_space(settings, largest, empty, "cell");
 }
 
 Problem prepare(const io::Settings& settings) {

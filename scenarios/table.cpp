@@ -85,11 +85,16 @@ Problem problem_of(const io::Settings& settings) {
   return problem;
 }
 
-void add(Scenario scenario) { add_to(registry().scenarios, std::move(scenario)); }
+void add(Scenario scenario) {
+  if (scenario.prepare == nullptr)
+    throw std::logic_error("'" + scenario.name + "' lacks its function prepare");
+  add_to(registry().scenarios, std::move(scenario));
+}
 
 void add(Law law) {
   if (is_built_in_law(law.name))
     throw std::logic_error("'" + law.name + "' is a law of riesel already");
+  if (law.make == nullptr) throw std::logic_error("'" + law.name + "' lacks its function make");
   add_to(registry().laws, std::move(law));
 }
 

@@ -152,15 +152,17 @@ void reject_short_period(const io::Settings& settings, double largest, const Sta
       reject_crowded_wall(settings, 0.5 * largest + wall.radius, wall.spacing(empty.box));
 }
 
-void reject_narrow_gap(const io::Settings& settings, double largest, const State& empty,
-                       const std::string& key_of_width) {
+void reject_small_space(const io::Settings& settings, double largest, const State& empty,
+                        const std::string& section) {
+  reject_short_period(settings, largest, empty, section + ".length");
+  const std::string key_of_width = section + ".width";
   const double needed = largest + (empty.walls.front().radius + empty.walls.back().radius);
   if (empty.box.width < needed)
-    settings.reject(to_blame(settings, key_of_width, largest, empty.box.width),
-                    fmt::format("the {} is too narrow for the grains between the wall grains",
-                                io::section_of(key_of_width)),
-                    fmt::format("choose smaller grains, or {} above {:.6g} m{}", key_of_width,
-                                needed, hint(largest, empty.box.width)));
+    settings.reject(
+        to_blame(settings, key_of_width, largest, empty.box.width),
+        fmt::format("the {} is too narrow for the grains between the wall grains", section),
+        fmt::format("choose smaller grains, or {} above {:.6g} m{}", key_of_width, needed,
+                    hint(largest, empty.box.width)));
 }
 
 void reject_crowded_wall(const io::Settings& settings, double reach, double spacing) {
@@ -264,10 +266,12 @@ void reject_rows_in_step(const io::Settings& settings, const State& state) {
   const double asked = settings.number(key);
   const auto found = in_step(state, length, asked);
   if (!found) return;
+  double interval = asked;
   std::string other;  // as it is printed: the rounded value must be good, too
-  for (double interval = 0.93 * asked;
-       other.empty() || in_step(state, length, io::decimal_value(other).value()); interval *= 0.93)
+  do {
+    interval *= 0.93;
     other = fmt::format("{:.3g}", interval);
+  } while (in_step(state, length, io::decimal_value(other).value()));
   settings.reject(
       key,
       fmt::format("in step with the walls: rows {:.4g} s apart sample only {} phase{} of {} at "

@@ -27,9 +27,10 @@ WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
 void reject_short_period(const io::Settings& settings, double largest, const State& empty,
                          const std::string& key_of_length);
 
-/// Rejects a gap between two walls that is too narrow for grains of diameter `largest` (m).
-void reject_narrow_gap(const io::Settings& settings, double largest, const State& empty,
-                       const std::string& key_of_width);
+/// Rejects a space between two walls that is too short, as above, or too narrow for grains of
+/// diameter `largest` (m). `section` has the keys `length` and `width`.
+void reject_small_space(const io::Settings& settings, double largest, const State& empty,
+                        const std::string& section);
 
 /// Rejects wall grains whose `spacing` (m) is so small that a grain can touch more of them than the
 /// engine tells apart; `reach` (m) is the largest sum of the two radii.

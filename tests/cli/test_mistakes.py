@@ -67,7 +67,7 @@ MISTAKES_IN_FILES = {
     "too short": (
         "length: 10 mm", "length: 3 mm", "4:22", ["tube.length:", "too short", "0.0042"]),
     "too dense": (
-        "0.3}", "0.9}", "3:10", ["grains.area_fraction:", "more than can be packed", "0.847"]),
+        "0.3}", "0.9}", "3:10", ["grains.area_fraction:", "more than a start can place", "0.847"]),
     "overdamped": (
         "restitution: 0.9", "damping: 1e9", "2:32", ["contact.damping:", "do not rebound"]),
     "overdamped at the wall": (

@@ -261,6 +261,20 @@ TEST_CASE("damping and friction are in the forces") {
   CHECK(forces[0].fy == Approx(-friction * normal).epsilon(1e-6));
 }
 
+TEST_CASE("spins of tiny grains are summed up beyond the range of exact sums") {
+  State state = empty_box(10e-3, 20e-3);
+  state.time_step = 1e-12;
+  for (const double y : {5e-3, 10e-3}) add_grain(state, grain(5e-3, y, 0.0, 0.0));
+  state.grains.inertia = disc;
+  state.grains.resize(2);
+  constexpr double spin = 1.2e11;  // rad/s; an ExactSum holds 1.37e11
+  const Fixed per_step = nearest_fixed(spin * state.time_step / quantum_of_angle);
+  state.grains.spin = {per_step, per_step};
+  const Strips strips{.width = 10e-3, .length = 20e-3, .count = 1};
+  const auto sums = sum_over_strips(strips, state, paper_model(), {});
+  CHECK(value(sums, 0, StripSum::spin) == Approx(2.0 * spin));
+}
+
 TEST_CASE("the friction of grains that turn is against the slip of their surfaces") {
   // Both turn from x towards y, and neither moves: where they touch, the surface of the first goes
   // up and that of the second down.
