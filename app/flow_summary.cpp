@@ -57,7 +57,10 @@ zones(const TimeBlocks& blocks, const Strips& strips, std::size_t walls, std::in
                                  .temperature_x = measured("temperature_x"),
                                  .temperature_y = measured("temperature_y"),
                                  .stress_xx = measured("stress_xx"),
-                                 .stress_yy = measured("stress_yy")};
+                                 .stress_yy = measured("stress_yy"),
+                                 .stress_xy = measured("stress_xy"),
+                                 .mean_spin = measured("mean_spin"),
+                                 .rotational_temperature = measured("rotational_temperature")};
   };
   return {zone(0), zone(1)};
 }
@@ -119,6 +122,14 @@ io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, cons
                                       .weight = total_mass(state.grains) * state.gravity.y};
   if (state.walls.size() > 1) force.right = scaled(series.rate("right_wall_impulse_y"), -1.0);
   return force;
+}
+
+io::FlowSummary::WallPressure wall_pressure(const CumulativeSeries& series, const State& state) {
+  const double per_length = 1.0 / state.box.length;
+  io::FlowSummary::WallPressure p{.left = scaled(series.rate("left_wall_impulse_x"), per_length),
+                                  .right = {}};
+  if (state.walls.size() > 1) p.right = scaled(series.rate("right_wall_impulse_x"), -per_length);
+  return p;
 }
 
 io::FlowSummary::WallVisits wall_visits(const CumulativeSeries& series, const VisitTally& tally) {
@@ -240,6 +251,7 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
   s.braking_force = braking_force(series, state);
+  s.wall_pressure = wall_pressure(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.energy = energy_of(state, last.energies);
   const double across = speed_across(file, s.fluctuations, state.grains.size(), first);

@@ -166,6 +166,10 @@ private:
     add("area_fraction", "Area fraction", {"area_fraction"});
     add("velocity", "Mean axial velocity (m/s)", {"mean_axial_velocity"});
     add("temperature", "Granular temperature (m^2/s^2)", {"temperature_x", "temperature_y"});
+    if (record_->run.profiles.have_spins()) {
+      add("spin", "Mean spin (rad/s)", {"mean_spin"});
+      add("rotational_temperature", "Rotational temperature (m^2/s^2)", {"rotational_temperature"});
+    }
     add("stress", "Stress (N/m)", {"stress_xx", "stress_yy", "stress_xy"});
     page().paragraph(fmt::format(
         "Stresses are positive in compression{}. The error bars do not account for drift: if the "
@@ -211,6 +215,11 @@ private:
     if (force.right)
       rows.push_back(
           {fmt::format("braking force of the {}", right_wall), with_error(*force.right, "N")});
+    const auto& pressure = summary().wall_pressure;
+    rows.push_back({"pressure on the " + left_wall_of(force), with_error(pressure.left, "N/m")});
+    if (pressure.right)
+      rows.push_back(
+          {fmt::format("pressure on the {}", right_wall), with_error(*pressure.right, "N/m")});
     rows.insert(
         rows.end(),
         {{fmt::format("weight of all grains along {0}, carried by {0} in a steady state",

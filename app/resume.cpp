@@ -106,10 +106,11 @@ int resume(const ResumeOptions& options, const Arguments& arguments) {
     return UnusableInput(found.path.string() + ": is damaged (" + flaw + "); start the run again");
   };
   if (found.checkpoint.rows > 0) {
-    if (const std::string& version = found.checkpoint.other_profiles_by; !version.empty())
-      throw UnusableInput(fmt::format("{}: has profiles of other sums; use riesel {} to go on with "
-                                      "this run, or start a new one from it (start.kind)",
-                                      found.path.string(), version));
+    if (const std::string& version = found.checkpoint.other_records_by; !version.empty())
+      throw UnusableInput(
+          fmt::format("{}: has records of other quantities; use riesel {} to go on with "
+                      "this run, or start a new one from it (start.kind)",
+                      found.path.string(), version));
     if (found.checkpoint.profiles.columns() != Strips::of(state).columns())
       throw damaged("its profiles are not those of this tube");
     if (found.checkpoint.histograms.columns() != HistogramBlocks().blocks().columns())

@@ -202,7 +202,8 @@ double largest_sum(const State& state) {
          {&ContactTally::normal_loss, &ContactTally::friction_loss, &ContactTally::energy_won,
           &ContactTally::impulse_y, &ContactTally::impulse_y_times_time})
       look_at(kind->*member);
-  for (const ExactSum& of_wall : t.impulses.y) look_at(of_wall);
+  for (const auto* of_walls : {&t.impulses.x, &t.impulses.y})
+    for (const ExactSum& of_wall : *of_walls) look_at(of_wall);
   look_at(t.impulses.work);
   look_at(t.brakes.braking);
   return largest;
@@ -255,7 +256,9 @@ Observables observe(const State& state) {
   o.grain_contacts_begun = static_cast<double>(among_grains.begun);
   o.wall_contacts_begun = static_cast<double>(at_walls.begun);
   o.wall_impulse_y = at_walls.impulse_y.value();
-  std::ranges::transform(all_impulses(state).y, o.impulse_y_of_wall.begin(), &ExactSum::value);
+  const WallImpulses impulses = all_impulses(state);
+  std::ranges::transform(impulses.x, o.impulse_x_of_wall.begin(), &ExactSum::value);
+  std::ranges::transform(impulses.y, o.impulse_y_of_wall.begin(), &ExactSum::value);
   o.max_overlap = std::max(among_grains.max_overlap, at_walls.max_overlap);
   o.outside = static_cast<double>(sums.outside);
   o.structure_factor = axial_structure_factor(state.grains);

@@ -37,6 +37,7 @@ struct Observables {
   double wall_contacts_begun = 0.0;   ///< cumulative count
   double wall_impulse_y = 0.0;        ///< kg m/s, given to the grains by the walls, cumulative
   std::array<double, WallImpulses::most_walls> impulse_y_of_wall{};  ///< its parts: left, right
+  std::array<double, WallImpulses::most_walls> impulse_x_of_wall{};  ///< kg m/s, likewise across
   double max_overlap = 0.0;  ///< m, over all contacts so far
   double outside = 0.0;      ///< present grains beyond a wall line: gone through the wall
   std::array<double, density_waves> structure_factor{};  ///< along y, of the longest waves

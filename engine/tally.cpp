@@ -49,7 +49,10 @@ void ContactTally::merge(const ContactTally& other) {
 }
 
 void WallImpulses::merge(const WallImpulses& other) {
-  for (std::size_t wall = 0; wall < most_walls; ++wall) y[wall].add(other.y[wall]);
+  for (std::size_t wall = 0; wall < most_walls; ++wall) {
+    x[wall].add(other.x[wall]);
+    y[wall].add(other.y[wall]);
+  }
   work.add(other.work);
 }
 

@@ -52,11 +52,14 @@ struct ContactTally {
 /// What the single walls gave to the grains. Of the two walls of a tube, index 0 is the left one.
 struct WallImpulses {
   static constexpr std::size_t most_walls = 2;
+  std::array<ExactSum, most_walls> x;  ///< kg m/s across the tube, by wall
   std::array<ExactSum, most_walls> y;  ///< kg m/s along y, by wall; together walls.impulse_y
   ExactSum work;                       ///< J, done by walls that move, up to this step
 
   void add(const Contact& contact) {
-    y[static_cast<std::size_t>(contact.name.wall)].add(contact.impulse_y);
+    const auto wall = static_cast<std::size_t>(contact.name.wall);
+    x[wall].add(contact.impulse_x);
+    y[wall].add(contact.impulse_y);
   }
   void merge(const WallImpulses& other);
 };

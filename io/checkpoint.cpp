@@ -30,8 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t format_version = 12;
-constexpr std::int64_t oldest_version = 10;  // before the last profiles are of other sums
+constexpr std::int64_t format_version = 13;
+constexpr std::int64_t oldest_version = 10;  // before 12 profiles are of other sums
+constexpr std::array since_13 = {"left_x", "right_x"};
 constexpr auto kind = "checkpoint";
 
 // --- the parts of the checkpoint, each written and read ---
@@ -109,11 +110,14 @@ std::vector<Contact> deepest_of(const Tally& tally) {
   return contacts;
 }
 
-Tally read_tally(const StoredGroup& group) {
+Tally read_tally(const StoredGroup& group, std::int64_t version) {
   Tally tally;
   for_each_kind(tally, [&](const char* name_of_kind, auto& of_kind) {
     const auto part = group.group(name_of_kind);
-    for_each_value(of_kind, [&](const char* name, auto& value) { read_value(part, name, value); });
+    for_each_value(of_kind, [&](std::string_view name, auto& value) {
+      const bool is_new = std::ranges::find(since_13, name) != since_13.end();
+      if (version >= 13 || !is_new) read_value(part, std::string(name), value);
+    });
   });
   return tally;
 }
@@ -139,7 +143,7 @@ State read_state(const StoredGroup& root) {
   state.walls = read_records<WallLattice>(root.group("walls"));
   state.contacts = read_records<Contact>(root.group("contacts"));
   state.open_visits = read_records<WallVisit>(root.group("open_visits"));
-  state.tally = read_tally(root.group("tally"));
+  state.tally = read_tally(root.group("tally"), root.attribute<std::int64_t>("format_version"));
   for (const Contact& contact : read_records<Contact>(root.group("deepest_contacts")))
     state.tally.of(contact.name).deepest = contact;
   return state;
@@ -197,9 +201,9 @@ Checkpoint read_contents(const StoredGroup& root) {
           .wall_seconds = root.attribute<double>("wall_seconds"),
           .profiles = read_blocks(root.group("profiles")),
           .histograms = read_blocks(root.group("histograms")),
-          .other_profiles_by = root.attribute<std::int64_t>("format_version") == format_version
-                                   ? ""
-                                   : root.text_attribute("riesel_version")};
+          .other_records_by = root.attribute<std::int64_t>("format_version") == format_version
+                                  ? ""
+                                  : root.text_attribute("riesel_version")};
 }
 
 // --- what can be wrong with it ---

@@ -32,8 +32,8 @@ struct Checkpoint {
   double wall_seconds = 0.0;               ///< s, that the run has taken so far
   TimeBlocks profiles = {};                ///< sums for the profiles across the tube, so far
   TimeBlocks histograms = {};              ///< counts of what has ended, see HistogramBlocks
-  /// The version of riesel that wrote it, if its profiles are of other sums.
-  std::string other_profiles_by = {};
+  /// The version of riesel that wrote it, if its series or profiles are of other quantities.
+  std::string other_records_by = {};
 };
 
 /// The name of the checkpoint in the directory of a run.

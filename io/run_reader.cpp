@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -30,6 +31,8 @@ constexpr auto told_of_provenance = {
 constexpr auto told_of_profiles = {"area_fraction", "mean_axial_velocity", "temperature_x",
                                    "temperature_y", "stress_xx",           "stress_xy",
                                    "stress_yy"};
+/// Runs of riesel 0.13 and before lack them.
+constexpr auto told_of_spins = {"mean_spin", "rotational_temperature"};
 
 constexpr auto told_of_histograms = {"grain_contact_duration", "wall_contact_duration",
                                      "grain_contact_overlap", "wall_contact_overlap"};
@@ -125,13 +128,16 @@ std::vector<Series> read_series(const StoredGroup& group) {
 
 Profiles read_profiles(const StoredGroup& group) {
   Profiles profiles{.x = read_numbers(group, "x"), .quantities = {}};
-  for (const char* name : told_of_profiles) {
+  std::vector<std::string> names(told_of_profiles.begin(), told_of_profiles.end());
+  std::ranges::copy_if(told_of_spins, std::back_inserter(names),
+                       [&](const char* name) { return group.has(name); });
+  for (const std::string& name : names) {
     const auto data = group.data(name);
     profiles.quantities.push_back({.column = {.name = name,
                                               .unit = data.text_attribute("unit"),
                                               .doc = data.text_attribute("doc")},
                                    .values = read_numbers(group, name),
-                                   .errors = read_numbers(group, std::string(name) + "_error")});
+                                   .errors = read_numbers(group, name + "_error")});
     const auto& read = profiles.quantities.back();
     require(read.values.size() == profiles.x.size() && read.errors.size() == profiles.x.size(),
             fmt::format("the profile {} has another number of strips than the others", name));
@@ -221,6 +227,14 @@ const Series& RunContents::series_of(const std::string& name) const {
 
 const HistogramWithErrors& RunContents::histogram_of(const std::string& name) const {
   return find(histograms, name, "histogram");
+}
+
+bool Profiles::have_spins() const {
+  const auto found =
+      std::ranges::find(quantities, "rotational_temperature",
+                        [](const ProfileWithErrors& profile) { return profile.column.name; });
+  return found != quantities.end()
+         && std::ranges::any_of(found->values, [](double value) { return value > 0.0; });
 }
 
 const ProfileWithErrors& Profiles::named(const std::string& name) const {

@@ -43,6 +43,8 @@ struct Profiles {
   std::vector<double> x;  ///< m, middles of the strips
   std::vector<ProfileWithErrors> quantities;
 
+  /// Whether grains rotate, and the profiles of their spins are there.
+  bool have_spins() const;
   /// Throws std::out_of_range for a name that is not there.
   const ProfileWithErrors& named(const std::string& name) const;
 };

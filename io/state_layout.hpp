@@ -156,7 +156,9 @@ void for_each_value(AnyTally& tally, Visit visit) {
 
 template <MaybeConst<WallImpulses> AnyTally, class Visit>
 void for_each_value(AnyTally& tally, Visit visit) {
-  auto& [y, work] = tally;
+  auto& [x, y, work] = tally;
+  visit("left_x", x[0]);
+  visit("right_x", x[1]);
   visit("left_y", y[0]);
   visit("right_y", y[1]);
   visit("work", work);

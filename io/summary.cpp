@@ -66,7 +66,10 @@ Json zone(const FlowSummary::Zone& z) {
           {"temperature_x", measured(z.temperature_x)},
           {"temperature_y", measured(z.temperature_y)},
           {"stress_xx", measured(z.stress_xx)},
-          {"stress_yy", measured(z.stress_yy)}};
+          {"stress_yy", measured(z.stress_yy)},
+          {"stress_xy", measured(z.stress_xy)},
+          {"mean_spin", measured(z.mean_spin)},
+          {"rotational_temperature", measured(z.rotational_temperature)}};
 }
 
 Json balance(const FlowSummary::Balance& b) {
@@ -82,6 +85,12 @@ Json braking_force(const FlowSummary::BrakingForce& f) {
   Json json = {{"left", measured(f.left)}};
   if (f.right) json["right"] = measured(*f.right);
   json["weight"] = f.weight;
+  return json;
+}
+
+Json wall_pressure(const FlowSummary::WallPressure& p) {
+  Json json = {{"left", measured(p.left)}};
+  if (p.right) json["right"] = measured(*p.right);
   return json;
 }
 
@@ -141,6 +150,7 @@ std::string to_json(const FlowSummary& s) {
   json["balance"] = balance(s.balance);
   json["grain_contact_rate"] = measured(s.grain_contact_rate);
   json["braking_force"] = braking_force(s.braking_force);
+  json["wall_pressure"] = wall_pressure(s.wall_pressure);
   json["energy"] = {
       {"initial", s.energy.initial},           {"kinetic", s.energy.kinetic},
       {"rotational", s.energy.rotational},     {"elastic", s.energy.elastic},

@@ -82,9 +82,12 @@ struct FlowSummary {
   /// A part of the tube's width, see engine/tube_profiles.hpp.
   struct Zone {
     Measured area_fraction;
-    Measured mean_axial_velocity;           ///< m/s
-    Measured temperature_x, temperature_y;  ///< (m/s)^2
-    Measured stress_xx, stress_yy;          ///< N/m
+    Measured mean_axial_velocity;                       ///< m/s
+    Measured temperature_x, temperature_y;              ///< (m/s)^2
+    Measured stress_xx, stress_yy;                      ///< N/m
+    Measured stress_xy{unknown, unknown};               ///< N/m
+    Measured mean_spin{unknown, unknown};               ///< rad/s
+    Measured rotational_temperature{unknown, unknown};  ///< (m/s)^2
   } core, wall_layers;
 
   /// Eq. (9) of the paper: in a steady state n_dot dv_y = gravity.
@@ -104,6 +107,12 @@ struct FlowSummary {
     std::optional<Measured> right;    ///< N; none for a chute, which has only its bottom
     double weight = unknown;          ///< N, of all grains
   } braking_force;
+
+  /// With which the grains press each wall outwards, per length of the wall.
+  struct WallPressure {
+    Measured left{unknown, unknown};  ///< N/m
+    std::optional<Measured> right;    ///< N/m; none for a chute
+  } wall_pressure;
 
   /// J; totals since the start, except that kinetic, rotational and elastic energy are those at the
   /// end.

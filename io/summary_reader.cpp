@@ -95,13 +95,27 @@ std::array<Measured, density_waves> read_structure_factor(const Json& json) {
   return factor;
 }
 
+/// Not known of flows of earlier versions.
+Measured later_measured(const Json& json, const char* name) {
+  return json.contains(name) ? measured(json.at(name)) : Measured{unknown, unknown};
+}
+
 FlowSummary::Zone read_zone(const Json& json) {
   return {.area_fraction = measured(json.at("area_fraction")),
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
           .temperature_x = measured(json.at("temperature_x")),
           .temperature_y = measured(json.at("temperature_y")),
           .stress_xx = measured(json.at("stress_xx")),
-          .stress_yy = measured(json.at("stress_yy"))};
+          .stress_yy = measured(json.at("stress_yy")),
+          .stress_xy = later_measured(json, "stress_xy"),
+          .mean_spin = later_measured(json, "mean_spin"),
+          .rotational_temperature = later_measured(json, "rotational_temperature")};
+}
+
+FlowSummary::WallPressure read_wall_pressure(const Json& json) {
+  FlowSummary::WallPressure pressure{.left = later_measured(json, "left"), .right = {}};
+  if (json.contains("right")) pressure.right = measured(json.at("right"));
+  return pressure;
 }
 
 /// What `named` finds for the text. Throws std::runtime_error if there is no such `what`.
@@ -174,12 +188,6 @@ ColumnSummary read_column(const Json& json) {
   return summary;
 }
 
-/// Not known of flows of riesel 0.10 and before.
-Measured read_mass_flow_rate(const Json& json) {
-  return json.contains("mass_flow_rate") ? measured(json.at("mass_flow_rate"))
-                                         : Measured{unknown, unknown};
-}
-
 /// Flows of riesel 0.10 and before were judged by one series alone.
 std::optional<JudgedBy> read_held_back_by(const Json& json) {
   const Json series = json.value("held_back_by", Json());
@@ -197,7 +205,7 @@ FlowSummary read_flow(const Json& json) {
           .judged_by = word(json.at("judged_by"), judged_by_named, "judged_by"),
           .held_back_by = read_held_back_by(json),
           .mean_axial_velocity = measured(json.at("mean_axial_velocity")),
-          .mass_flow_rate = read_mass_flow_rate(json),
+          .mass_flow_rate = later_measured(json, "mass_flow_rate"),
           .independent_samples = number(json, "independent_samples"),
           .granular_temperature = number(json, "granular_temperature"),
           .fluctuations = read_fluctuations(json.at("fluctuations")),
@@ -207,6 +215,7 @@ FlowSummary read_flow(const Json& json) {
           .balance = read_balance(json.at("balance")),
           .grain_contact_rate = measured(json.at("grain_contact_rate")),
           .braking_force = read_braking_force(json.at("braking_force")),
+          .wall_pressure = read_wall_pressure(json.value("wall_pressure", Json::object())),
           .energy = read_energy(json.at("energy")),
           .wall_visits = read_wall_visits(json.at("wall_visits")),
           .validity = {.verdict = read_verdict(validity),

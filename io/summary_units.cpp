@@ -12,8 +12,10 @@ struct Unit {
 };
 
 /// For all names that begin like this.
-constexpr std::array<Unit, 3> of_sections = {
-    {{"braking_force.", "N"}, {"energy.", "J"}, {"validity.t_col.", "s"}}};
+constexpr std::array<Unit, 4> of_sections = {{{"braking_force.", "N"},
+                                              {"wall_pressure.", "N/m"},
+                                              {"energy.", "J"},
+                                              {"validity.t_col.", "s"}}};
 
 /// For all names whose last part is this.
 constexpr auto of_values = std::to_array<Unit>({
@@ -47,6 +49,9 @@ constexpr auto of_values = std::to_array<Unit>({
     {"temperature_y", "m^2/s^2"},
     {"stress_xx", "N/m"},
     {"stress_yy", "N/m"},
+    {"stress_xy", "N/m"},
+    {"mean_spin", "rad/s"},
+    {"rotational_temperature", "m^2/s^2"},
 });
 
 }  // namespace

@@ -72,6 +72,7 @@ public:
   void add(const Tally& t) {
     add(t.grains);
     add(t.walls);
+    for (const ExactSum& sum : t.impulses.x) add(sum);
     for (const ExactSum& sum : t.impulses.y) add(sum);
     add(t.impulses.work);
     add(t.brakes);

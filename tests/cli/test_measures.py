@@ -67,6 +67,9 @@ class AfterTheTransient(CommandTest):
             for name, mean in self.said["profiles"][zone].items():
                 values, by_area = self.profiles[name][strips], name == "area_fraction" or name.startswith("stress")
                 expected = np.average(values, weights=None if by_area else weight[strips])
+                if name in ("mean_spin", "rotational_temperature"):  # the grains do not rotate
+                    self.assertEqual((mean["value"], mean["error"], expected), (0.0, 0.0, 0.0))
+                    continue
                 self.assertAlmostEqual(mean["value"] / expected, 1.0, delta=1e-9 if by_area else 0.03, msg=f"{zone} {name}")
 
     def test_energies(self):
@@ -110,6 +113,37 @@ class FromFrames(CommandTest):
         self.assert_seen("mean_spin", self.spin.mean(axis=1))
         self.assert_seen("rotational_energy", 0.5 * (inertia * self.spin**2).sum(axis=1))
         self.assert_seen("rotational_temperature", (inertia / self.mass * self.spin**2).mean(axis=1))
+
+    def test_the_pressure_on_the_walls(self):
+        """The impulses of both change the momentum across, as nothing else does."""
+        summary, s = self.summary(self.out), self.series
+        across = (self.mass * self.v[:, :, 0]).sum(axis=1)
+        both = s["left_wall_impulse_x"] + s["right_wall_impulse_x"]
+        self.assertGreater(s["left_wall_impulse_x"][-1], 2 * abs(across).max())
+        np.testing.assert_allclose(both - both[0], across - across[0], rtol=0.0, atol=1e-2 * abs(across).max())
+        after = s["time"] >= summary["transient_end"] - 1e-12
+        for wall, outwards in (("left", 1.0), ("right", -1.0)):
+            impulse = s[f"{wall}_wall_impulse_x"][after]
+            pressure = outwards * (impulse[-1] - impulse[0]) / np.ptp(s["time"][after]) / self.length
+            self.assertAlmostEqual(summary["wall_pressure"][wall]["value"] / pressure, 1.0, delta=1e-6)
+            self.assertGreater(pressure, summary["wall_pressure"][wall]["error"])
+
+    def test_the_report_shows_spins_where_grains_rotate(self):
+        still = self.run_small_tube("still")
+        for out, shown in ((self.out, True), (still, False)):
+            self.assert_done(self.riesel("report", out))
+            for figure in ("spin", "rotational_temperature"):
+                self.assertEqual((out / f"figures/{figure}.svg").exists(), shown)
+
+    def test_spins_in_the_zones(self):
+        with h5py.File(self.out / "run.h5") as run:
+            profiles = {name: run[f"profiles/{name}"][()] for name in run["profiles"]}
+        core = self.summary(self.out)["profiles"]["core"]
+        left_out = (len(profiles["x"]) + 1) // 4
+        strips = slice(left_out, len(profiles["x"]) - left_out)
+        for name in ("mean_spin", "rotational_temperature"):
+            low, high = profiles[name][strips].min(), profiles[name][strips].max()
+            self.assertTrue(low <= core[name]["value"] <= high and low < high, name)
 
     def test_waves(self):
         for n in range(1, 5):

@@ -35,16 +35,18 @@ class Resume(CommandTest):
                     self.resume_to_end(short, "--set", f"run.duration={duration}")
                 self.assert_same_result(long, short)
 
-    def test_runs_of_riesel_0_12_and_0_13_can_be_started_from_but_not_gone_on_with(self):
-        """Their checkpoints have 15 and 21 sums per strip for the profiles, not 25."""
+    def test_runs_of_riesel_0_12_to_0_14_can_be_started_from_but_not_gone_on_with(self):
+        """Their checkpoints have 15, 21 and 25 sums per strip for the profiles, and no impulses across."""
         new = self.run_small_tube("new", "--set", "run.duration=1 ms")
-        for version, format_version, kept in (("0.12.2", 10, 15), ("0.13.0", 11, 21)):
+        for version, format_version, kept in (("0.12.2", 10, 15), ("0.13.0", 11, 21), ("0.14.0", 12, 25)):
             with self.subTest(version):
                 old = self.copy(new, f"old_{version}")
                 for checkpoint in (old / "checkpoint.h5", old / "checkpoint.h5.previous"):
                     with changed_behind_seal(checkpoint) as file:
                         file.attrs.modify("format_version", format_version)
                         file.attrs.modify("riesel_version", np.bytes_(version))
+                        for name in ("left_x_high", "left_x_low", "right_x_high", "right_x_low"):
+                            del file["tally/impulses"].attrs[name]
                         profiles = file["profiles"]
                         strips = profiles.attrs["columns"] // 25
                         profiles.attrs.modify("columns", kept * strips)
@@ -53,7 +55,7 @@ class Resume(CommandTest):
                         profiles.create_dataset("sums", data=sums, chunks=sums.shape, fletcher32=True)
                 before = bytes_of_files(old)
                 self.assert_refused(self.riesel("resume", old.name, "--set", "run.duration=2 ms"),
-                                    f"{old.name}/checkpoint.h5: has profiles of other sums", f"use riesel {version}", "start.kind")
+                                    f"{old.name}/checkpoint.h5: has records of other quantities", f"use riesel {version}", "start.kind")
                 self.assertEqual(bytes_of_files(old), before)
                 self.write("next.yaml", SMALL_TUBE.replace("start: {random_velocity: 2 m/s}",
                                                            f"start: {{kind: continued, from: {old.name}}}"))

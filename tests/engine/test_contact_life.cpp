@@ -156,6 +156,7 @@ TEST_CASE("the tallies of two threads together are that of one") {
   left.merge(right);
   CHECK((bits_of(left.grains) == bits_of(one.grains)));  // in brackets: not to be printed
   CHECK((bits_of(left.walls) == bits_of(one.walls)));
+  CHECK(left.impulses.x == one.impulses.x);
   CHECK(left.impulses.y == one.impulses.y);
   CHECK(left.impulses.work == one.impulses.work);
   CHECK(left.ended_at_walls.size() == one.ended_at_walls.size());
@@ -173,6 +174,8 @@ TEST_CASE("each wall has given what the log of events says") {
     CAPTURE(wall, o.impulse_y_of_wall[wall]);
     CHECK(std::abs(o.impulse_y_of_wall[wall]) > 0.05 * mass);  // kg m/s: not next to nothing
     CHECK(o.impulse_y_of_wall[wall] == Approx(log.impulse_of_wall(wall).y()).epsilon(1e-6));
+    CHECK(o.impulse_x_of_wall[wall] == Approx(log.impulse_of_wall(wall).x()).epsilon(1e-6));
+    CHECK(o.impulse_x_of_wall[wall] * (wall == 0 ? 1.0 : -1.0) > 0.0);  // walls push inwards
   }
   CHECK(o.impulse_y_of_wall[0] + o.impulse_y_of_wall[1] == Approx(o.wall_impulse_y).epsilon(1e-14));
   ExactSum ended = end.tally.impulses.y[0];

@@ -106,6 +106,8 @@ inline riesel::Tally whole_tally() {
   whole.grains = tally(-2.5);
   whole.walls = tally(1e10 / 3.0);
   whole.impulses.work.add(7e-3 / 3.0);
+  whole.impulses.x[0].add(8e-3 / 3.0);
+  whole.impulses.x[1].add(-9e-3 / 3.0);
   whole.impulses.y[0].add(-4e-3 / 3.0);
   whole.impulses.y[1].add(-5e-3 / 3.0);
   auto& b = whole.brakes;

@@ -47,11 +47,15 @@ FlowSummary special_summary() {
             .temperature_x = {0.7, 0.03},
             .temperature_y = {0.8, std::nan("")},
             .stress_xx = {0.9, 0.04},
-            .stress_yy = {-0.1, 0.05}};
+            .stress_yy = {-0.1, 0.05},
+            .stress_xy = {-0.2, 0.07},
+            .mean_spin = {-0.3, 0.08},
+            .rotational_temperature = {0.4, 0.09}};
   s.wall_layers.area_fraction = {0.2, 0.06};
   s.balance = {.n_dot = {1.1, 0.1}, .dv_y = {1.2, 0.2}, .n_dot_dv_y = {1.3, 0.3}, .gravity = -0.0};
   s.grain_contact_rate = {77.0, 0.7};
   s.braking_force = {.left = {1.4, 0.4}, .right = Measured{1.5, std::nan("")}, .weight = 2.9};
+  s.wall_pressure = {.left = {1.6, 0.5}, .right = Measured{1.7, 0.6}};
   s.energy = {.initial = 1.0 / 9.0,
               .kinetic = 2.1,
               .rotational = 2.6,

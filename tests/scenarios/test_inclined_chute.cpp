@@ -137,6 +137,9 @@ TEST_CASE("a layer at rest on a slope is carried as statics asks, at every heigh
   const double braking =
       (later.impulse_y_of_wall[0] - before.impulse_y_of_wall[0]) / (later.time - before.time);
   CHECK_THAT(-braking, WithinRel(start.state.gravity.y * total_mass(start.state.grains), 0.01));
+  const double pressing =
+      (later.impulse_x_of_wall[0] - before.impulse_x_of_wall[0]) / (later.time - before.time);
+  CHECK_THAT(pressing, WithinRel(-start.state.gravity.x * total_mass(start.state.grains), 0.01));
 }
 
 TEST_CASE("a steep chute flows, and its energy is accounted for") {
