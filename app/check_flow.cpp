@@ -173,6 +173,8 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   print_contacts_of_sizes(flow.model, state.grains, both_fastest);
   line("time step", "{:.4g} s", state.time_step);
   warn_of_time_step(settings);
+  warn_of_impact_speed(flow.model, 0.5 * std::ranges::min(state.grains.mass), both_fastest,
+                       state.time_step);
   print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
   const double of_grains = expected_overlap_ratio(flow.model.normal, grains);
   const double at_wall = expected_overlap_ratio(flow.model.normal, wall);

@@ -14,6 +14,8 @@ namespace riesel::app {
 
 namespace {
 
+constexpr double few_steps = 20.0;  // per collision
+
 /// For a law whose restitution depends on the speed.
 void print_contact_at_speeds(const char* what, const ContactModel& model, double reduced_mass,
                              double speed) {
@@ -69,11 +71,22 @@ void print_slip(const io::Settings& settings, const SlipLaw& slip, double reduce
 
 void warn_of_time_step(const io::Settings& settings) {
   const double steps = settings.number("run.steps_per_collision");
-  if (steps < 20.0)
+  if (steps < few_steps)
     warn(
         "{:.3g} steps per collision are few: errors grow with the square of the step; 50 keep them "
         "below 1e-3",
         steps);
+}
+
+void warn_of_impact_speed(const ContactModel& model, double reduced_mass, double speed,
+                          double time_step) {
+  if (linear_contact(model.normal, reduced_mass, model.attraction)) return;  // same at any speed
+  const double steps =
+      collision_time(model.normal, reduced_mass, speed, model.attraction) / time_step;
+  if (steps < few_steps)
+    warn("at {:.3g} m/s the shortest contacts last only {:.2g} steps: raise contact.impact_speed, "
+         "from which the time step follows, to that speed",
+         speed, steps);
 }
 
 void print_cost_of_curve(const CurveCost& cost, int threads) {

@@ -48,6 +48,11 @@ void print_slip(const io::Settings& settings, const SlipLaw& slip, double reduce
 
 void warn_of_time_step(const io::Settings& settings);
 
+/// Warns if contacts of bodies with this reduced mass (kg), at `speed` (m/s), last few time steps
+/// (s) though run.steps_per_collision is not small: contact.impact_speed was too slow a guess.
+void warn_of_impact_speed(const ContactModel& model, double reduced_mass, double speed,
+                          double time_step);
+
 void print_cost_of_curve(const CurveCost& cost, int threads);
 
 /// Prints the peak memory of this process so far plus `more` bytes.

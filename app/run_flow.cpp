@@ -58,7 +58,8 @@ std::uint64_t identity_of(const io::Settings& settings, const State& start) {
 
 /// What a run that goes on brings from its checkpoint; of a new run, `rows` is 0.
 struct Past {
-  std::string source;  // the user's settings file, verbatim
+  std::string source;          // the user's settings file, verbatim
+  std::string continues = {};  // see io::RunOrigin
   std::uint64_t run = 0;
   std::vector<std::string> warnings = {};
   bool had_other_settings = false;  // such as a shorter duration
@@ -114,7 +115,8 @@ private:
             .threads = threads_,
             .source = past_.source,
             .settings = settings_.effective_yaml(),
-            .run = run_};
+            .run = run_,
+            .continues = past_.continues};
   }
 
   bool goes_on() const { return past_.rows > 0; }
@@ -204,8 +206,16 @@ private:
         || time_limit_.asks_to_save(files_.rows()))
       save();
     progress_.show(static_cast<double>(state.step) / static_cast<double>(schedule_.last_step),
-                   fmt::format("t = {:.4f} s  mean v_y = {:.4f} m/s{}", state.time(),
-                               measurements_.last().mean_vy, precision_so_far_));
+                   fmt::format("t = {:.4f} s  {}{}", state.time(), present(), precision_so_far_));
+  }
+
+  /// The quantity by which the flow is judged, at the last row.
+  std::string present() const {
+    const Observables& now = measurements_.last();
+    const bool by_temperature =
+        judged_by(simulation_.state(), interval()).series == io::JudgedBy::granular_temperature;
+    return by_temperature ? fmt::format("T = {:.4g} m^2/s^2", now.granular_temperature)
+                          : fmt::format("mean v_y = {:.4f} m/s", now.mean_vy);
   }
 
   void add_frame() {
@@ -389,7 +399,8 @@ private:
 int run_flow(const io::Settings& settings, scenarios::Flow flow, RunDirectory directory,
              const Arguments& arguments, const FlowOptions& options) {
   catch_interrupts();
-  const Past nothing{.source = settings.source_text()};
+  const Past nothing{.source = settings.source_text(),
+                     .continues = flow.continues ? flow.continues->identity : ""};
   return FlowRun(settings, flow.model, std::move(flow.state), std::move(directory), arguments,
                  nothing, options)
       .run();

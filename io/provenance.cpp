@@ -73,6 +73,7 @@ void add_origin(Provenance& provenance, const RunOrigin& origin) {
   provenance.emplace_back("seed", std::to_string(origin.seed));
   provenance.emplace_back("source", origin.source);
   provenance.emplace_back("settings", origin.settings);
+  if (!origin.continues.empty()) provenance.emplace_back("continues", origin.continues);
   if (origin.run) provenance.emplace_back(run_key, fmt::format("{:016x}", *origin.run));
 }
 

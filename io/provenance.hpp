@@ -21,6 +21,7 @@ struct RunOrigin {
   std::string source;                     ///< the user's settings file, verbatim
   std::string settings;                   ///< the effective settings, YAML
   std::optional<std::uint64_t> run = {};  ///< see Checkpoint::run; only if the run can be resumed
+  std::string continues = {};             ///< which state of which run it began with, or ""
 };
 
 /// The name of RunOrigin::run in a Provenance, where it has 16 hexadecimal digits.

@@ -22,9 +22,10 @@ namespace {
 
 /// In the order of a report. Texts of whole files (settings, source) are left out.
 constexpr auto told_of_provenance = {
-    "date",         "command",   "threads",      "seed",         "riesel_version",
-    "git_commit",   "git_dirty", "compiler",     "flags",        "build_type",
-    "cpu",          "host",      "slurm_job_id", "hdf5_version", "yaml_cpp_version",
+    "date",         "command",        "continues",    "threads",
+    "seed",         "riesel_version", "git_commit",   "git_dirty",
+    "compiler",     "flags",          "build_type",   "cpu",
+    "host",         "slurm_job_id",   "hdf5_version", "yaml_cpp_version",
     "eigen_version"};
 
 /// The parts of the stress, by what carries them, are left out: the report does not show them.

@@ -83,8 +83,8 @@ SettingsTable normal_force_settings() {
        .unit = "m/s",
        .fallback = "1 m/s",
        .range = positive(),
-       .doc = "Typical impact speed, used to calculate the duration of a contact, which depends on "
-              "the speed under a nonlinear law.",
+       .doc = "Speed of fast impacts: the time step follows from the duration of a contact at this "
+              "speed, which under a nonlinear law is shorter for faster ones.",
        .only_when = nonlinear_law},
       {.key = "contact.attraction",
        .kind = Kind::choice,

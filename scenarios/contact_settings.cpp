@@ -24,7 +24,8 @@ double linear_damping(const io::Settings& settings) {
   if (settings.has("contact.damping")) return settings.number("contact.damping");
   const double restitution = settings.number("contact.restitution");
   if (attraction(settings) == Attraction::clip && restitution <= least_restitution_without_pull)
-    settings.reject("contact.restitution", "contacts that may not pull cannot lose so much",
+    settings.reject("contact.restitution",
+                    "would need more than critical damping, which is not offered",
                     fmt::format("choose it above {:.4g}, or contact.attraction: keep",
                                 least_restitution_without_pull));
   const bool of_grains = settings.text("contact.restitution_of") == "grains";
@@ -58,7 +59,9 @@ SlipLaw slip_law(const io::Settings& settings) {
 }
 
 [[noreturn]] void reject_overdamped(const io::Settings& settings, const LinearContact& contact) {
-  const std::string problem = "so much damping that grains do not rebound";
+  const std::string problem = attraction(settings) == Attraction::clip
+                                  ? "more than critical damping, which is not offered"
+                                  : "so much damping that grains do not rebound";
   if (settings.has("contact.restitution"))
     settings.reject("contact.restitution", problem,
                     settings.text("contact.restitution_of") == "wall"

@@ -2,7 +2,6 @@
 
 #include "engine/encounter.hpp"
 #include "engine/observables.hpp"
-#include "io/checkpoint.hpp"
 #include "io/content_hash.hpp"
 #include "io/file_error.hpp"
 
@@ -136,7 +135,7 @@ void reject_other_box(const io::Settings& settings, const State& earlier, const 
 
 }  // namespace
 
-State earlier_state(const io::Settings& settings, const State& empty) {
+io::Checkpoint earlier_run(const io::Settings& settings, const State& empty) {
   io::Checkpoint checkpoint = checkpoint_of(settings);
   const auto earlier =
       io::Settings::from_text(checkpoint.settings, settings.text(from_key), settings_tables());
@@ -150,7 +149,7 @@ State earlier_state(const io::Settings& settings, const State& empty) {
                                 walls == 1 ? "" : "s", settings.scenario(), empty.walls.size()),
                     "give the checkpoint.h5 that a run of this scenario has written");
   reject_other_box(settings, checkpoint.state, empty);
-  return std::move(checkpoint.state);
+  return checkpoint;
 }
 
 std::vector<double> swings_across(const State& state) {
@@ -159,8 +158,11 @@ std::vector<double> swings_across(const State& state) {
   return swings;
 }
 
-Flow::Earlier to_be_continued(const State& state) {
-  return {.swings_across = swings_across(state),
+Flow::Earlier to_be_continued(const io::Checkpoint& earlier) {
+  const State& state = earlier.state;
+  return {.identity = fmt::format("run {:016x} at t = {} s (step {}), state hash {:016x}",
+                                  earlier.run, state.time(), state.step, state_hash(state)),
+          .swings_across = swings_across(state),
           .elastic_energy = observe(state).energies.elastic,
           .random_energy = energy_of_fluctuations(state)};
 }

@@ -12,6 +12,7 @@
 
 #include "engine/contact_law.hpp"
 #include "engine/state.hpp"
+#include "io/checkpoint.hpp"
 #include "io/settings.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -20,15 +21,15 @@
 
 namespace riesel::scenarios {
 
-/// The last state of the run at `start.from`. Throws io::SettingsError if it cannot be read, if its
-/// scenario, grains or box are not those of the settings, or its walls not those of `empty`.
-State earlier_state(const io::Settings& settings, const State& empty);
+/// The run at `start.from`, with its last state. Throws io::SettingsError if it cannot be read, if
+/// its scenario, grains or box are not those of the settings, or its walls not those of `empty`.
+io::Checkpoint earlier_run(const io::Settings& settings, const State& empty);
 
 /// m, of each wall
 std::vector<double> swings_across(const State& state);
 
-/// What a flow that continues `state` must fit.
-Flow::Earlier to_be_continued(const State& state);
+/// What a flow that continues this run must fit.
+Flow::Earlier to_be_continued(const io::Checkpoint& earlier);
 
 /// Rejects walls of `state` that are shaken across (along x) with other amplitudes (m) than those
 /// of the run to be continued: they would have to jump, perhaps into the grains.

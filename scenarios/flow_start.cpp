@@ -140,14 +140,15 @@ Flow start_from_file(const io::Settings& settings, const ContactModel& model, Ro
 }
 
 Flow continue_run(const io::Settings& settings, const ContactModel& model, Room room) {
-  const State earlier = earlier_state(settings, room.empty);
+  const io::Checkpoint run = earlier_run(settings, room.empty);
+  const State& earlier = run.state;
   room.reject_too_small(settings, 2.0 * std::ranges::max(earlier.grains.radius), room.empty);
   const auto motion = [&](const State& state) {
     return half_a_step_before(earlier, state.time_step);
   };
   const auto fill = [&](State& state) { take_over(earlier, model, state); };
   Flow flow = set_out(settings, model, earlier.grains.mass, std::move(room.empty), motion, fill);
-  flow.continues = to_be_continued(earlier);
+  flow.continues = to_be_continued(run);
   return flow;
 }
 

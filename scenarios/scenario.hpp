@@ -26,6 +26,7 @@ namespace riesel::scenarios {
 struct Flow {
   /// Of the last state of the run that it continues, what its own start must fit.
   struct Earlier {
+    std::string identity;               ///< of the run and its state, for people
     std::vector<double> swings_across;  ///< m, amplitudes along x with which the walls are shaken
     double elastic_energy;              ///< J, of the overlaps under its contact law
     double random_energy;               ///< J, of the motion relative to the mean velocity

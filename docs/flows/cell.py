@@ -9,6 +9,7 @@ fraction, shear rate and temperature. docs/flows.md quotes the table as it is pr
 """
 import argparse
 import pathlib
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -52,8 +53,17 @@ class Core(NamedTuple):
     dissipation: riesel.Estimate
 
 
+def reject_others(settings):
+    """The theory is of smooth equal discs."""
+    others = [key for key, of_theory in (("contact.friction", 0), ("grains.rotation", "none"), ("grains.polydispersity", 0))
+              if settings.get(key) != of_theory]
+    if others:
+        sys.exit(f"the theory is of smooth equal discs: it says nothing where {', '.join(others)} differs")
+
+
 def core_of(run):
     p, settings = run.profiles, run.settings
+    reject_others(settings)
     strips = len(p["x"])
     left_out = (strips + 1) // 4  # on either side, as in summary.json
     core = slice(left_out, strips - left_out)

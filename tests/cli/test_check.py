@@ -59,6 +59,17 @@ class Check(CommandTest):
         text = self.check(hertz, "--set", "contact.stiffness=5e5", "--set", "contact.damping=3000")
         self.assertIn("warning: grain and wall: too much damping, no rebound at", text)
 
+    def test_a_time_step_chosen_for_slower_impacts_is_told(self):
+        hertz = MILD_TUBE.replace("restitution: 0.9", "law: hertz, damping: 3.3, impact_speed: SPEED")
+        for speed, told in (("1 m/s", False), ("1 mm/s", True)):
+            text = self.check(hertz.replace("SPEED", speed), "--set", "contact.stiffness=5e5")
+            self.assertEqual("warning: at " in text and "raise contact.impact_speed" in text, told, text)
+            t_col = plain_number(text, r"grain and grain +t_col = (\S+) s")
+            steps = t_col / plain_number(text, r"time step +(\S+) s")
+            if told:
+                self.assertAlmostEqual(plain_number(text, r"contacts last only (\S+) steps") / steps, 1.0, delta=0.1)
+            self.assertEqual(steps < 20, told)
+
     def test_the_restitution_is_that_of_contacts_that_may_not_pull(self):
         text = self.check(MILD_TUBE, "--set", "contact.attraction=clip")
         self.assertEqual(plain_number(text, r"grain and wall +t_col = .* e_N = (\S+)"), 0.9)

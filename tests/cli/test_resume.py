@@ -7,7 +7,7 @@ import subprocess
 import h5py
 import numpy as np
 
-from riesel_command import SMALL_TUBE, CommandTest, bytes_of_files
+from riesel_command import SMALL_TUBE, CommandTest, bytes_of_files, saved_step
 from seal import changed_behind_seal
 
 
@@ -59,7 +59,12 @@ class Resume(CommandTest):
                 self.assertEqual(bytes_of_files(old), before)
                 self.write("next.yaml", SMALL_TUBE.replace("start: {random_velocity: 2 m/s}",
                                                            f"start: {{kind: continued, from: {old.name}}}"))
-                self.run_to_end("next.yaml", f"next_{version}", "--set", "run.duration=1 ms")
+                later = self.run_to_end("next.yaml", f"next_{version}", "--set", "run.duration=1 ms")
+                with h5py.File(old / "run.h5") as first, h5py.File(later / "run.h5") as second:
+                    self.assertNotIn("continues", first["provenance"])
+                    told = second["provenance/continues"][()].decode()
+                    self.assertIn(f"run {first['provenance/run'][()].decode()} at t = 0.00100", told)
+                    self.assertIn(f"(step {saved_step(old)}), state hash {self.state_hash(old)}", told)
 
     def test_the_time_of_all_lives_of_a_run_counts(self):
         run = self.run_small_tube("run", "--set", "run.duration=100 ms")

@@ -142,6 +142,17 @@ class Terminal(CommandTest):
         self.assertEqual(process.communicate(timeout=PATIENCE)[0], b"")
         self.assertEqual(process.returncode, 130)
 
+    def test_the_line_shows_what_the_flow_is_judged_by(self):
+        self.write("tube.yaml", LONG_TUBE)
+        keyboard, screen = self.open_terminal()
+        process = self.start("run", "tube.yaml", "--out", "out", "--threads", 1, "--set", "tube.tilt=90 degrees",
+                             stderr=screen, text=False)
+        os.close(screen)
+        shown = self.read_until(keyboard, lambda text: text.count(b"\r") >= 3)
+        self.assertRegex(shown, rb"\r +\d+\.\d %  t = \S+ s  T = \S+ m\^2/s\^2  \S+ left")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=PATIENCE)
+
     def test_days_that_are_left_are_told_in_hours(self):
         self.write("tube.yaml", SMALL_TUBE.replace("5 ms", "1e8 s"))
         keyboard, screen = self.open_terminal()

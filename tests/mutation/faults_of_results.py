@@ -42,7 +42,7 @@ FAULTS_OF_RESULTS = [
      "return fs::exists(now) ? now : io::previous_generation(now);", "return now;"),
     ("a point that goes on taken for one that has stopped", "app/prolongation.cpp",
      "if (io::DirectoryLock::is_held(point)) {", "if (false) {"),
-    ("ranges with their rounding noise", "io/sweep_axes.cpp", ": std::stod(fmt::format(\"{:.14g}\", values[i]));", ": values[i];"),
+    ("ranges with their rounding noise", "io/sweep_axes.cpp", ": decimal_value(fmt::format(\"{:.14g}\", values[i])).value_or(values[i]);", ": values[i];"),
     ("a resume that has nothing to do and counts", "app/run_flow.cpp",
      "const bool did_nothing = goes_on() && simulation_.state().step == first_step_;",
      "const bool did_nothing = goes_on() && simulation_.state().step < first_step_;"),

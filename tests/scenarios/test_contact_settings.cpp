@@ -51,7 +51,7 @@ TEST_CASE("the restitution is that of contacts as they are, also if they may not
 TEST_CASE("a restitution that contacts which may not pull cannot have is refused") {
   check_mentions(
       complaint(tube_of_restitution_yaml, {"contact.restitution=0.1", "contact.attraction=clip"}),
-      {"contact.restitution:", "may not pull", "above 0.1353", "contact.attraction: keep"});
+      {"contact.restitution:", "critical damping", "above 0.1353", "contact.attraction: keep"});
 }
 
 TEST_CASE("a law from outside cannot take the name of one of the house") {
@@ -94,6 +94,8 @@ TEST_CASE("a contact so damped that grains do not rebound is refused in every sc
   }
   check_mentions(complaint(tube_yaml, {"contact.damping=1e6"}),
                  {"contact.damping:", "do not rebound", "below"});
+  check_mentions(complaint(tube_yaml, {"contact.damping=1e6", "contact.attraction=clip"}),
+                 {"contact.damping:", "critical damping", "not offered", "below"});
 }
 
 TEST_CASE("each law of the contact is chosen by its name") {

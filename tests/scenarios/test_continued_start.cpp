@@ -245,11 +245,11 @@ TEST_CASE("A continued start is refused by its state where no setting tells the 
   const io::Settings settings = io::Settings::from_text(continued_yaml(earlier.directory()), "t",
                                                         scenarios::settings_tables());
   const State fits = flow(yaml).state;
-  CHECK_NOTHROW(scenarios::earlier_state(settings, fits));
+  CHECK_NOTHROW(scenarios::earlier_run(settings, fits));
   const auto refused = [&](auto change) {
     State other = fits;
     change(other);
-    return message_of<io::SettingsError>([&] { scenarios::earlier_state(settings, other); });
+    return message_of<io::SettingsError>([&] { scenarios::earlier_run(settings, other); });
   };
   const std::vector<std::string> mentions{"start.from", "another box or between other walls"};
   check_mentions(refused([](State& s) { s.box.width *= 1.001; }), mentions);
