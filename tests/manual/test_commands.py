@@ -11,7 +11,7 @@ KEPT = "bench/results/intel-xeon-2-cores-4bc4f3a.json"
 # for its help. The first one that fits. What is left of a command is as it stands, so that its options are tried:
 # `speed` looks at them, and at a case and a size, before it lists its cases or shows its help.
 SHORTER = [
-    (r"\./setup\.sh (\w+)", r"./setup.sh help | grep '^  \1 '"),
+    (r"\./setup\.sh (\w+)(?: .*)?", r"./setup.sh help | grep '^  \1 '"),
     (r"docs/paper/reproduce\.sh (\w+)", r"docs/paper/reproduce.sh --help 2>&1 | grep '^  \1 '"),
     (r"(riesel run (?:scenarios/)?periodic_tube\.yaml.*)", r"\1 --set tube.length='10 mm' --set run.duration='0.1 s'"),
     (r"(riesel resume .*)'4 s'", r"\1'0.2 s'"),
