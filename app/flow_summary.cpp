@@ -59,6 +59,7 @@ zones(const TimeBlocks& blocks, const Strips& strips, std::size_t walls, std::in
                                  .stress_xx = measured("stress_xx"),
                                  .stress_yy = measured("stress_yy"),
                                  .stress_xy = measured("stress_xy"),
+                                 .shear_rate = measured("shear_rate"),
                                  .mean_spin = measured("mean_spin"),
                                  .rotational_temperature = measured("rotational_temperature")};
   };

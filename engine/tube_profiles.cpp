@@ -28,10 +28,15 @@ struct LinearTerm {
 /// The blocks of one zone.
 class ZoneBlocks {
 public:
-  ZoneBlocks(const TimeBlocks& blocks, const Zone& zone, std::int64_t first)
-      : blocks_(blocks), zone_(zone), first_(first), size_(means(StripSum::grains).size()) {}
+  ZoneBlocks(const TimeBlocks& blocks, const Strips& strips, const Zone& zone, std::int64_t first)
+      : blocks_(blocks),
+        width_(strips.width),
+        zone_(zone),
+        first_(first),
+        size_(means(StripSum::grains).size()) {}
 
   std::size_t size() const { return size_; }
+  double width_of_strip() const { return width_; }  ///< m
   const Zone& strips() const { return zone_; }
 
   double mean(StripSum sum) const { return mean_of(means(sum)); }
@@ -88,6 +93,7 @@ private:
   }
 
   const TimeBlocks& blocks_;
+  double width_;
   const Zone& zone_;
   std::int64_t first_;
   std::size_t size_;
@@ -170,6 +176,42 @@ std::vector<LinearTerm> random_part(const ZoneBlocks& b, const Moments& moments)
   return terms;
 }
 
+/// 1/s, the slope of w across the zone: of the line of least squares through all its grains. Not
+/// known where few grains were seen, or all in one place.
+Estimate shear_rate(const ZoneBlocks& b) {
+  constexpr double few = 20.0, one_place = 1e-9;
+  // X counts widths of a strip from the middle of strip 0. Means over the blocks:
+  double n = 0.0, sum_x = 0.0, sum_x2 = 0.0, sum_w = 0.0, sum_xw = 0.0, seen = 0.0;
+  for (const std::size_t strip : b.strips()) {
+    const auto i = static_cast<double>(strip);
+    const double of_n = b.mean(StripSum::grains, strip), z = b.mean(StripSum::z, strip),
+                 w = b.mean(StripSum::w, strip);
+    seen += b.seen(strip);
+    n += of_n;
+    sum_w += w;
+    sum_x += i * of_n + z;
+    sum_x2 += i * i * of_n + 2.0 * i * z + b.mean(StripSum::z2, strip);
+    sum_xw += i * w + b.mean(StripSum::zw, strip);
+  }
+  if (seen <= few) return not_known;
+  const double x = sum_x / n, spread = sum_x2 - x * sum_x;
+  if (spread <= one_place * n) return not_known;
+  const double slope = (sum_xw - x * sum_w) / spread, at_0 = sum_w / n - slope * x;
+  // A grain moves the slope by (X - x)(w - at_0 - slope X) / spread.
+  std::vector<LinearTerm> terms;
+  for (const std::size_t strip : b.strips()) {
+    const double i = static_cast<double>(strip) - x;
+    const double to_line = at_0 + slope * static_cast<double>(strip);
+    terms.insert(terms.end(), {{StripSum::zw, 1.0, strip},
+                               {StripSum::w, i, strip},
+                               {StripSum::z2, -slope, strip},
+                               {StripSum::z, -to_line - slope * i, strip},
+                               {StripSum::grains, -i * to_line, strip}});
+  }
+  for (LinearTerm& term : terms) term.derivative /= spread * b.width_of_strip();
+  return b.mean_over_grains(slope / b.width_of_strip(), terms);
+}
+
 /// Mean over the grains of the squares of w about the line in their strip.
 Estimate variance_of_w(const ZoneBlocks& b) { return per_grain(b, random_part(b, of_grains)); }
 
@@ -211,13 +253,15 @@ struct Quantity {
 using B = ZoneBlocks;
 using S = StripSum;
 
-constexpr std::array<Quantity, 18> quantities = {{
+constexpr std::array<Quantity, 19> quantities = {{
     {"area_fraction", "1", "Part of the area that grains cover.",
      [](const B& b, double a) { return density(b, a, S::area); }},
     {"density", "kg/m^2", "Mass per area, of the grains with their centre in the strip.",
      [](const B& b, double a) { return density(b, a, S::mass); }},
     {"mean_axial_velocity", "m/s", "Mean axial velocity of the grains, positive downstream.",
      [](const B& b, double) { return per_grain(b, S::vy); }},
+    {"shear_rate", "1/s", "Slope of the mean axial velocity, d v_y / dx.",
+     [](const B& b, double) { return shear_rate(b); }},
     {"temperature_x", "m^2/s^2",
      "Mean square of v_x of the grains about the mean of all at that moment.",
      [](const B& b, double) { return per_grain(b, S::u2); }},
@@ -280,7 +324,7 @@ std::vector<TubeProfile> tube_profiles(const TimeBlocks& blocks, const Strips& s
   for (const Quantity& q : quantities) {
     TubeProfile profile{.name = q.name, .unit = q.unit, .meaning = q.meaning, .zones = {}};
     for (const Zone& zone : zones) {
-      const ZoneBlocks of_zone(blocks, zone, first);
+      const ZoneBlocks of_zone(blocks, strips, zone, first);
       const double area = strips.area() * static_cast<double>(zone.size());
       profile.zones.push_back(of_zone.size() > 0 ? q.of(of_zone, area) : not_known);
     }

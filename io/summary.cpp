@@ -68,6 +68,7 @@ Json zone(const FlowSummary::Zone& z) {
           {"stress_xx", measured(z.stress_xx)},
           {"stress_yy", measured(z.stress_yy)},
           {"stress_xy", measured(z.stress_xy)},
+          {"shear_rate", measured(z.shear_rate)},
           {"mean_spin", measured(z.mean_spin)},
           {"rotational_temperature", measured(z.rotational_temperature)}};
 }

@@ -86,6 +86,7 @@ struct FlowSummary {
     Measured temperature_x, temperature_y;              ///< (m/s)^2
     Measured stress_xx, stress_yy;                      ///< N/m
     Measured stress_xy{unknown, unknown};               ///< N/m
+    Measured shear_rate{unknown, unknown};              ///< 1/s
     Measured mean_spin{unknown, unknown};               ///< rad/s
     Measured rotational_temperature{unknown, unknown};  ///< (m/s)^2
   } core, wall_layers;

@@ -108,6 +108,7 @@ FlowSummary::Zone read_zone(const Json& json) {
           .stress_xx = measured(json.at("stress_xx")),
           .stress_yy = measured(json.at("stress_yy")),
           .stress_xy = later_measured(json, "stress_xy"),
+          .shear_rate = later_measured(json, "shear_rate"),
           .mean_spin = later_measured(json, "mean_spin"),
           .rotational_temperature = later_measured(json, "rotational_temperature")};
 }

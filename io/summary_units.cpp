@@ -50,6 +50,7 @@ constexpr auto of_values = std::to_array<Unit>({
     {"stress_xx", "N/m"},
     {"stress_yy", "N/m"},
     {"stress_xy", "N/m"},
+    {"shear_rate", "1/s"},
     {"mean_spin", "rad/s"},
     {"rotational_temperature", "m^2/s^2"},
 });

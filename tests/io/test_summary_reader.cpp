@@ -49,6 +49,7 @@ FlowSummary special_summary() {
             .stress_xx = {0.9, 0.04},
             .stress_yy = {-0.1, 0.05},
             .stress_xy = {-0.2, 0.07},
+            .shear_rate = {-0.5, 0.11},
             .mean_spin = {-0.3, 0.08},
             .rotational_temperature = {0.4, 0.09}};
   s.wall_layers.area_fraction = {0.2, 0.06};
