@@ -1,5 +1,7 @@
 #include "app/report_panels.hpp"
 
+#include "io/plot.hpp"
+
 #include <algorithm>
 #include <numeric>
 

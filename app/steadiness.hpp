@@ -7,6 +7,7 @@
 #include "io/summary.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace riesel::app {
@@ -26,8 +27,8 @@ Judged judged_by(const State& state, double interval);
 class Steadiness {
 public:
   /// `record` must outlive this. `relative_error`: of the judged mean, if the run asks for one.
-  Steadiness(const io::RunFile& record, const Judged& by, std::optional<double> relative_error)
-      : record_(&record), by_(by), relative_error_(relative_error) {}
+  Steadiness(const io::RunFile& record, Judged by, std::optional<double> relative_error)
+      : record_(&record), by_(std::move(by)), relative_error_(relative_error) {}
 
   SteadyState state() const;
 
