@@ -45,9 +45,9 @@ inline constexpr auto checkpoint_name = "checkpoint.h5";
 /// is not replaced by one that read_checkpoint() would refuse. Throws Hdf5Error if memory runs out.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// Reads a checkpoint and checks all of it. Grains are in the order of their ids. The profiles of
-/// one by riesel 0.12 or before are of other sums: another run may start from it, but its own
-/// cannot go on. Throws FileError if the file is missing, damaged, of another version of the
+/// Reads a checkpoint and checks all of it. Grains are in the order of their ids. The series or
+/// profiles of one by riesel 0.14 or before are of other quantities: another run may start from it,
+/// but its own cannot go on. Throws FileError if the file is missing, damaged, of another version of the
 /// format, or holds what no run can have left.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
