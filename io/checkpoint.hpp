@@ -47,8 +47,8 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 
 /// Reads a checkpoint and checks all of it. Grains are in the order of their ids. The series or
 /// profiles of one by riesel 0.14 or before are of other quantities: another run may start from it,
-/// but its own cannot go on. Throws FileError if the file is missing, damaged, of another version of the
-/// format, or holds what no run can have left.
+/// but its own cannot go on. Throws FileError if the file is missing, damaged, of another version
+/// of the format, or holds what no run can have left.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 struct FoundCheckpoint {
