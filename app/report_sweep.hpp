@@ -33,7 +33,7 @@ struct SweepRecord {
   std::string sweep_file;            ///< its text
 };
 
-/// Equal records give equal reports, byte by byte.
+/// Equal records give equal reports, byte by byte. At least one result must have a summary.
 Report make_report(const SweepRecord& record);
 
 }  // namespace riesel::app
