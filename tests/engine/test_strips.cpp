@@ -265,6 +265,7 @@ TEST_CASE("spins of tiny grains are summed up beyond the range of exact sums") {
   State state = empty_box(10e-3, 20e-3);
   state.time_step = 1e-12;
   for (const double y : {5e-3, 10e-3}) add_grain(state, grain(5e-3, y, 0.0, 0.0));
+  state.grains.radius = {1e-8, 1e-8};  // m
   state.grains.inertia = disc;
   state.grains.resize(2);
   constexpr double spin = 1.2e11;  // rad/s; an ExactSum holds 1.37e11
