@@ -148,9 +148,12 @@ struct Line {
   double at_middle = 0.0, slope = 0.0;
 };
 
+/// So few grains seen, or places of so little variance (in squared widths of a strip), have no
+/// line.
+constexpr double few = 20.0, one_place = 1e-9;
+
 /// The line of least squares. Level where few grains were seen, or all in one place.
 Line line_through(const ZoneBlocks& b, const Moments& moments, std::size_t strip) {
-  constexpr double few = 20.0, one_place = 1e-9;
   const double weight = b.mean(moments.one, strip);
   if (weight == 0.0) return {};
   const double z = b.mean(moments.z, strip) / weight, w = b.mean(moments.w, strip) / weight;
@@ -179,7 +182,6 @@ std::vector<LinearTerm> random_part(const ZoneBlocks& b, const Moments& moments)
 /// 1/s, the slope of w across the zone: of the line of least squares through all its grains. Not
 /// known where few grains were seen, or all in one place.
 Estimate shear_rate(const ZoneBlocks& b) {
-  constexpr double few = 20.0, one_place = 1e-9;
   // X counts widths of a strip from the middle of strip 0. Means over the blocks:
   double n = 0.0, sum_x = 0.0, sum_x2 = 0.0, sum_w = 0.0, sum_xw = 0.0, seen = 0.0;
   for (const std::size_t strip : b.strips()) {

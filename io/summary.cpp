@@ -82,16 +82,15 @@ Json balance(const FlowSummary::Balance& b) {
            {{"n_dot", b.n_dot.error}, {"dv_y", b.dv_y.error}, {"n_dot_dv_y", b.n_dot_dv_y.error}}}};
 }
 
-Json braking_force(const FlowSummary::BrakingForce& f) {
-  Json json = {{"left", measured(f.left)}};
-  if (f.right) json["right"] = measured(*f.right);
-  json["weight"] = f.weight;
+Json by_wall(const Measured& left, const std::optional<Measured>& right) {
+  Json json = {{"left", measured(left)}};
+  if (right) json["right"] = measured(*right);
   return json;
 }
 
-Json wall_pressure(const FlowSummary::WallPressure& p) {
-  Json json = {{"left", measured(p.left)}};
-  if (p.right) json["right"] = measured(*p.right);
+Json braking_force(const FlowSummary::BrakingForce& f) {
+  Json json = by_wall(f.left, f.right);
+  json["weight"] = f.weight;
   return json;
 }
 
@@ -151,7 +150,7 @@ std::string to_json(const FlowSummary& s) {
   json["balance"] = balance(s.balance);
   json["grain_contact_rate"] = measured(s.grain_contact_rate);
   json["braking_force"] = braking_force(s.braking_force);
-  json["wall_pressure"] = wall_pressure(s.wall_pressure);
+  json["wall_pressure"] = by_wall(s.wall_pressure.left, s.wall_pressure.right);
   json["energy"] = {
       {"initial", s.energy.initial},           {"kinetic", s.energy.kinetic},
       {"rotational", s.energy.rotational},     {"elastic", s.energy.elastic},

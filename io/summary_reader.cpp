@@ -47,11 +47,16 @@ FlowSummary::Balance read_balance(const Json& json) {
           .gravity = number(json, "gravity")};
 }
 
+/// Of what is told of each wall; nothing if there is no right one.
+std::optional<Measured> of_right_wall(const Json& json) {
+  if (!json.contains("right")) return std::nullopt;
+  return measured(json.at("right"));
+}
+
 FlowSummary::BrakingForce read_braking_force(const Json& json) {
-  FlowSummary::BrakingForce force{
-      .left = measured(json.at("left")), .right = {}, .weight = number(json, "weight")};
-  if (json.contains("right")) force.right = measured(json.at("right"));
-  return force;
+  return {.left = measured(json.at("left")),
+          .right = of_right_wall(json),
+          .weight = number(json, "weight")};
 }
 
 FlowSummary::Energy read_energy(const Json& json) {
@@ -114,9 +119,7 @@ FlowSummary::Zone read_zone(const Json& json) {
 }
 
 FlowSummary::WallPressure read_wall_pressure(const Json& json) {
-  FlowSummary::WallPressure pressure{.left = later_measured(json, "left"), .right = {}};
-  if (json.contains("right")) pressure.right = measured(json.at("right"));
-  return pressure;
+  return {.left = later_measured(json, "left"), .right = of_right_wall(json)};
 }
 
 /// What `named` finds for the text. Throws std::runtime_error if there is no such `what`.

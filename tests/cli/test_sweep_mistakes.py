@@ -67,9 +67,8 @@ class Mistakes(SweepTest):
         """The lists of its points are in the manifest."""
         self.write("impacts.yaml", (SHIPPED / "single_wall_grain.yaml").read_text(encoding="utf-8"))
         velocities = ", ".join(f"{1 + i / 1000:.3f}" for i in range(700))
-        sweep = (f"base: impacts.yaml\naxes:\n  impact.axial_velocity: [[{velocities}]]\n"
-                 "  contact.friction: {from: 0.1, to: 0.5, points: POINTS, spacing: linear}\n")
-        self.write("sweep.yaml", sweep.replace("POINTS", "4000"))
+        self.write("sweep.yaml", f"base: impacts.yaml\naxes:\n  impact.axial_velocity: [[{velocities}]]\n"
+                                 "  contact.friction: {from: 0.1, to: 0.5, points: 4000, spacing: linear}\n")
         before = bytes_of_files(self.home)
         self.assert_refused(self.riesel("sweep", "sweep.yaml", "--prepare"), "sweep.yaml: axes:",
                             "4000 points", "MB", "split the sweep")
