@@ -95,7 +95,8 @@ void print_trajectory(const TrajectorySize& size) {
          io::trajectory_index_name);
 }
 
-/// The restitution depends on the mass. Prints nothing if all grains are about equally heavy.
+/// Contacts of heavier grains last longer, and under most laws lose another part of the energy.
+/// Prints nothing if all grains are about equally heavy.
 void print_contacts_of_sizes(const ContactModel& model, const Grains& grains, double speed) {
   const auto [lightest, heaviest] = std::ranges::minmax(grains.mass);
   constexpr double alike = 1.5;
@@ -178,7 +179,8 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
   const double of_grains = expected_overlap_ratio(flow.model.normal, grains);
   const double at_wall = expected_overlap_ratio(flow.model.normal, wall);
-  warn_of_overlap(std::max(of_grains, at_wall), of_grains > at_wall ? grains.speed : wall.speed);
+  warn_of_overlap(flow.model.normal, std::max(of_grains, at_wall),
+                  of_grains > at_wall ? grains.speed : wall.speed);
 }
 
 /// `across`: m/s, the typical velocity towards a wall. If grains start at rest in that direction,

@@ -33,6 +33,7 @@ void check_impacts(const io::Settings& settings, const scenarios::ImpactCurve& c
   const double smaller = std::min(setup.grain_radius, setup.wall_grain_radius);
   if (fastest_normal > 0.0)
     warn_of_overlap(
+        setup.model.normal,
         expected_overlap_ratio(setup.model.normal, {setup.grain_mass, fastest_normal, smaller}),
         fastest_normal);
   const double path = setup.single_wall_grain()

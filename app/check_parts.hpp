@@ -39,7 +39,7 @@ double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& cont
 
 /// Prints the largest such ratio and the speed (m/s) of its impact, with a warning if it is too
 /// large.
-void warn_of_overlap(double ratio, double speed);
+void warn_of_overlap(const NormalLaw& normal, double ratio, double speed);
 
 /// Prints half a period of the tangential spring between bodies of this reduced mass (kg), and
 /// warns if the tangential damping is too strong for `time_step` (s).

@@ -117,11 +117,23 @@ io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& st
   return b;
 }
 
-io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state) {
-  io::FlowSummary::BrakingForce force{.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
+/// The force of each wall is half the sum of both plus or minus half their difference. The sum is
+/// known better than its parts: see balanced(). `of_sum`: N, the error of the sum.
+io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state,
+                                            double of_sum) {
+  constexpr auto of_left = "left_wall_impulse_y", of_right = "right_wall_impulse_y";
+  io::FlowSummary::BrakingForce force{.left = scaled(series.rate(of_left), -1.0),
                                       .right = {},
                                       .weight = total_mass(state.grains) * state.gravity.y};
-  if (state.walls.size() > 1) force.right = scaled(series.rate("right_wall_impulse_y"), -1.0);
+  if (state.walls.size() == 1) {
+    force.left.error = std::min(force.left.error, of_sum);
+    return force;
+  }
+  force.right = scaled(series.rate(of_right), -1.0);
+  const double of_half =
+      0.5 * std::hypot(of_sum, series.difference_of_rates(of_left, of_right).error);
+  for (io::Measured* each : {&force.left, &*force.right})
+    each->error = std::min(each->error, of_half);
   return force;
 }
 
@@ -251,7 +263,8 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   // Each contact counts for both of its grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
-  s.braking_force = braking_force(series, state);
+  s.braking_force =
+      braking_force(series, state, total_mass(state.grains) * s.balance.n_dot_dv_y.error);
   s.wall_pressure = wall_pressure(series, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.energy = energy_of(state, last.energies);

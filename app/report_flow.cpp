@@ -114,11 +114,17 @@ private:
         "state", figure.svg,
         fmt::format("{} at t = {:.6g} s, coloured by their axial velocity, {}. "
                     "The box is {:.4g} mm wide and {:.4g} mm long. Grey: wall grains. Red lines: "
-                    "contacts, from centre to centre.{} The slowest "
+                    "contacts, from centre to centre{}.{} The slowest "
                     "and the fastest hundredth of all grains may lie beyond the ends of the "
                     "colour bar and have their colours.",
                     shown, state.time, what_axes_mean(), 1e3 * state.box.width,
-                    1e3 * state.box.length, cut));
+                    1e3 * state.box.length, what_thickness_means(figure), cut));
+  }
+
+  static std::string what_thickness_means(const StateFigure& figure) {
+    if (figure.largest_force == 0.0) return "";
+    return fmt::format(", as thick as their forces are large, up to {:.4g} N",
+                       figure.largest_force);
   }
 
   std::string what_axes_mean() const {

@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "app/series.hpp"
+#include "engine/present_forces.hpp"
 
 #include <utility>
 
@@ -41,9 +42,9 @@ void RunFiles::add_frame(const State& state) {
   if (trajectory_) trajectory_->append(state);
 }
 
-void RunFiles::flush(const State& state) {
+void RunFiles::flush(const State& state, const ContactModel& model) {
   directory_.require_in_place();
-  record_.write_final_state(state);
+  record_.write_final_state(state, present_forces(state, model));
   record_.flush();
   if (trajectory_) trajectory_->commit();
 }

@@ -30,9 +30,9 @@ public:
   /// Does nothing if there is no trajectory.
   void add_frame(const State& state);
 
-  /// Writes all rows and frames to disk, and `state` as the final state. To be called before each
-  /// checkpoint, which records how many rows there are.
-  void flush(const State& state);
+  /// Writes all rows and frames to disk, and `state` as the final state, with the forces of its
+  /// contacts. To be called before each checkpoint, which records how many rows there are.
+  void flush(const State& state, const ContactModel& model);
 
 private:
   RunDirectory directory_;

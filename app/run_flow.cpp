@@ -278,7 +278,7 @@ private:
   /// Series and trajectory first, as the checkpoint records how many rows and frames there are.
   void save() {
     const auto start = Clock::now();
-    files_.flush(simulation_.state());
+    files_.flush(simulation_.state(), simulation_.model());
     write_checkpoint();
     last_checkpoint_ = Clock::now();
     times_.output += seconds_since(start);
@@ -364,7 +364,7 @@ private:
     progress_.finish();
     tell("riesel: the run failed: {}\n", failure.what());  // the last message: a sweep keeps it
     try {
-      files_.flush(simulation_.state());
+      files_.flush(simulation_.state(), simulation_.model());
       const auto post_mortem = files_.directory().file(post_mortem_name);
       io::write_checkpoint(post_mortem, checkpoint());
       tell("the state of that moment is in {}{}\n", post_mortem.string(), way_on);

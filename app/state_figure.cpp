@@ -22,6 +22,7 @@ constexpr double room_below = 64.0;                                    // px, fo
 constexpr double largest_grain = 40.0, smallest_grain = 5.0;           // px, diameter
 constexpr double most_grains = 20000.0;                                // a page of a few MB
 constexpr std::size_t most_columns = 24;
+constexpr double thickest = 6.0, thinnest = 0.5, unknown_thickness = 1.5;  // px, of contacts
 
 /// The distance (m) by which bodies can reach out of the box.
 double margin_of(const io::FinalState& state) {
@@ -114,12 +115,21 @@ io::Interval velocity_range(const io::FinalState& state) {
   return range.high - range.low > narrowest ? range : io::range_of(velocities);
 }
 
+/// N; 0 if there is none.
+double largest_finite(const std::vector<double>& forces) {
+  double largest = 0.0;
+  for (const double force : forces)
+    if (std::isfinite(force)) largest = std::max(largest, force);
+  return largest;
+}
+
 class Drawing {
 public:
   explicit Drawing(const io::FinalState& state)
       : state_(&state),
         layout_(state),
         velocities_(velocity_range(state)),
+        largest_force_(largest_finite(state.forces)),
         svg_(std::max(layout_.width(), 420.0), layout_.height() + room_below,
              fmt::format("The grains at t = {:.6g} s, coloured by their axial velocity",
                          state.time)) {
@@ -133,7 +143,8 @@ public:
     return {.svg = std::move(svg_),
             .columns = layout_.columns(),
             .length_shown = std::min(layout_.length_shown(), state_->box.length),
-            .grains_drawn = grains_drawn_};
+            .grains_drawn = grains_drawn_,
+            .largest_force = largest_force_};
   }
 
 private:
@@ -177,17 +188,26 @@ private:
 
   /// From centre to centre.
   void draw_contacts() {
-    svg_.begin_group("contacts", {.stroke = "#d01c1c", .stroke_width = 1.5});
-    for (const Contact& contact : state_->contacts) {
-      const Grain& grain = state_->grains[static_cast<std::size_t>(contact.name.grain)];
+    svg_.begin_group("contacts", {.stroke = "#d01c1c"});
+    for (std::size_t i = 0; i < state_->contacts.size(); ++i) {
+      const ContactName& name = state_->contacts[i].name;
+      const Grain& grain = state_->grains[static_cast<std::size_t>(name.grain)];
       const auto column = layout_.column_of(grain.y);
       if (!column) continue;
-      const auto [x, y] = place_of_partner(contact.name);
+      const auto [x, y] = place_of_partner(name);
       const double along = std::remainder(y - grain.y, state_->box.length);
       svg_.line(layout_.place(*column, grain.x, grain.y),
-                layout_.place(*column, x, grain.y + along));
+                layout_.place(*column, x, grain.y + along), {.stroke_width = thickness(i)});
     }
     svg_.end_group();
+  }
+
+  /// px, of a contact, proportional to its force.
+  double thickness(std::size_t contact) const {
+    if (state_->forces.empty()) return unknown_thickness;
+    const double force = state_->forces[contact];
+    if (!std::isfinite(force)) return thickest;
+    return largest_force_ > 0.0 ? std::max(thinnest, thickest * force / largest_force_) : thinnest;
   }
 
   /// m
@@ -226,6 +246,7 @@ private:
   const io::FinalState* state_;
   Layout layout_;
   io::Interval velocities_;
+  double largest_force_;  // N
   io::Svg svg_;
   std::size_t grains_drawn_ = 0;
 };

@@ -1,4 +1,5 @@
-// The state of a flow, drawn: grains coloured by their axial velocity, wall grains, contacts.
+// The state of a flow, drawn: grains coloured by their axial velocity, wall grains, contacts as
+// lines as thick as their forces are large.
 #pragma once
 
 #include "io/run_reader.hpp"
@@ -13,6 +14,7 @@ struct StateFigure {
   std::size_t columns;       ///< pieces into which the tube is cut, drawn side by side
   double length_shown;       ///< m, from y = 0 on
   std::size_t grains_drawn;  ///< each once: those with y < length_shown
+  double largest_force;      ///< N, of the contact with the thickest line; 0: there is no such
 };
 
 /// y, along the walls, points down. A long tube is cut into the columns that fill the figure best;

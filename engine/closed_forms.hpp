@@ -31,7 +31,7 @@ struct LinearContact {
   double restitution() const;
 };
 
-/// The contact of two bodies under the linear law; nothing under another one.
+/// The contact of two bodies under a linear law, whatever its damping; nothing under another one.
 std::optional<LinearContact> linear_contact(const NormalLaw& normal, double reduced_mass,
                                             Attraction attraction = Attraction::keep);
 
@@ -55,7 +55,7 @@ double elastic_collision_time(const ElasticLine& line, double reduced_mass, doub
 /// m, largest overlap of the same contact: an upper bound for a damped one.
 double elastic_max_overlap(const ElasticLine& line, double reduced_mass, double speed);
 
-/// s, duration of a head-on contact under `normal`: LinearContact::collision_time() for the linear
+/// s, duration of a head-on contact under `normal`: LinearContact::collision_time() for a linear
 /// law, else that without damping. Throws std::domain_error for a linear contact that does not
 /// rebound.
 double collision_time(const NormalLaw& normal, double reduced_mass, double speed,

@@ -27,15 +27,31 @@
 
 namespace riesel {
 
-/// Eq. (1): F_N = k_N xi + gamma_N m_red d(xi)/dt.
-struct LinearLaw {
-  double k_n;      ///< N/m
-  double gamma_n;  ///< 1/s
+/// The elastic part of both linear laws.
+struct LinearSpring {
+  double k_n;  ///< N/m
 
   double elastic(double xi) const { return k_n * xi; }
-  double damping(double, double rate, double m_red) const { return gamma_n * m_red * rate; }
   double stored_energy(double xi) const { return 0.5 * k_n * xi * xi; }
   ElasticLine elastic_line() const { return {k_n, 1.0}; }
+};
+
+/// Eq. (1): F_N = k_N xi + gamma_N m_red d(xi)/dt.
+struct LinearLaw : LinearSpring {
+  double gamma_n;  ///< 1/s
+
+  double damping(double, double rate, double m_red) const { return gamma_n * m_red * rate; }
+};
+
+/// Eq. (1) with gamma_N proportional to m_red^(-1/2). As e_N depends on gamma_N^2 m_red / k_N, all
+/// pairs have the same, whatever their masses.
+struct EqualRestitutionLaw : LinearSpring {
+  double gamma_root_mass;  ///< kg^(1/2)/s, gamma_N m_red^(1/2)
+
+  double gamma_n(double m_red) const { return gamma_root_mass / std::sqrt(m_red); }
+  double damping(double, double rate, double m_red) const {
+    return gamma_root_mass * std::sqrt(m_red) * rate;
+  }
 };
 
 /// Eq. (3): F_N = k xi^alpha + gamma xi^beta (d(xi)/dt)^g, odd in the rate.
@@ -64,7 +80,8 @@ struct HertzKuwabaraKonoLaw {
   ElasticLine elastic_line() const { return {k, 1.5}; }
 };
 
-using NormalLaw = std::variant<LinearLaw, PowerLaw, HertzKuwabaraKonoLaw, OuterLaw>;
+using NormalLaw =
+    std::variant<LinearLaw, EqualRestitutionLaw, PowerLaw, HertzKuwabaraKonoLaw, OuterLaw>;
 
 /// What a slip law knows of a contact. The slip is the velocity of the surface of the first body
 /// relative to that of the second, along s (Contact).

@@ -98,6 +98,13 @@ void write_grains(Hdf5Group& group, const State& state) {
   if (state.grains.rotate()) write_column<double>(group, "spin", "rad/s", spin);
 }
 
+void write_forces(Hdf5Group& contacts, std::span<const PresentForce> forces) {
+  std::vector<double> pairs;
+  for (const PresentForce& force : forces) pairs.insert(pairs.end(), {force.fx, force.fy});
+  write_column<double>(contacts, "force", "N", pairs, 2)
+      .set_attribute("doc", "On the grain that names the contact, friction included.");
+}
+
 void write_window(Hdf5Group& group, const Window& window) {
   group.set_attribute("since", window.since);
   group.set_attribute("state", name(window.state));
@@ -266,7 +273,9 @@ std::int64_t RunFile::rows() const { return contents_->rows(); }
 
 std::vector<double> RunFile::series(std::string_view name) const { return contents_->series(name); }
 
-void RunFile::write_final_state(const State& state) {
+void RunFile::write_final_state(const State& state, std::span<const PresentForce> forces) {
+  if (forces.size() != state.contacts.size())
+    throw std::invalid_argument("a final state needs one force for each contact");
   auto group = replace_group(contents_->root(), "final");
   for_each_scalar(state, [&](const char* name, auto value) { group.set_attribute(name, value); });
   group.set_attribute("time", state.time());
@@ -274,6 +283,7 @@ void RunFile::write_final_state(const State& state) {
   write_walls(group.create_group("walls"), state);
   auto contacts = group.create_group("contacts");
   write_records(contacts, state.contacts);
+  write_forces(contacts, forces);
 }
 
 void RunFile::write_profiles(const Strips& strips, const std::vector<TubeProfile>& profiles,

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "engine/histogram_blocks.hpp"
+#include "engine/present_forces.hpp"
 #include "engine/state.hpp"
 #include "engine/steady_state.hpp"
 #include "engine/tube_profiles.hpp"
@@ -77,8 +78,9 @@ public:
   std::vector<double> series(std::string_view name) const;
 
   /// Replaces the final state in /final: grains and contacts in SI units, grains in the order of
-  /// their ids, walls.
-  void write_final_state(const State& state);
+  /// their ids, walls. `forces` are those of state.contacts, in their order. Throws
+  /// std::invalid_argument for another number of them.
+  void write_final_state(const State& state, std::span<const PresentForce> forces);
 
   /// Replaces the profiles across the tube in /profiles: `x`, the middles of the strips, and for
   /// each profile NAME and NAME_error, a value per strip.

@@ -49,7 +49,7 @@ std::vector<double> read_pairs(const StoredGroup& group, const std::string& name
                                std::size_t rows) {
   const auto data = group.data(name);
   require(data.shape().columns == 2 && data.shape().rows == rows,
-          "the data set " + name + " has another size than the grains");
+          "the data set " + name + " is not as long as the others");
   std::vector<double> values(2 * rows);
   data.read(std::span(values));
   return values;
@@ -70,6 +70,16 @@ std::vector<Grain> read_grains(const StoredGroup& group) {
                       .radius = radius[i],
                       .mass = mass[i]});
   return grains;
+}
+
+/// N, absolute values; empty in files of riesel before 0.16, which have none.
+std::vector<double> read_forces(const StoredGroup& contacts, std::size_t rows) {
+  if (!contacts.has("force")) return {};
+  const auto pairs = read_pairs(contacts, "force", rows);
+  std::vector<double> forces;
+  for (std::size_t i = 0; i < rows; ++i)
+    forces.push_back(std::hypot(pairs[2 * i], pairs[2 * i + 1]));
+  return forces;
 }
 
 bool is_sound(const Grain& grain, const Box& box) {
@@ -107,7 +117,9 @@ FinalState read_final_state(const StoredGroup& group) {
                    .step = group.attribute<std::int64_t>("step"),
                    .grains = read_grains(group),
                    .walls = read_records<WallLattice>(group.group("walls")),
-                   .contacts = read_records<Contact>(group.group("contacts"))};
+                   .contacts = read_records<Contact>(group.group("contacts")),
+                   .forces = {}};
+  state.forces = read_forces(group.group("contacts"), state.contacts.size());
   check(state);
   return state;
 }

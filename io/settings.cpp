@@ -19,7 +19,7 @@ template <typename T>
 const T& value_of(const SettingsContents& contents, const std::string& key) {
   const auto* entry = contents.find(key);
   if (entry == nullptr || !entry->value) {
-    const auto* reason = has_key(contents.table, key) ? "has no value" : "is not in the table";
+    const auto* reason = has_key(*contents.table, key) ? "has no value" : "is not in the table";
     throw std::logic_error(fmt::format("setting {} {}", key, reason));
   }
   const auto* value = std::get_if<T>(&*entry->value);
@@ -28,7 +28,7 @@ const T& value_of(const SettingsContents& contents, const std::string& key) {
 }
 
 void check_key(const SettingsContents& contents, const std::string& key) {
-  if (!has_key(contents.table, key)) {
+  if (!has_key(*contents.table, key)) {
     throw std::logic_error(fmt::format("setting {} is not in the table", key));
   }
 }
@@ -122,7 +122,7 @@ std::string Settings::effective_yaml(const std::function<bool(const Setting&)>& 
 std::vector<std::string> Settings::keys(const std::function<bool(const Setting&)>& wanted) const {
   std::vector<std::string> keys;
   for (const auto& entry : contents_->entries)
-    if (entry.value && wanted(entry.row)) keys.push_back(entry.row.key);
+    if (entry.value && wanted(*entry.row)) keys.push_back(entry.row->key);
   return keys;
 }
 
@@ -131,7 +131,7 @@ std::string Settings::written(const std::string& key) const {
 }
 
 std::string Settings::unit(const std::string& key) const {
-  return has(key) ? contents_->find(key)->row.unit : "";
+  return has(key) ? contents_->find(key)->row->unit : "";
 }
 
 const std::string& Settings::source_text() const { return contents_->source_text; }

@@ -24,6 +24,7 @@ struct SettingsContents;
 struct YamlEntry;
 struct YamlNode;
 
+/// Keeps a reference to the tables that it is read with: they must outlive it and its copies.
 class Settings {
 public:
   /// Reads a file. `overrides` are "key=value" with the value in YAML's flow style; they replace or

@@ -57,9 +57,11 @@ SettingsTable normal_force_settings() {
       {.key = "contact.restitution_of",
        .kind = Kind::choice,
        .fallback = "wall",
-       .choices = {"wall", "grains"},
-       .doc = "The pair to which `contact.restitution` refers: a grain and the `wall`, or two free "
-              "`grains`.",
+       .choices = {"wall", "grains", "all"},
+       .doc = "The pair to which `contact.restitution` refers: a grain of `grains.mass` and the "
+              "`wall`, or two such `grains`; other pairs have another one, as gamma_N is the same "
+              "for all. Or `all` pairs, whatever their masses: then gamma_N is proportional to "
+              "m_red^(-1/2).",
        .only_when = linear_law},
       {.key = "contact.exponent_elastic",
        .unit = "1",

@@ -32,20 +32,20 @@ SettingValue read_default(const Setting& row) {
 
 Entry read_row(const Setting& row, const GivenSettings& given, const SettingsContents& contents) {
   if (const auto entry = given.by_key.find(row.key); entry != given.by_key.end()) {
-    return {row, read_value(row, entry->second.value), entry->second.key_place};
+    return {&row, read_value(row, entry->second.value), entry->second.key_place};
   }
   if (row.required) {
     const auto condition = row.only_when ? fmt::format(", as {}", to_string(*row.only_when)) : "";
     throw SettingsError(contents.place_of(row.key), row.key, "is missing" + condition,
                         fmt::format("give {}", expectation(row)));
   }
-  if (row.fallback.empty()) return {row, {}, {}};
-  return {row, read_default(row), {}};
+  if (row.fallback.empty()) return {&row, {}, {}};
+  return {&row, read_default(row), {}};
 }
 
 /// Why a row does not apply: the first unmet one of the conditions that it depends on.
 When unmet_condition(const std::string& key, const SettingsContents& contents) {
-  const When& condition = std::ranges::find(contents.table, key, &Setting::key)->only_when.value();
+  const When& condition = std::ranges::find(*contents.table, key, &Setting::key)->only_when.value();
   return contents.find(condition.key) != nullptr ? condition
                                                  : unmet_condition(condition.key, contents);
 }
@@ -107,7 +107,8 @@ private:
 }  // namespace
 
 const Entry* SettingsContents::find(const std::string& key) const {
-  const auto entry = std::ranges::find(entries, key, [](const Entry& e) { return e.row.key; });
+  const auto entry = std::ranges::find(
+      entries, key, [](const Entry& e) -> const std::string& { return e.row->key; });
   return entry == entries.end() ? nullptr : &*entry;
 }
 
@@ -126,10 +127,10 @@ SettingsContents read_settings(const YamlNode& file, const std::string& text,
   Mistakes mistakes;
   const auto given = gather_settings(file, tables, overrides, mistakes);
   SettingsContents contents = {
-      file.place.source, text, tables.at(given.scenario), given.sections, {}};
-  verify_table(contents.table);
+      file.place.source, text, &tables.at(given.scenario), given.sections, {}};
+  verify_table(*contents.table);
   RowReader reader(given, contents, mistakes);
-  for (const auto& row : contents.table) reader.read(row);
+  for (const auto& row : *contents.table) reader.read(row);
   reader.refuse_idle_settings();
   mistakes.throw_if_any();
   return contents;

@@ -17,14 +17,14 @@ namespace riesel::io {
 struct SettingsContents {
   /// A row of the table whose condition holds, and what became of it.
   struct Entry {
-    Setting row;
+    const Setting* row;                 ///< in `table`
     std::optional<SettingValue> value;  ///< given or by default
     std::optional<Place> given_at;      ///< place of the key
   };
 
   std::string source;                     ///< the file's name
   std::string source_text;                ///< verbatim
-  SettingsTable table;                    ///< of the scenario
+  const SettingsTable* table;             ///< of the scenario; points of a sweep share it
   std::map<std::string, Place> sections;  ///< that are present in the file
   std::vector<Entry> entries;             ///< in table order, no key twice
 
@@ -36,7 +36,8 @@ struct SettingsContents {
   Place place_of(const std::string& key) const;
 };
 
-/// `file` is the map that was parsed from `text`. Throws SettingsError.
+/// `file` is the map that was parsed from `text`. `tables` must outlive what is returned. Throws
+/// SettingsError.
 SettingsContents read_settings(const YamlNode& file, const std::string& text,
                                const SettingsTables& tables,
                                const std::vector<YamlEntry>& overrides);

@@ -42,7 +42,7 @@ std::string written(const std::vector<double>& values) {
 }
 
 std::string line(const Entry& entry) {
-  const auto& row = entry.row;
+  const auto& row = *entry.row;
   const bool has_unit = !row.unit.empty() && row.unit != "1";
   return fmt::format("{}: {}{}\n", name_in_section(row.key), io::written(entry),
                      has_unit ? "  # " + row.unit : "");
@@ -55,7 +55,7 @@ std::vector<std::string> lines_of(const SettingsContents& contents, const std::s
                                   const Wanted& wanted) {
   std::vector<std::string> lines;
   for (const auto& entry : contents.entries) {
-    const bool belongs = section_of(entry.row.key) == section && wanted(entry.row);
+    const bool belongs = section_of(entry.row->key) == section && wanted(*entry.row);
     if (belongs && entry.value) lines.push_back(line(entry));
   }
   return lines;
@@ -67,7 +67,7 @@ std::string text_of(const SettingsContents& contents, const std::string& section
   std::string text;
   for (const auto& section_line : lines_of(contents, section, wanted))
     text += indent + section_line;
-  for (const auto& name : names_of(contents.table, section)) {
+  for (const auto& name : names_of(*contents.table, section)) {
     const auto inner = text_of(contents, key_of(section, name), wanted, indent + "  ");
     if (!inner.empty()) text += fmt::format("{}{}:\n{}", indent, name, inner);
   }
@@ -77,14 +77,14 @@ std::string text_of(const SettingsContents& contents, const std::string& section
 }  // namespace
 
 std::string written(const Entry& entry) {
-  if (entry.row.kind == Kind::choice) return std::get<std::string>(*entry.value);
+  if (entry.row->kind == Kind::choice) return std::get<std::string>(*entry.value);
   return std::visit([](const auto& value) { return written(value); }, *entry.value);
 }
 
 std::string effective_yaml(const SettingsContents& contents, const Wanted& wanted) {
   std::string yaml = "# Every setting of the run, defaults included, in SI units.\n";
   for (const auto& top_line : lines_of(contents, "", wanted)) yaml += top_line;
-  for (const auto& section : names_of(contents.table, "")) {
+  for (const auto& section : names_of(*contents.table, "")) {
     const auto text = text_of(contents, section, wanted, "  ");
     if (!text.empty()) yaml += fmt::format("\n{}:\n{}", section, text);
   }

@@ -17,28 +17,44 @@ Attraction attraction(const io::Settings& settings) {
   return settings.text("contact.attraction") == "clip" ? Attraction::clip : Attraction::keep;
 }
 
-/// contact.restitution is that of a grain of `grains.mass` with the wall, as in the paper, unless
-/// `restitution_of` says that it is that of two such grains.
-double linear_damping(const io::Settings& settings) {
-  settings.require_exactly_one({"contact.damping", "contact.restitution"});
-  if (settings.has("contact.damping")) return settings.number("contact.damping");
+constexpr auto restitution_of = "contact.restitution_of";
+
+/// 1/s, the gamma_N that gives contact.restitution to a pair of this reduced mass (kg).
+double damping_from_restitution(const io::Settings& settings, double reduced_mass) {
   const double restitution = settings.number("contact.restitution");
   if (attraction(settings) == Attraction::clip && restitution <= least_restitution_without_pull)
     settings.reject("contact.restitution",
                     "would need more than critical damping, which is not offered",
                     fmt::format("choose it above {:.4g}, or contact.attraction: keep",
                                 least_restitution_without_pull));
-  const bool of_grains = settings.text("contact.restitution_of") == "grains";
-  const double reduced_mass = settings.number("grains.mass") * (of_grains ? 0.5 : 1.0);
   return damping_for_restitution(restitution, settings.number("contact.stiffness"), reduced_mass,
                                  attraction(settings));
+}
+
+/// contact.restitution is that of a grain of `grains.mass` with the wall, as in the paper, unless
+/// `restitution_of` says that it is that of two such grains, or of all pairs.
+NormalLaw linear_law(const io::Settings& settings) {
+  settings.require_exactly_one({"contact.damping", "contact.restitution"});
+  const LinearSpring spring{settings.number("contact.stiffness")};
+  const std::string& pair = settings.text(restitution_of);
+  if (settings.has("contact.damping")) {
+    if (pair == "all")
+      settings.reject(restitution_of, "has no meaning where contact.damping is given",
+                      "remove it, or give contact.restitution instead");
+    return LinearLaw{spring, settings.number("contact.damping")};
+  }
+  const double mass = settings.number("grains.mass");
+  if (pair == "all")
+    return EqualRestitutionLaw{spring, damping_from_restitution(settings, mass) * std::sqrt(mass)};
+  const double reduced_mass = pair == "grains" ? 0.5 * mass : mass;
+  return LinearLaw{spring, damping_from_restitution(settings, reduced_mass)};
 }
 
 NormalLaw normal_law(const io::Settings& settings) {
   const std::string& law = settings.text("contact.law");
   if (const Law* added = added_law(law)) return added->make(settings);
+  if (law == "linear") return linear_law(settings);
   const double stiffness = settings.number("contact.stiffness");
-  if (law == "linear") return LinearLaw{.k_n = stiffness, .gamma_n = linear_damping(settings)};
   const double damping = settings.number("contact.damping");
   if (law == "hertz") return HertzKuwabaraKonoLaw{.k = stiffness, .gamma = damping};
   return PowerLaw{.k = stiffness,
@@ -63,10 +79,11 @@ SlipLaw slip_law(const io::Settings& settings) {
                                   ? "more than critical damping, which is not offered"
                                   : "so much damping that grains do not rebound";
   if (settings.has("contact.restitution"))
-    settings.reject("contact.restitution", problem,
-                    settings.text("contact.restitution_of") == "wall"
-                        ? "choose it larger"
-                        : "choose it larger, or restitution_of: wall, where damping counts most");
+    settings.reject(
+        "contact.restitution", problem,
+        settings.text(restitution_of) == "wall"
+            ? "choose it larger, or restitution_of: all"
+            : "choose it larger, or restitution_of: all, or wall, where damping counts most");
   settings.reject("contact.damping", problem,
                   fmt::format("choose it below {:.4g} 1/s, which is critical for the heaviest pair",
                               2.0 * std::sqrt(contact.k_n / contact.reduced_mass)));

@@ -66,7 +66,8 @@ void write_small_run_file(const fs::path& path) {
   auto file = io::RunFile::create(path, {{"date", "today"}, {"settings", "a: 1"}, {"run", "1f"}},
                                   small_columns);
   for (int i = 0; i < small_rows; ++i) file.append(std::vector{0.1 * i, -1.0});
-  file.write_final_state(state_of_a_small_tube());
+  const State state = state_of_a_small_tube();
+  file.write_final_state(state, std::vector<PresentForce>(state.contacts.size()));
   file.write_profiles({.width = 1e-3, .length = 0.1, .count = 2},
                       profiles_like({.name = {}, .unit = "1", .meaning = "m", .zones = {{}, {}}}),
                       {.since = 0.1, .state = SteadyVerdict::steady});

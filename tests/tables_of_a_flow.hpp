@@ -1,4 +1,4 @@
-// The profiles and histograms that run.h5 must have, for tests that write one.
+// The profiles and histograms that a report asks run.h5 for, for tests that write one.
 #pragma once
 
 #include "engine/histogram_blocks.hpp"

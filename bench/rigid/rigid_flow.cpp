@@ -29,7 +29,8 @@ RigidFlow::RigidFlow(const State& state, const ContactModel& model, double short
       law_(),
       attraction_(model.attraction),
       next_(state.grains.size()) {
-  reject_unless(std::holds_alternative<LinearLaw>(model.normal), "contact.law is not linear");
+  reject_unless(std::holds_alternative<LinearLaw>(model.normal),
+                "contact.law is not linear, or contact.restitution_of is all");
   reject_unless(std::holds_alternative<CappedSlip>(model.slip), "contact.slip is not cap");
   reject_unless(!state.grains.rotate(), "grains rotate");
   reject_unless(state.gravity.x == 0.0, "gravity pulls across the tube");

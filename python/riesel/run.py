@@ -69,8 +69,10 @@ class Histogram:
 
 @dataclass(frozen=True, eq=False)
 class FinalState:
-    """The grains, contacts and walls at one moment: m, m/s, kg. Grains are in the order of their
-    ids; columns of vectors have the shape (grains, 2), x across and y along the tube."""
+    """The grains, contacts and walls at one moment: m, m/s, kg, N. Grains are in the order of their
+    ids; columns of vectors have the shape (grains, 2), x across and y along the tube. A contact is
+    that of `grain` with `partner`, another grain (`wall` is -1) or one of a wall, and `force` is
+    on `grain` (in runs of riesel 0.16 and later)."""
 
     time: float  #: s
     step: int

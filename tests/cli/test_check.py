@@ -135,13 +135,18 @@ class Check(CommandTest):
 
     def test_of_soft_grains_with_the_factor_that_helps(self):
         """From the overlap on at which the verdict on a run says `suspect`."""
-        softer = MILD_TUBE.replace("200 kN/m", "0.2 kN/m")
-        text = self.check(softer)
-        self.assert_warned(text, "overlaps over 0.2 of the radius", "contact.stiffness")
-        factor = plain_number(text, r"by a factor (\S+)")
-        self.assertGreater(factor, 1.0)
-        stiffer = softer.replace("0.2 kN/m", f"{0.2 * 1.05 * factor} kN/m")
-        self.assertNotIn("overlaps over", self.check(stiffer))
+        linear = MILD_TUBE.replace("200 kN/m", "200")
+        hertz = MILD_TUBE.replace("200 kN/m", "1e4").replace("restitution: 0.9", "law: hertz, damping: 0")
+        for tube, stiffness in ((linear, "200"), (hertz, "1e4")):
+            with self.subTest(stiffness):
+                text = self.check(tube)
+                self.assert_warned(text, "overlaps over 0.2 of the radius", "contact.stiffness")
+                factor = plain_number(text, r"by a factor (\S+)")
+                self.assertGreater(factor, 3.0)
+                for part, is_enough in ((0.9, False), (1.05, True)):
+                    text = self.check(tube.replace(f"stiffness: {stiffness}",
+                                                   f"stiffness: {part * factor * float(stiffness)}"))
+                    self.assertEqual("overlaps over" not in text, is_enough)
 
     def test_overlaps_are_relative_to_the_smallest_grain(self):
         settings = MILD_TUBE.replace("{area_fraction: 0.3, polydispersity: 0}", "{}") + (

@@ -102,7 +102,7 @@ class Flows(CommandTest):
         least = math.sqrt(2.0) * np.std(velocity, ddof=1) / (time[-1] - time[after][0])
         error = summary["balance"]["errors"]["n_dot_dv_y"]
         self.assertGreater(error, least)
-        self.assertLess(error, 2.0 * least)
+        self.assertLess(error, 1.5 * least)  # 1.75 if momentum were not balanced
 
     def test_a_chute_has_one_wall(self):
         self.write("chute.yaml", CHUTE)
@@ -196,7 +196,7 @@ class Flows(CommandTest):
                           "start.axial_velocity=1 m/s", "--set", "run.duration=1 s")
         summary = self.summary(out)
         self.assertEqual(summary["judged_by"], "granular_temperature")
-        self.assertNotEqual(summary["state"], "steady")
+        self.assertEqual(summary["state"], "drifting")
 
     def test_a_shear_cell_that_only_gets_hotter_has_no_error_bars(self):
         """Nothing takes out what the walls put in."""

@@ -33,6 +33,15 @@ class GrainFile(CommandTest):
         self.assertEqual(self.summary(out)["grains"], 143)
         self.assert_same_result(out, self.run_to_end(out / "effective.yaml", "again"))
 
+    def test_a_path_is_relative_to_what_gives_it(self):
+        """To the settings file; from the command line to where the command is given."""
+        self.write("grains.csv", GRAINS.splitlines()[0] + "\n5, 5, 0, 0, 1\n")
+        for i, (overrides, grains) in enumerate((((), 143), (("--set", "start.from=grains.csv"), 1),
+                                                 (("--set", "start.from=here/grains.csv"), 143))):
+            with self.subTest(overrides):
+                out = self.run_to_end("here/tube.yaml", f"out{i}", *overrides)
+                self.assertEqual(self.summary(out)["grains"], grains)
+
     def test_it_goes_on_by_resume_and_can_be_continued_by_another_run(self):
         short = self.run_to_end("here/tube.yaml", "short", "--set", "run.duration=2 ms")
         self.assert_done(self.riesel("resume", short, "--set", "run.duration=5 ms"))

@@ -56,10 +56,37 @@ class AfterTheTransient(CommandTest):
             self.assertAlmostEqual(self.rates[histogram] * time / gained, 1.0, delta=1e-9, msg=histogram)
 
     def test_means_of_series(self):
+        self.assertEqual(set(self.said["fluctuations"]), {"sigma_vx", "sigma_vy", "granular_temperature"})
+        self.assertEqual(set(self.said["structure_factor"]), set("1234"))
         for name, mean in self.said["fluctuations"].items():
             self.assertAlmostEqual(mean["value"], self.series[name][self.first:].mean(), msg=name)
         for n, mean in self.said["structure_factor"].items():
             self.assertAlmostEqual(mean["value"], self.series[f"structure_factor_{n}"][self.first:].mean(), msg=n)
+
+    def test_means_and_rates_of_the_summary(self):
+        said, after = self.said, {name: column[self.first:] for name, column in self.series.items()}
+        time, grains = np.ptp(after["time"]), said["grains"]
+        with h5py.File(self.out / "run.h5") as file:
+            mass, length = file["final/mass"][()], file["final"].attrs["box_length"]
+            momentum = (mass * file["final/velocity"][()][:, 1]).sum()
+        gained = {name: column[-1] - column[0] for name, column in after.items()}
+        # Nothing but gravity and the walls changes it. (The run goes on for a step or so after the last row.)
+        momenta = momentum - (mass.sum() * 10.0 * (after["time"][-1] - after["time"])
+                              + after["wall_impulse_y"][-1] - after["wall_impulse_y"])
+        expected = {
+            "mean_axial_velocity": (said["mean_axial_velocity"], after["mean_vy"].mean(), 1e-9),
+            "granular_temperature": (said["granular_temperature"], after["granular_temperature"].mean(), 1e-9),
+            "mass_flow_rate": (said["mass_flow_rate"], momenta.mean() / length, 1e-3),
+            "n_dot": (said["balance"]["n_dot"], gained["wall_contacts"] / time / grains, 1e-6),
+            "n_dot_dv_y": (said["balance"]["n_dot_dv_y"], -gained["wall_impulse_y"] / time / mass.sum(), 1e-6),
+            "grain_contact_rate": (said["grain_contact_rate"], 2.0 * gained["grain_contacts"] / time / grains, 1e-6)}
+        for wall, outwards in (("left", 1.0), ("right", -1.0)):
+            across, along = gained[f"{wall}_wall_impulse_x"], gained[f"{wall}_wall_impulse_y"]
+            expected[f"{wall} braking"] = (said["braking_force"][wall], -along / time, 1e-6)
+            expected[f"{wall} pressure"] = (said["wall_pressure"][wall], outwards * across / time / length, 1e-6)
+        for name, (told, value, tolerance) in expected.items():
+            told = told["value"] if isinstance(told, dict) else told
+            self.assertAlmostEqual(told / value, 1.0, delta=tolerance, msg=name)
 
     def test_the_zones_are_the_strips_of_the_profiles(self):
         weight = self.profiles["density"]  # that of numbers of grains within a hundredth or two
@@ -118,6 +145,11 @@ class FromFrames(CommandTest):
         self.assert_seen("mean_spin", self.spin.mean(axis=1))
         self.assert_seen("rotational_energy", 0.5 * (inertia * self.spin**2).sum(axis=1))
         self.assert_seen("rotational_temperature", (inertia / self.mass * self.spin**2).mean(axis=1))
+
+    def test_the_flow_of_mass(self):
+        momentum = (self.mass * self.v[:, :, 1]).sum(axis=1)
+        told = self.summary(self.out)["mass_flow_rate"]["value"]
+        self.assertAlmostEqual(told / (momentum.mean() / self.length), 1.0, delta=1e-5)
 
     def test_the_pressure_on_the_walls(self):
         """The impulses of both change the momentum across, as nothing else does."""

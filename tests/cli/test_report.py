@@ -80,8 +80,13 @@ class FinishedRun(Report):
             self.assertEqual(self.page.shapes["walls"], int(sum(final["walls/count"])))
             self.assertEqual(self.page.shapes.get("contacts", 0), final["contacts/grain"].shape[0])
             self.assertGreater(final["contacts/grain"].shape[0], 0)
+            force = np.hypot(*final["contacts/force"][()].T)
         discs = self.figure(self.out, "state").findall(f"{SVG}g[@class='grains']/{SVG}circle")
         self.assertEqual(len(discs), self.page.shapes["grains"])
+        lines = self.figure(self.out, "state").findall(f"{SVG}g[@class='contacts']/{SVG}line")
+        np.testing.assert_allclose([float(line.get("stroke-width")) for line in lines],
+                                   np.maximum(0.5, 6.0 * force / force.max()), atol=0.006)
+        self.assertIn(f"up to {force.max():.4g} N", self.page.text)
         self.assertIn(f"All {self.page.shapes['grains']} grains", self.page.text)
 
     def test_the_discs_are_where_the_grains_are(self):

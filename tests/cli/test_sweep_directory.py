@@ -64,11 +64,11 @@ class Directory(SweepTest):
             self.assertEqual((out / "sweep.yaml").read_text(encoding="utf-8"), ONE_POINT)
             self.assertEqual((out / "sweep.yaml.previous").read_text(encoding="utf-8"), notes)
 
-    def test_trajectories_that_are_asked_for_later_change_no_point(self):
+    def test_other_files_that_are_asked_for_later_change_no_point(self):
         branches = "base: tube.yaml\nset: {run.duration: 2 ms}\nbranches: {slow: {start.axial_velocity: 1 m/s%s}, fast: {}}\n"
         out = self.sweep_to_end(branches % "")
         before = bytes_of_files(out / "points")
-        self.sweep_to_end(branches % ", output.trajectory_interval: 1 ms")
+        self.sweep_to_end(branches % ", output.trajectory_interval: 1 ms, output.checkpoint_interval: 3 s")
         self.assertEqual([row["status"] for row in self.rows()], ["done", "done"])
         self.assertEqual(bytes_of_files(out / "points"), before)
 

@@ -322,7 +322,7 @@ axes: {contact.restitution: [0.8]}
         self.assertEqual(process.returncode, DONE)
         self.assertEqual({row["attempts"] for row in self.rows()}, {"2"})
 
-    def test_a_point_in_use_for_ever_is_one(self):
+    def test_a_point_in_use_for_ever_has_failed(self):
         with self.point_of_short_runs_locked(fcntl.LOCK_SH):
             result = self.riesel("sweep", "out", "--set", "run.duration=4 ms")
         self.assertEqual(result.returncode, FAILED)

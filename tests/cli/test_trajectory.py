@@ -255,3 +255,18 @@ class Trajectory(TrajectoryTest):
                 with h5py.File(out / "trajectory.h5") as file:
                     written = len(file["particles/grains/position/value"])
                 self.assertRegex(told, rf"\n  trajectory +{written} frames, 0.\d MB, and 0.\d MB in trajectory.xdmf2\n")
+
+    def test_its_size_is_told_nearly(self):
+        """Without what the file takes to find its frames, and the room for the rest of the last block."""
+        tube = self.write("tube.yaml", TUBE)
+        often = ["--set", "output.trajectory_interval=10 us", "--set", "run.duration=12 ms"]
+        for more in ((), ("--set", "grains.rotation=disc", "--set", "wall.shake_amplitude=0.1 mm", "--set",
+                          "wall.shake_frequency=100")):
+            with self.subTest(more):
+                told = re.search(r"\n  trajectory +\d+ frames, (\S+) MB, and (\S+) MB in trajectory.xdmf2\n",
+                                 self.riesel("check", tube, *often, *more).stdout)
+                out = self.run_to_end(tube, f"out{len(more)}", *often, *more)
+                for size, name in zip(told.groups(), ("trajectory.h5", "trajectory.xdmf2")):
+                    written = (out / name).stat().st_size / 1e6
+                    self.assertGreater(written, 1.0, name)
+                    self.assertAlmostEqual(float(size) / written, 1.0, delta=0.15, msg=name)

@@ -4,20 +4,22 @@ import re
 
 import h5py
 import numpy as np
+import yaml
 
 from riesel_command import FAILED, SHIPPED, SMALL_TUBE, CommandTest, data_of, series_of
 
-SUMMARY_NAMES = {"scenario", "version", "grains", "steps", "state_hash", "performance",
-                 "mean_axial_velocity", "state", "granular_temperature", "balance", "energy",
-                 "wall_visits", "validity", "fluctuations", "structure_factor", "profiles",
-                 "braking_force", "grain_contact_rate", "mass_flow_rate", "held_back_by"}
-NAMES_WITHIN = {"performance": {"wall_seconds", "particle_steps_per_second", "threads"},
-                "mean_axial_velocity": {"value", "error"},
-                "balance": {"n_dot", "dv_y", "n_dot_dv_y", "gravity"},
-                "braking_force": {"left", "right", "weight"},
-                "energy": {"residual"},
-                "validity": {"verdict", "max_overlap_ratio", "brake_failure_fraction",
-                             "contacts_per_wall_visit", "v_crit", "findings"}}
+OF_ALL_SCENARIOS = {"format", "scenario", "version", "commit", "grains", "steps", "state_hash", "performance"}
+
+
+def manual(heading):
+    """A section of the page on files."""
+    page = (SHIPPED.parent / "docs/files.md").read_text(encoding="utf-8").replace("\\|", "|")
+    return page.split(f"\n## {heading}\n")[1].split("\n## ")[0]
+
+
+def rows_of(text):
+    """The first two cells of the rows of a table."""
+    return re.findall(r"^\| (`.+?) \| (.+) \|$", text, re.MULTILINE)
 
 
 class Tube(CommandTest):
@@ -33,11 +35,35 @@ class Tube(CommandTest):
                          {"effective.yaml", "run.h5", "checkpoint.h5", "checkpoint.h5.previous",
                           "summary.json"})
 
-    def test_the_summary_has_the_names_of_the_contract_and_finite_values(self):
+    def test_the_manual_lists_the_names_in_the_summary(self):
         summary = self.summary(self.out)
-        self.assertLessEqual(SUMMARY_NAMES, set(summary))
-        for name, within in NAMES_WITHIN.items():
-            self.assertLessEqual(within, set(summary[name]), name)
+        listed = {}  # names, and those within them: {"balance": {"n_dot": None, "errors": {...}}}
+        for names, meaning in rows_of(manual("summary.json").split("Flows (tube")[1]):
+            for name in re.findall(r"`(.+?)`", names):
+                listed |= yaml.safe_load(name) if ":" in name else {name: None}
+            if names.startswith("`profiles"):
+                quantities = set(re.findall(r"`(\w+)`", meaning)) - {"wall_layers"}
+        self.assertEqual(set(listed) | OF_ALL_SCENARIOS, set(summary))
+        for name, within in listed.items():
+            if within is not None:
+                self.assertEqual({str(each) for each in within}, set(summary[name]), name)
+        self.assertEqual(set(listed["balance"]["errors"]), set(summary["balance"]["errors"]))
+        for zone in listed["profiles"]:
+            self.assertEqual(quantities, set(summary["profiles"][zone]), zone)
+        self.assertEqual(set(summary["performance"]), {"wall_seconds", "particle_steps_per_second", "threads"})
+        self.assertEqual(set(summary["validity"]["t_col"]), {"grains", "walls"})
+
+    def test_the_manual_lists_the_profiles_and_histograms(self):
+        text, profiles = manual("run.h5"), ["x"]
+        for names, _ in rows_of(text):
+            for name in re.findall(r"`(\w+)`", names):  # `stress_xx`, `_xy`
+                profiles.append(profiles[-1][:-len(name)] + name if name.startswith("_") else name)
+        with h5py.File(self.out / "run.h5", "r") as file:
+            self.assertEqual({name.removesuffix("_error") for name in file["profiles"]}, set(profiles))
+            self.assertEqual(set(file["histograms"]), set(re.findall(r"`(\w+)`", text.split("NAME is")[1])))
+
+    def test_the_summary_has_finite_values(self):
+        summary = self.summary(self.out)
         self.assert_finite(summary)
         self.assertIn(summary["state"], {"steady", "accelerating", "drifting", "too_short"})
         self.assertEqual(summary["balance"]["gravity"], 10.0)
@@ -152,16 +178,6 @@ class Tube(CommandTest):
         self.assertAlmostEqual(profiles["wall_layers"]["area_fraction"]["value"],
                                area[[0, 9]].mean())
 
-    def test_fluctuations_and_density_waves_are_means_of_their_series(self):
-        summary = self.summary(self.out)
-        series = series_of(self.out)
-        after = series["time"] >= summary["transient_end"] - 1e-12
-        for name, mean in summary["fluctuations"].items():
-            self.assertAlmostEqual(mean["value"], series[name][after].mean())
-        for n in "1234":
-            self.assertAlmostEqual(summary["structure_factor"][n]["value"],
-                                   series[f"structure_factor_{n}"][after].mean())
-
     def test_the_histograms_count_what_has_ended(self):
         with h5py.File(self.out / "run.h5", "r") as file:
             histograms, series = file["histograms"], file["series"]
@@ -244,12 +260,24 @@ class Tube(CommandTest):
         both = braking["left"]["value"] + braking["right"]["value"]
         self.assertAlmostEqual(both / weight, balance)
 
-    def test_the_mean_velocity_is_that_of_the_series(self):
-        summary = self.summary(self.out)
-        with h5py.File(self.out / "run.h5", "r") as file:
-            time, velocity = file["series/time"][()], file["series/mean_vy"][()]
-        after = velocity[time >= summary["transient_end"] - 1e-12]
-        self.assertAlmostEqual(summary["mean_axial_velocity"]["value"], after.mean(), delta=1e-9)
+
+class FinalForces(CommandTest):
+
+    def test_elastic_contacts_push_apart_in_proportion_to_their_overlap(self):
+        out = self.run_small_tube("out", "--set", "contact.restitution=1", "--set", "contact.friction=0")
+        with h5py.File(out / "run.h5", "r") as file:
+            position, radius = file["final/position"][()], file["final/radius"][()]
+            length = file["final"].attrs["box_length"]
+            contacts = {name: column[()] for name, column in file["final/contacts"].items()}
+        among_grains = contacts["wall"] == -1
+        self.assertGreater(among_grains.sum(), 1)
+        i, j = contacts["grain"][among_grains], contacts["partner"][among_grains]
+        away = position[i] - position[j]
+        away[:, 1] -= length * np.round(away[:, 1] / length)
+        distance = np.hypot(*away.T)
+        overlap = radius[i] + radius[j] - distance
+        np.testing.assert_allclose(contacts["force"][among_grains], 2000.0 * (overlap / distance)[:, None] * away,
+                                   rtol=1e-6, atol=1e-9)
 
 
 class SameBits(CommandTest):

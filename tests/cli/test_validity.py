@@ -98,11 +98,6 @@ class Verdicts(Validity):
         self.assertEqual(summary["validity"]["brake_failure_fraction"], 0.0)
         self.assertEqual(summary["validity"]["verdict"], "valid", summary["validity"])
 
-    def test_a_flow_and_its_mirror_image_have_one_state(self):
-        states = [self.tube(f"speed{speed}", gravity=0, start__axial_velocity=speed,
-                            run__duration="60 ms")[0]["state"] for speed in (12, -12)]
-        self.assertEqual(states[0], states[1])
-
     def test_both_verdicts_stand_in_the_run_file(self):
         summary, _ = self.tube("run", run__duration="20 ms")
         with h5py.File(self.home / "run/run.h5", "r") as file:

@@ -253,6 +253,19 @@ TEST_CASE("a flow is as steady as the worst of its series", "[steady_state]") {
   CHECK(beside(slow).independent_samples == riesel::assess_steady_state(slow).independent_samples);
 }
 
+TEST_CASE("a flow and its mirror image have one state", "[steady_state]") {
+  const Series good = noisy(2000, 0.05, 0.9, 1, constant);
+  for (const auto& [beside, verdict] :
+       {std::pair{noisy(2000, 0.05, 0.9, 2, constant), SteadyVerdict::steady},
+        {noisy(2000, 0.05, 0.9, 2, [](double s) { return 2.0 - s; }), SteadyVerdict::drifting},
+        {noisy(2000, 0.05, 0.9, 2, free_fall), SteadyVerdict::drifting}}) {
+    Series mirrored = beside;
+    for (double& sample : mirrored) sample = -sample;
+    for (const Series& other : {beside, mirrored})
+      CHECK(riesel::assess_flow({good, {}, {other}}).verdict == verdict);
+  }
+}
+
 TEST_CASE("of several series that hold a flow back the one that drifts is told", "[steady_state]") {
   const Series good = noisy(2000, 0.05, 0.9, 1, constant);
   const Series slow = noisy(2000, 0.05, 0.995, 3, constant);

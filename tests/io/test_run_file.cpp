@@ -127,7 +127,7 @@ TEST_CASE("A run file goes on from the rows that the checkpoint expects") {
   {
     auto file = RunFile::create(path, provenance, columns);
     append_rows(file, 0, 2000);
-    file.write_final_state(special_state());
+    file.write_final_state({}, {});
     file.flush();
   }
   auto file = RunFile::reopen(path, {{"host", "there"}, {"run", "1f"}}, columns, rows);
@@ -224,8 +224,10 @@ TEST_CASE("A run file holds the final state in SI units, in the order of the ids
   state.contacts = {contact({no_wall, 0, 1}, 0.5)};
 
   auto file = RunFile::create(path, provenance, {});
-  file.write_final_state({});
-  file.write_final_state(reversed(state));  // replaces
+  file.write_final_state({}, {});
+  const PresentForce force{.x = 0.01, .branch_x = 0.0, .branch_y = 0.0, .fx = 0.25, .fy = -2.0};
+  file.write_final_state(reversed(state), {&force, 1});  // replaces
+  CHECK_THROWS_AS(file.write_final_state(state, {}), std::invalid_argument);
   file.flush();
 
   const auto final = Hdf5File::open(path).root().group("final");
@@ -245,7 +247,11 @@ TEST_CASE("A run file holds the final state in SI units, in the order of the ids
   CHECK(read<double>(final, "mass") == std::vector{1e-6, 2e-6});
   CHECK(read<std::int32_t>(final, "id") == std::vector<std::int32_t>{0, 1});
   CHECK(read<double>(final.group("walls"), "spacing") == std::vector{0.1 / 50.0});
-  CHECK(read<std::int32_t>(final.group("contacts"), "partner") == std::vector<std::int32_t>{1});
+  const auto contacts = final.group("contacts");
+  CHECK(read<std::int32_t>(contacts, "partner") == std::vector<std::int32_t>{1});
+  CHECK(read<double>(contacts, "force") == std::vector{0.25, -2.0});
+  CHECK(contacts.data("force").text_attribute("unit") == "N");
+  CHECK(contacts.data("force").shape().columns == 2);
 }
 
 TEST_CASE("A run file holds the last verdict of validity") {

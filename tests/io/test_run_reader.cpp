@@ -40,12 +40,20 @@ std::vector<HistogramTable> histograms() {
 
 const Window window{.since = 0.1, .state = SteadyVerdict::steady};
 
+/// 5 N, 10 N, ...
+std::vector<PresentForce> forces_of(const State& state) {
+  std::vector<PresentForce> forces;
+  for (double n = 1.0; forces.size() < state.contacts.size(); ++n)
+    forces.push_back({.x = 0.0, .branch_x = 0.0, .branch_y = 0.0, .fx = -3.0 * n, .fy = 4.0 * n});
+  return forces;
+}
+
 RunFile write_run(const fs::path& path, const State& state) {
   auto file = RunFile::create(
       path, {{"date", "today"}, {"command", "riesel run"}, {"settings", "a: 1"}, {"run", "1f"}},
       columns);
   for (int i = 0; i < 3; ++i) file.append(std::vector{0.1 * i, -1.0 / (i + 1)});
-  file.write_final_state(state);
+  file.write_final_state(state, forces_of(state));
   file.write_profiles(strips, profiles(), window);
   file.write_histograms(histograms(), window);
   file.flush();
@@ -81,8 +89,11 @@ TEST_CASE("What was written to a run file is read back") {
   CHECK(run.final_state.walls[0].radius == state.walls[0].radius);
   CHECK(run.final_state.walls[0].count == 83);
   REQUIRE(run.final_state.contacts.size() == state.contacts.size());
-  for (std::size_t i = 0; i < state.contacts.size(); ++i)
+  REQUIRE(run.final_state.forces.size() == state.contacts.size());
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     CHECK((run.final_state.contacts[i].name == state.contacts[i].name));
+    CHECK(run.final_state.forces[i] == 5.0 * static_cast<double>(i + 1));
+  }
 
   CHECK(run.series.size() == 2);
   CHECK(run.series_of("velocity").column.unit == "m/s");
@@ -114,7 +125,7 @@ TEST_CASE("Each resume of a run is told of") {
   write_run(path, special_state());
   for (const std::string day : {"tomorrow", "later"}) {
     auto file = RunFile::reopen(path, {{"date", day}, {"run", "1f"}}, columns, 3);
-    file.write_final_state(special_state());
+    file.write_final_state(special_state(), forces_of(special_state()));
     file.write_profiles(strips, profiles(), window);
     file.write_histograms(histograms(), window);
     file.flush();

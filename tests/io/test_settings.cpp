@@ -203,6 +203,7 @@ TEST_CASE("a scenario rejects through the settings, at the key, the section or t
 TEST_CASE("an error carries its parts") {
   try {
     read(tube).reject("tube.width", "is odd", "make it even");
+    FAIL("nothing is thrown");
   } catch (const SettingsError& caught) {
     CHECK(caught.place().source == "f.yaml");
     CHECK(caught.place().line == 3);

@@ -21,7 +21,7 @@ FAULTS_OF_RESULTS = [
     ("kicks of the first moment that work for nobody", "engine/observables.cpp",
      "sums.momentum_y + half_of_kicks(state),", "sums.momentum_y + 0.0 * half_of_kicks(state),"),
     ("a mean that is known though the flow falls", "engine/stopping_rule.cpp",
-     "assess_flow(series);", "assess_flow({series.judged, std::nullopt, series.other});"),
+     "assess_flow(series);", "assess_flow({series.judged, std::nullopt, series.others});"),
     # Profiles, forces and histograms
     ("one shear stress for the other", "engine/tube_profiles.cpp",
      "stress(b, a, S::mass_vx_w, S::contact_yx)", "stress(b, a, S::mass_vx_w, S::contact_xy)"),

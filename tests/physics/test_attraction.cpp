@@ -33,7 +33,7 @@ Kicks kicks_of_a_head_on_contact(Attraction attraction) {
 
 TEST_CASE("kept attraction pulls at the end of a contact, as eq. (1) says") {
   const Kicks kicks = kicks_of_a_head_on_contact(Attraction::keep);
-  // At the very end the force is -gamma m e v; at the largest overlap some sqrt(k m) v.
+  // At the very end the force is -gamma m e v; the largest is some sqrt(k m) v.
   const double ratio =
       static_cast<double>(kicks.strongest_pull) / static_cast<double>(kicks.strongest_push);
   CHECK(ratio > 0.05);

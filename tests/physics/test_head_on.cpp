@@ -84,6 +84,29 @@ TEST_CASE("a contact resolved by 50 steps comes out to parts in a thousand") {
   CHECK(e.worst_overlap < 1e-3);  // the top of the parabola is sampled: (pi/100)^2 / 2 = 5e-4
 }
 
+TEST_CASE("under equal restitution all pairs rebound alike, whatever their masses") {
+  const double expected = GENERATE(0.3, 0.7, 0.95);
+  const double partner = GENERATE(as<double>{}, wall, 1e-8, 1e-6, 3e-5);
+  CAPTURE(expected, partner);
+  const double loss = -std::log(expected);  // gamma_N t_col / 2; with eq. (4) for gamma_N m^(1/2):
+  ContactModel model = frictionless(0.0);
+  model.normal =
+      EqualRestitutionLaw{stiffness, 2.0 * std::sqrt(stiffness) * loss / std::hypot(pi, loss)};
+  HeadOn h{.mass_1 = mass, .mass_2 = partner, .speed = 0.4, .dt = 0.0};
+  const double omega0 = std::sqrt(stiffness / h.reduced_mass());
+  const double t_col = std::hypot(pi, loss) / omega0;
+  h.dt = t_col / 100.3;
+  constexpr int phases = 32;
+  double restitution = 0.0;
+  for (int i = 0; i < phases; ++i) {
+    h.phase = (i + 0.5) / phases;
+    const Rebound r = head_on(h, model);
+    restitution += r.restitution / phases;
+    CHECK(std::abs(r.contact_time / t_col - 1.0) < 5e-4);
+  }
+  CHECK(std::abs(restitution / expected - 1.0) < 1e-3);
+}
+
 TEST_CASE("no phase of the contact's begin costs more than one step of damping") {
   // Where a contact begins or ends within a hair of a full step, half a step of damping may count
   // twice or not at all: gamma dt / 2 of the velocity. Twice that is the promise.

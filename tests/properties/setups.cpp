@@ -19,7 +19,7 @@ double power_of_ten(Dice& dice, double low, double high) {
 }
 
 NormalLaw random_normal_law(Dice& dice) {
-  switch (dice.below(4)) {
+  switch (dice.below(5)) {
   case 0: {
     const double k = power_of_ten(dice, 4.5, 7.0);
     return HertzKuwabaraKonoLaw{k, dice.between(0.0, 1e-5) * k};
@@ -29,6 +29,11 @@ NormalLaw random_normal_law(Dice& dice) {
     const double gamma = dice.between(0.0, 1e-6) * k;
     const double alpha = dice.between(1.0, 1.6), beta = dice.between(0.0, 0.6);
     return PowerLaw{k, gamma, alpha, beta, dice.between(1.0, 1.3)};
+  }
+  case 2: {
+    const double k = power_of_ten(dice, 2.3, 5.3);
+    const double gamma = damping_for_restitution(dice.between(0.3, 1.0), k, mass, Attraction::keep);
+    return EqualRestitutionLaw{k, gamma * std::sqrt(mass)};
   }
   default: {
     const double k = power_of_ten(dice, 2.3, 5.3);

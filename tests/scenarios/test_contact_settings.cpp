@@ -1,5 +1,6 @@
 // From the section `contact` to the laws of the engine.
 #include "engine/closed_forms.hpp"
+#include "tests/message_of.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
 #include <cmath>
@@ -40,6 +41,24 @@ TEST_CASE("restitution is that of a grain and the wall, unless it is said to be 
   CHECK_THAT(damping({"contact.restitution_of=grains"}), WithinRel(grains, 1e-12));
 }
 
+TEST_CASE("restitution of all is that of every pair, whatever its masses, also without pull") {
+  const std::string e = GENERATE("0.3", "0.7", "0.97", "1");
+  const std::string attraction = GENERATE("keep", "clip");
+  const ContactModel model =
+      flow(tube_of_restitution_yaml, {"contact.restitution=" + e, "contact.restitution_of=all",
+                                      "contact.attraction=" + attraction})
+          .model;
+  CHECK(std::get<EqualRestitutionLaw>(model.normal).k_n == k_n);
+  for (const double reduced_mass : {1e-3 * mass, 0.5 * mass, mass, 40.0 * mass})
+    CHECK_THAT(linear_contact(model.normal, reduced_mass, model.attraction).value().restitution(),
+               WithinRel(std::stod(e), 1e-12));
+}
+
+TEST_CASE("restitution of all is refused where damping is given") {
+  check_mentions(complaint(tube_yaml, {"contact.restitution_of=all"}),
+                 {"contact.restitution_of:", "contact.damping", "contact.restitution instead"});
+}
+
 TEST_CASE("the restitution is that of contacts as they are, also if they may not pull") {
   const std::string e = GENERATE("0.2", "0.7", "0.97");
   const ContactModel model =
@@ -56,14 +75,25 @@ TEST_CASE("a restitution that contacts which may not pull cannot have is refused
 
 TEST_CASE("a law from outside cannot take the name of one of the house") {
   for (const char* name : {"linear", "power", "hertz"}) {
-    std::string told;
-    try {
-      scenarios::add(scenarios::Law{.name = name, .own_settings = {}, .make = nullptr});
-    } catch (const std::logic_error& error) {
-      told = error.what();
-    }
+    const auto told = message_of<std::logic_error>(
+        [&] { scenarios::add(scenarios::Law{.name = name, .own_settings = {}, .make = nullptr}); });
     CHECK(told == "'" + std::string(name) + "' is a law of riesel already");
   }
+}
+
+TEST_CASE("a scenario from outside needs a name of its own, and its function") {
+  const auto told = [](const char* name, bool complete) {
+    return message_of<std::logic_error>([&] {
+      scenarios::add(scenarios::Scenario{
+          .name = name,
+          .summary = {},
+          .own_settings = {},
+          .prepare = complete ? scenarios::named("periodic_tube").prepare : nullptr});
+    });
+  };
+  CHECK(told("cooling", false) == "'cooling' lacks its function prepare");
+  scenarios::settings_tables();
+  CHECK(told("cooling", true) == "'cooling' is added too late");
 }
 
 TEST_CASE("the paper's damping of 1e4 1/s is a restitution of 0.70 at the wall") {
