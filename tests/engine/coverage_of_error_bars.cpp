@@ -10,6 +10,7 @@
 #include "engine/steady_state.hpp"
 #include "engine/stopping_rule.hpp"
 #include "engine/time_series.hpp"
+#include "tests/engine/noise.hpp"
 
 #include <array>
 #include <cmath>
@@ -36,15 +37,8 @@ double gaussian() {
   return normal(generator);
 }
 
-/// Stationary AR(1) of mean 0 and variance 1: x_i = phi x_(i-1) + noise.
 Series autoregressive(std::size_t n, double phi) {
-  Series series(n);
-  double x = gaussian();
-  for (double& sample : series) {
-    sample = x;
-    x = phi * x + std::sqrt(1.0 - phi * phi) * gaussian();
-  }
-  return series;
+  return riesel::autoregressive(n, phi, gaussian);
 }
 
 /// Stationary AR(2) of mean 0 and variance 1: waves of this period (samples) that are forgotten

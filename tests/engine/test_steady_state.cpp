@@ -4,6 +4,7 @@
 #include "engine/steady_state.hpp"
 
 #include "tests/catch.hpp"
+#include "tests/engine/noise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +27,9 @@ using Series = std::vector<double>;
 /// `signal` of the fraction of the run that has passed, with AR(1) noise of correlation `phi`.
 Series noisy(std::size_t n, double noise, double phi, unsigned seed,
              const std::function<double(double)>& signal) {
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal;
-  Series series(n);
-  double x = normal(generator);
-  for (std::size_t i = 0; i < n; ++i) {
-    series[i] = signal(static_cast<double>(i) / static_cast<double>(n)) + noise * x;
-    x = phi * x + std::sqrt(1.0 - phi * phi) * normal(generator);
-  }
+  Series series = riesel::autoregressive(n, phi, seed);
+  for (std::size_t i = 0; i < n; ++i)
+    series[i] = signal(static_cast<double>(i) / static_cast<double>(n)) + noise * series[i];
   return series;
 }
 

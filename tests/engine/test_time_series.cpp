@@ -5,6 +5,7 @@
 #include "engine/time_series.hpp"
 
 #include "tests/catch.hpp"
+#include "tests/engine/noise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +18,8 @@
 
 namespace {
 
+using riesel::autoregressive;
 using Series = std::vector<double>;
-
-/// Stationary AR(1) of mean 0 and variance 1, with autocorrelation time (1 + phi)/(1 - phi).
-Series autoregressive(std::size_t n, double phi, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal;
-  Series series(n);
-  double x = normal(generator);
-  for (double& sample : series) {
-    sample = x;
-    x = phi * x + std::sqrt(1.0 - phi * phi) * normal(generator);
-  }
-  return series;
-}
 
 Series line(std::size_t n, double start, double slope) {
   Series series(n);
