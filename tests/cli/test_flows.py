@@ -103,6 +103,7 @@ class Flows(CommandTest):
         error = summary["balance"]["errors"]["n_dot_dv_y"]
         self.assertGreater(error, least)
         self.assertLess(error, 1.5 * least)  # 1.75 if momentum were not balanced
+        self.assertAlmostEqual(summary["braking_force"]["left"]["error"] / (mass * error), 1.0, places=9)
 
     def test_a_chute_has_one_wall(self):
         self.write("chute.yaml", CHUTE)

@@ -114,6 +114,21 @@ class AfterTheTransient(CommandTest):
                 self.assertAlmostEqual(end, last, delta=1e-3 * self.said["energy"]["gravity_work"], msg=name)
 
 
+class LongEnough(CommandTest):
+
+    def test_the_force_of_a_wall_is_as_sure_as_half_of_both_and_of_their_difference(self):
+        tube = self.write("tube.yaml", TUBE.replace("0.12 s", "0.5 s"))
+        out = self.run_to_end(tube, "out", "--set", "contact.restitution=0.9", "--set", "grains.rotation=disc")
+        said = self.summary(out)
+        with h5py.File(out / "run.h5") as file:
+            mass = file["final/mass"][()].sum()
+        left, right = (said["braking_force"][wall]["error"] for wall in ("left", "right"))
+        of_both = mass * said["balance"]["errors"]["n_dot_dv_y"]
+        self.assertEqual(left, right)
+        self.assertGreater(left, 0.5 * of_both)
+        self.assertLess(left, 5.0 * of_both)
+
+
 class FromFrames(CommandTest):
 
     @classmethod
