@@ -19,8 +19,7 @@ void check_column(const io::Settings& settings, const scenarios::ColumnCurve& cu
   print_contact("bead and plate", setup.model, at_plate.reduced_mass, at_plate.speed);
   line("time step", "{:.4g} s", setup.time_step);
   warn_of_time_step(settings);
-  warn_of_overlap(setup.model.normal, expected_overlap_ratio(setup.model.normal, at_plate),
-                  at_plate.speed);
+  warn_of_overlap(setup.model.normal, at_plate);
   line("hard beads", "{}", description_of(curve.rigid));
   if (smallest < 1.0)
     warn("t_col is longer than the time between two impacts at the plate, down to {:.2g} of it: "

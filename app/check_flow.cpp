@@ -177,10 +177,10 @@ void print_contacts(const io::Settings& settings, const scenarios::Flow& flow, d
   warn_of_impact_speed(flow.model, 0.5 * std::ranges::min(state.grains.mass), both_fastest,
                        state.time_step);
   print_slip(settings, flow.model.slip, 0.5 * mass, state.time_step);
-  const double of_grains = expected_overlap_ratio(flow.model.normal, grains);
-  const double at_wall = expected_overlap_ratio(flow.model.normal, wall);
-  warn_of_overlap(flow.model.normal, std::max(of_grains, at_wall),
-                  of_grains > at_wall ? grains.speed : wall.speed);
+  const auto ratio = [&](const HeadOnContact& c) {
+    return expected_overlap_ratio(flow.model.normal, c);
+  };
+  warn_of_overlap(flow.model.normal, ratio(grains) > ratio(wall) ? grains : wall);
 }
 
 /// `across`: m/s, the typical velocity towards a wall. If grains start at rest in that direction,

@@ -32,10 +32,7 @@ void check_impacts(const io::Settings& settings, const scenarios::ImpactCurve& c
   print_slip(settings, setup.model.slip, setup.grain_mass, longest_step);
   const double smaller = std::min(setup.grain_radius, setup.wall_grain_radius);
   if (fastest_normal > 0.0)
-    warn_of_overlap(
-        setup.model.normal,
-        expected_overlap_ratio(setup.model.normal, {setup.grain_mass, fastest_normal, smaller}),
-        fastest_normal);
+    warn_of_overlap(setup.model.normal, {setup.grain_mass, fastest_normal, smaller});
   const double path = setup.single_wall_grain()
                           ? chord(setup.reach(), curve.impacts.front().x)
                           : chord_of_impact(setup.reach(), fastest_normal, setup.collision_time);

@@ -45,15 +45,18 @@ double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& cont
          / contact.smallest_radius;
 }
 
-void warn_of_overlap(const NormalLaw& normal, double ratio, double speed) {
+void warn_of_overlap(const NormalLaw& normal, const HeadOnContact& contact) {
+  const double ratio = expected_overlap_ratio(normal, contact);
   line("expected overlap",
-       "up to {:.2g} of the radius of the smallest body, in an impact of {:.3g} m/s", ratio, speed);
+       "up to {:.2g} of the radius of the smallest body, in an impact of {:.3g} m/s", ratio,
+       contact.speed);
+  if (ratio <= suspect_overlap_ratio) return;
   // The largest overlap is proportional to k^(-1/(alpha + 1)): elastic_max_overlap().
   const double power = elastic_line(normal).exponent + 1.0;
-  if (ratio > suspect_overlap_ratio)
-    warn("overlaps over {:.3g} of the radius make the run suspect; raise contact.stiffness by a "
-         "factor {:.2g}",
-         suspect_overlap_ratio, std::pow(ratio / suspect_overlap_ratio, power));
+  constexpr double enough = 1.05;  // after rounding
+  warn("overlaps over {:.3g} of the radius make the run suspect; raise contact.stiffness by a "
+       "factor {:.2g}",
+       suspect_overlap_ratio, enough * std::pow(ratio / suspect_overlap_ratio, power));
 }
 
 void print_slip(const io::Settings& settings, const SlipLaw& slip, double reduced_mass,

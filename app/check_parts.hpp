@@ -22,7 +22,7 @@ void warn(fmt::format_string<Parts...> format, Parts&&... parts) {
   fmt::print("  warning: {}\n", fmt::format(format, std::forward<Parts>(parts)...));
 }
 
-/// Prints t_col and e_N: for the linear law in closed form, for other laws at `speed` (m/s), and
+/// Prints t_col and e_N: for linear laws in closed form, for other laws at `speed` (m/s), and
 /// e_N also at a tenth of it. `reduced_mass`: kg.
 void print_contact(const char* what, const ContactModel& model, double reduced_mass, double speed);
 
@@ -37,9 +37,9 @@ struct HeadOnContact {
 /// damping.
 double expected_overlap_ratio(const NormalLaw& normal, const HeadOnContact& contact);
 
-/// Prints the largest such ratio and the speed (m/s) of its impact, with a warning if it is too
-/// large.
-void warn_of_overlap(const NormalLaw& normal, double ratio, double speed);
+/// Prints that ratio, and warns if it is too large, with the factor by which the stiffness is too
+/// small.
+void warn_of_overlap(const NormalLaw& normal, const HeadOnContact& contact);
 
 /// Prints half a period of the tangential spring between bodies of this reduced mass (kg), and
 /// warns if the tangential damping is too strong for `time_step` (s).

@@ -25,13 +25,12 @@ io::Measured CumulativeSeries::rate(const std::string& name) const {
   return {.value = total(name) / duration, .error = mean_with_error(steps).error / interval_};
 }
 
-io::Measured CumulativeSeries::difference_of_rates(const std::string& one,
-                                                   const std::string& other) const {
+double CumulativeSeries::error_of_difference(const std::string& one,
+                                             const std::string& other) const {
   std::vector<double> steps = increments(one);
   const std::vector<double> others = increments(other);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] -= others[i];
-  return {.value = rate(one).value - rate(other).value,
-          .error = mean_with_error(steps).error / interval_};
+  return mean_with_error(steps).error / interval_;
 }
 
 double CumulativeSeries::quotient(const std::string& part, const std::string& whole) const {

@@ -117,23 +117,27 @@ io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& st
   return b;
 }
 
-/// The force of each wall is half the sum of both plus or minus half their difference. The sum is
-/// known better than its parts: see balanced(). `of_sum`: N, the error of the sum.
+/// N. The force of a wall is half of both plus or minus half their difference, and both together
+/// are known well: see balanced(). `of_both`: N, their error.
+double error_of_wall(double own, double of_both, const CumulativeSeries& series) {
+  const double of_difference =
+      series.error_of_difference("left_wall_impulse_y", "right_wall_impulse_y");
+  return std::min(own, 0.5 * std::hypot(of_both, of_difference));
+}
+
+/// `of_all`: N, the error of the force of all walls.
 io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state,
-                                            double of_sum) {
-  constexpr auto of_left = "left_wall_impulse_y", of_right = "right_wall_impulse_y";
-  io::FlowSummary::BrakingForce force{.left = scaled(series.rate(of_left), -1.0),
+                                            double of_all) {
+  io::FlowSummary::BrakingForce force{.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
                                       .right = {},
                                       .weight = total_mass(state.grains) * state.gravity.y};
-  if (state.walls.size() == 1) {
-    force.left.error = std::min(force.left.error, of_sum);
-    return force;
+  if (state.walls.size() > 1) {
+    force.right = scaled(series.rate("right_wall_impulse_y"), -1.0);
+    force.left.error = error_of_wall(force.left.error, of_all, series);
+    force.right->error = error_of_wall(force.right->error, of_all, series);
+  } else {
+    force.left.error = of_all;
   }
-  force.right = scaled(series.rate(of_right), -1.0);
-  const double of_half =
-      0.5 * std::hypot(of_sum, series.difference_of_rates(of_left, of_right).error);
-  for (io::Measured* each : {&force.left, &*force.right})
-    each->error = std::min(each->error, of_half);
   return force;
 }
 

@@ -123,8 +123,9 @@ private:
 
   static std::string what_thickness_means(const StateFigure& figure) {
     if (figure.largest_force == 0.0) return "";
-    return fmt::format(", as thick as their forces are large, up to {:.4g} N",
-                       figure.largest_force);
+    return fmt::format(
+        ", as thick as their forces are large, from a twelfth of {:.4g} N up to that",
+        figure.largest_force);
   }
 
   std::string what_axes_mean() const {

@@ -32,6 +32,7 @@ public:
 
   /// Writes all rows and frames to disk, and `state` as the final state, with the forces of its
   /// contacts. To be called before each checkpoint, which records how many rows there are.
+  /// Throws io::FileError, io::Hdf5Error without memory, UnusableInput if the directory is gone.
   void flush(const State& state, const ContactModel& model);
 
 private:

@@ -281,10 +281,11 @@ private:
     files_.flush(simulation_.state(), simulation_.model());
     write_checkpoint();
     last_checkpoint_ = Clock::now();
-    times_.output += seconds_since(start);
-    time_limit_.note_save(seconds_since(start), files_.rows());
+    const double seconds = seconds_since(start);
+    times_.output += seconds;
+    time_limit_.note_save(seconds, files_.rows());
     tell_more("checkpoint at t = {:.6g} s, {} rows, in {:.3f} s", simulation_.state().time(),
-              files_.rows(), seconds_since(start));
+              files_.rows(), seconds);
   }
 
   /// Prints if the run is verbose.
@@ -315,12 +316,13 @@ private:
   io::RunSummary run_summary() const {
     const State& state = simulation_.state();
     const auto grains = static_cast<double>(state.grains.size());
+    const double seconds = wall_seconds();
     return {.scenario = settings_.scenario(),
             .grains = static_cast<std::int64_t>(state.grains.size()),
             .steps = state.step,
             .state_hash = state_hash(state),
-            .wall_seconds = wall_seconds(),
-            .particle_steps_per_second = grains * static_cast<double>(state.step) / wall_seconds(),
+            .wall_seconds = seconds,
+            .particle_steps_per_second = grains * static_cast<double>(state.step) / seconds,
             .threads = threads_};
   }
 
@@ -368,7 +370,7 @@ private:
       const auto post_mortem = files_.directory().file(post_mortem_name);
       io::write_checkpoint(post_mortem, checkpoint());
       tell("the state of that moment is in {}{}\n", post_mortem.string(), way_on);
-    } catch (const io::FileError& error) {
+    } catch (const std::exception& error) {
       tell("the state of that moment could not be kept: {}\n", error.what());
     }
     return exit_failed;

@@ -115,21 +115,13 @@ io::Interval velocity_range(const io::FinalState& state) {
   return range.high - range.low > narrowest ? range : io::range_of(velocities);
 }
 
-/// N; 0 if there is none.
-double largest_finite(const std::vector<double>& forces) {
-  double largest = 0.0;
-  for (const double force : forces)
-    if (std::isfinite(force)) largest = std::max(largest, force);
-  return largest;
-}
-
 class Drawing {
 public:
   explicit Drawing(const io::FinalState& state)
       : state_(&state),
         layout_(state),
         velocities_(velocity_range(state)),
-        largest_force_(largest_finite(state.forces)),
+        largest_force_(largest_force_drawn()),
         svg_(std::max(layout_.width(), 420.0), layout_.height() + room_below,
              fmt::format("The grains at t = {:.6g} s, coloured by their axial velocity",
                          state.time)) {
@@ -202,12 +194,25 @@ private:
     svg_.end_group();
   }
 
+  /// N; 0 if there is none that is finite.
+  double largest_force_drawn() const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < state_->forces.size(); ++i) {
+      const auto grain = static_cast<std::size_t>(state_->contacts[i].name.grain);
+      const bool is_drawn = layout_.column_of(state_->grains[grain].y).has_value();
+      if (is_drawn && std::isfinite(state_->forces[i]))
+        largest = std::max(largest, state_->forces[i]);
+    }
+    return largest;
+  }
+
   /// px, of a contact, proportional to its force.
   double thickness(std::size_t contact) const {
     if (state_->forces.empty()) return unknown_thickness;
     const double force = state_->forces[contact];
     if (!std::isfinite(force)) return thickest;
-    return largest_force_ > 0.0 ? std::max(thinnest, thickest * force / largest_force_) : thinnest;
+    return largest_force_ > 0.0 ? std::max(thinnest, thickest * (force / largest_force_))
+                                : thinnest;
   }
 
   /// m

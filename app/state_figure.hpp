@@ -14,7 +14,7 @@ struct StateFigure {
   std::size_t columns;       ///< pieces into which the tube is cut, drawn side by side
   double length_shown;       ///< m, from y = 0 on
   std::size_t grains_drawn;  ///< each once: those with y < length_shown
-  double largest_force;      ///< N, of the contact with the thickest line; 0: there is no such
+  double largest_force;      ///< N, of the contact with the thickest line; 0 if it is not known
 };
 
 /// y, along the walls, points down. A long tube is cut into the columns that fill the figure best;

@@ -48,6 +48,7 @@ struct LinearLaw : LinearSpring {
 struct EqualRestitutionLaw : LinearSpring {
   double gamma_root_mass;  ///< kg^(1/2)/s, gamma_N m_red^(1/2)
 
+  /// 1/s
   double gamma_n(double m_red) const { return gamma_root_mass / std::sqrt(m_red); }
   double damping(double, double rate, double m_red) const {
     return gamma_root_mass * std::sqrt(m_red) * rate;

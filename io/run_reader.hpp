@@ -23,8 +23,8 @@ struct FinalState {
   std::vector<Grain> grains;  ///< a grain's id is its index
   std::vector<WallLattice> walls;
   std::vector<Contact> contacts;  ///< their names refer to these grains and walls
-  /// N, absolute values of the forces of the contacts, in a failed run perhaps not finite; empty
-  /// in files of riesel before 0.16.
+  /// N, absolute values of the forces of the contacts, not checked; empty in files of riesel before
+  /// 0.16.
   std::vector<double> forces;
 
   double mean_diameter() const;  ///< m

@@ -35,8 +35,8 @@ void check_key(const SettingsContents& contents, const std::string& key) {
 
 }  // namespace
 
-Settings::Settings(std::shared_ptr<const SettingsContents> contents)
-    : contents_(std::move(contents)) {}
+Settings::Settings(SettingsContents contents)
+    : contents_(std::make_shared<const SettingsContents>(std::move(contents))) {}
 
 Settings Settings::from_file(const std::filesystem::path& file, const SettingsTables& tables,
                              const std::vector<std::string>& overrides) {
@@ -46,15 +46,15 @@ Settings Settings::from_file(const std::filesystem::path& file, const SettingsTa
 Settings Settings::from_text(const std::string& text, const std::string& source,
                              const SettingsTables& tables,
                              const std::vector<std::string>& overrides) {
-  const auto file = parse_settings_yaml(text, source);
-  return from_yaml(file, text, tables, parse_overrides(overrides));
+  SettingsContents contents =
+      read_settings(parse_settings_yaml(text, source), tables, parse_overrides(overrides));
+  contents.source_text = text;
+  return Settings(std::move(contents));
 }
 
-Settings Settings::from_yaml(const YamlNode& file, const std::string& text,
-                             const SettingsTables& tables,
+Settings Settings::from_yaml(const YamlNode& file, const SettingsTables& tables,
                              const std::vector<YamlEntry>& overrides) {
-  return Settings(
-      std::make_shared<const SettingsContents>(read_settings(file, text, tables, overrides)));
+  return Settings(read_settings(file, tables, overrides));
 }
 
 const std::string& Settings::scenario() const { return text("scenario"); }

@@ -38,10 +38,10 @@ public:
                             const SettingsTables& tables,
                             const std::vector<std::string>& overrides = {});
 
-  /// The same from a map that was parsed from `text` before, and from overrides with dotted keys
-  /// that carry the place where they were written.
-  static Settings from_yaml(const YamlNode& file, const std::string& text,
-                            const SettingsTables& tables, const std::vector<YamlEntry>& overrides);
+  /// The same from a map that was parsed before, and from overrides with dotted keys that carry the
+  /// place where they were written. Has no source_text().
+  static Settings from_yaml(const YamlNode& file, const SettingsTables& tables,
+                            const std::vector<YamlEntry>& overrides);
 
   const std::string& scenario() const;
 
@@ -86,7 +86,7 @@ public:
   const std::string& source_text() const;
 
 private:
-  explicit Settings(std::shared_ptr<const SettingsContents> contents);
+  explicit Settings(SettingsContents contents);
 
   /// Shared by copies, as it never changes.
   std::shared_ptr<const SettingsContents> contents_;

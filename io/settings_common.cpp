@@ -61,7 +61,7 @@ SettingsTable normal_force_settings() {
        .doc = "The pair to which `contact.restitution` refers: a grain of `grains.mass` and the "
               "`wall`, or two such `grains`; other pairs have another one, as gamma_N is the same "
               "for all. Or `all` pairs, whatever their masses: then gamma_N is proportional to "
-              "m_red^(-1/2).",
+              "m_red^(-1/2). Without a meaning beside `contact.damping`, where `all` is refused.",
        .only_when = linear_law},
       {.key = "contact.exponent_elastic",
        .unit = "1",

@@ -83,10 +83,9 @@ public:
     if (row.only_when && !holds(*row.only_when, contents_)) return;
     // A setting that seems to be missing may have been given under a misspelt key.
     const bool is_given = given_.by_key.contains(row.key);
-    const bool known = (row.required && !is_given && mistakes_.any()) ? false : mistakes_.note([&] {
-      contents_.entries.push_back(read_row(row, given_, contents_));
-    });
-    if (!known) unknown_.insert(row.key);
+    const bool may_be_misspelt = row.required && !is_given && mistakes_.any();
+    const auto read = [&] { contents_.entries.push_back(read_row(row, given_, contents_)); };
+    if (may_be_misspelt || !mistakes_.note(read)) unknown_.insert(row.key);
   }
 
   void refuse_idle_settings() {
@@ -121,14 +120,15 @@ Place SettingsContents::place_of(const std::string& key) const {
   return {source, 1, 1};
 }
 
-SettingsContents read_settings(const YamlNode& file, const std::string& text,
-                               const SettingsTables& tables,
+SettingsContents read_settings(const YamlNode& file, const SettingsTables& tables,
                                const std::vector<YamlEntry>& overrides) {
   Mistakes mistakes;
   const auto given = gather_settings(file, tables, overrides, mistakes);
-  SettingsContents contents = {
-      file.place.source, text, &tables.at(given.scenario), given.sections, {}};
-  verify_table(*contents.table);
+  SettingsContents contents = {.source = file.place.source,
+                               .source_text = {},
+                               .table = &tables.at(given.scenario),
+                               .sections = given.sections,
+                               .entries = {}};
   RowReader reader(given, contents, mistakes);
   for (const auto& row : *contents.table) reader.read(row);
   reader.refuse_idle_settings();

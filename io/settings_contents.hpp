@@ -23,7 +23,7 @@ struct SettingsContents {
   };
 
   std::string source;                     ///< the file's name
-  std::string source_text;                ///< verbatim
+  std::string source_text;                ///< verbatim, if it was read by itself
   const SettingsTable* table;             ///< of the scenario; points of a sweep share it
   std::map<std::string, Place> sections;  ///< that are present in the file
   std::vector<Entry> entries;             ///< in table order, no key twice
@@ -36,10 +36,8 @@ struct SettingsContents {
   Place place_of(const std::string& key) const;
 };
 
-/// `file` is the map that was parsed from `text`. `tables` must outlive what is returned. Throws
-/// SettingsError.
-SettingsContents read_settings(const YamlNode& file, const std::string& text,
-                               const SettingsTables& tables,
+/// Without the source text. `tables` must outlive what is returned. Throws SettingsError.
+SettingsContents read_settings(const YamlNode& file, const SettingsTables& tables,
                                const std::vector<YamlEntry>& overrides);
 
 /// See Settings::effective_yaml().

@@ -48,16 +48,16 @@ void read_base(const YamlNode& file, SweepFile& sweep) {
   const auto& base = entry->value;
   if (base.shape == YamlNode::Shape::map) {
     sweep.base = base;
-    sweep.base_text = sweep.text;
   } else if (base.shape == YamlNode::Shape::scalar && !base.scalar.empty()) {
     const auto path = fs::path(sweep.source).parent_path() / base.scalar;
+    std::string text;
     try {
-      sweep.base_text = read_settings_text(path);
+      text = read_settings_text(path);
     } catch (const SettingsError& error) {
       throw SettingsError(base.place, "base", fmt::format("{} {}", path.string(), error.problem()),
                           "give the path of a settings file, relative to the sweep file");
     }
-    sweep.base = parse_settings_yaml(sweep.base_text, path.string());
+    sweep.base = parse_settings_yaml(text, path.string());
   } else {
     throw SettingsError(base.place, "base",
                         "expected the path of a settings file, or settings, got " + describe(base),

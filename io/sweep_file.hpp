@@ -41,11 +41,10 @@ struct SweepContinuation {
 };
 
 struct SweepFile {
-  std::string source;     ///< the file's name
-  std::string text;       ///< verbatim
-  std::string scenario;   ///< that of the base
-  YamlNode base;          ///< the map of settings
-  std::string base_text;  ///< what it was parsed from
+  std::string source;    ///< the file's name
+  std::string text;      ///< verbatim
+  std::string scenario;  ///< that of the base
+  YamlNode base;         ///< the map of settings
 
   std::vector<YamlEntry> overrides;  ///< for all runs
   std::vector<SweepAxis> axes;

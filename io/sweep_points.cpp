@@ -92,7 +92,7 @@ private:
   }
 
   Settings settings_of(const Combination& combination) const {
-    return Settings::from_yaml(sweep_.base, sweep_.base_text, tables_, overrides_of(combination));
+    return Settings::from_yaml(sweep_.base, tables_, overrides_of(combination));
   }
 
   std::string branch_of(const Combination& combination) const {

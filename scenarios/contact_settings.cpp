@@ -79,11 +79,10 @@ SlipLaw slip_law(const io::Settings& settings) {
                                   ? "more than critical damping, which is not offered"
                                   : "so much damping that grains do not rebound";
   if (settings.has("contact.restitution"))
-    settings.reject(
-        "contact.restitution", problem,
-        settings.text(restitution_of) == "wall"
-            ? "choose it larger, or restitution_of: all"
-            : "choose it larger, or restitution_of: all, or wall, where damping counts most");
+    settings.reject("contact.restitution", problem,
+                    settings.text(restitution_of) == "wall"
+                        ? "choose it larger, or contact.restitution_of: all"
+                        : "choose it larger, or contact.restitution_of: all or wall");
   settings.reject("contact.damping", problem,
                   fmt::format("choose it below {:.4g} 1/s, which is critical for the heaviest pair",
                               2.0 * std::sqrt(contact.k_n / contact.reduced_mass)));

@@ -7,7 +7,7 @@
 namespace riesel::scenarios {
 
 /// The duration of a head-on contact with the given reduced mass (kg), in s; of laws for which it
-/// depends on the speed, at contact.impact_speed. Throws io::SettingsError if with the linear law
+/// depends on the speed, at contact.impact_speed. Throws io::SettingsError if under a linear law
 /// the bodies would not rebound.
 double collision_time(const io::Settings& settings, const ContactModel& model, double reduced_mass);
 

@@ -143,7 +143,7 @@ class Check(CommandTest):
                 self.assert_warned(text, "overlaps over 0.2 of the radius", "contact.stiffness")
                 factor = plain_number(text, r"by a factor (\S+)")
                 self.assertGreater(factor, 3.0)
-                for part, is_enough in ((0.9, False), (1.05, True)):
+                for part, is_enough in ((0.9, False), (1.0, True)):
                     text = self.check(tube.replace(f"stiffness: {stiffness}",
                                                    f"stiffness: {part * factor * float(stiffness)}"))
                     self.assertEqual("overlaps over" not in text, is_enough)
