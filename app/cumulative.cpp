@@ -25,11 +25,11 @@ io::Measured CumulativeSeries::rate(const std::string& name) const {
   return {.value = total(name) / duration, .error = mean_with_error(steps).error / interval_};
 }
 
-double CumulativeSeries::error_of_difference(const std::string& one,
-                                             const std::string& other) const {
+double CumulativeSeries::error_of_sum(const std::string& one, const std::string& other,
+                                      double factor) const {
   std::vector<double> steps = increments(one);
   const std::vector<double> others = increments(other);
-  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] -= others[i];
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] += factor * others[i];
   return mean_with_error(steps).error / interval_;
 }
 

@@ -22,8 +22,8 @@ public:
   double total(const std::string& name) const;
   /// Per second.
   io::Measured rate(const std::string& name) const;
-  /// Of the difference of two rates, per second.
-  double error_of_difference(const std::string& one, const std::string& other) const;
+  /// Per second, of rate(one) + factor rate(other).
+  double error_of_sum(const std::string& one, const std::string& other, double factor) const;
   /// total(part) / total(whole). NaN if total(whole) is 0.
   double quotient(const std::string& part, const std::string& whole) const;
   /// quotient(part, counted) with its error (error_per_weight). What is counted never falls.

@@ -2,6 +2,7 @@
 
 #include "app/cumulative.hpp"
 #include "app/steadiness.hpp"
+#include "app/wall_forces.hpp"
 #include "engine/time_series.hpp"
 #include "engine/typical_contacts.hpp"
 
@@ -66,86 +67,35 @@ zones(const TimeBlocks& blocks, const Strips& strips, std::size_t walls, std::in
   return {zone(0), zone(1)};
 }
 
-io::Measured scaled(const io::Measured& m, double factor) {
-  return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
-}
-
-/// m/s, from row `first` on: the mean axial velocity, each grain weighed by its mass. Walls and
-/// gravity alone change it.
-std::vector<double> velocities_by_mass(const io::RunFile& file, const State& state,
-                                       std::size_t first) {
-  const std::vector<double> time = file.series("time"), impulse = file.series("wall_impulse_y");
-  const double mass = total_mass(state.grains);
-  std::vector<double> velocities;
-  for (std::size_t row = first; row < time.size(); ++row)
-    velocities.push_back((state.origin.momentum_y + impulse[row]) / mass
-                         + state.gravity.y * time[row]);
-  return velocities;
-}
-
-/// Walls take the momentum that gravity gives, except for the difference between the grains'
-/// momentum at the end and at the beginning. So the error of the mean braking is the scatter of
-/// that difference over the time between. This is less than the increments by themselves suggest,
-/// as much of what is taken in one is missing in the next. `velocities`: by mass, `interval` (s)
-/// apart.
-io::Measured balanced(const io::Measured& braking, const std::vector<double>& velocities,
-                      double interval) {
-  if (velocities.size() < 2) return braking;
-  // The scatter about the true mean: that of a short series is off by its error.
-  const double deviation =
-      std::hypot(standard_deviation(velocities), mean_with_error(velocities).error);
-  const double of_difference = std::numbers::sqrt2 * deviation;
-  const double seconds = interval * static_cast<double>(velocities.size() - 1);
-  return {.value = braking.value, .error = std::min(braking.error, of_difference / seconds)};
-}
-
-/// Eq. (9)
+/// Eq. (9). `along`: forces of the walls.
 io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& state,
-                                 const std::vector<double>& velocities, double interval) {
+                                 const WallForces& along) {
   const auto n = static_cast<double>(state.grains.size());
   const double mass = total_mass(state.grains);
-  io::FlowSummary::Balance b{
-      .n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
-      .dv_y = scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
-      .n_dot_dv_y =
-          balanced(scaled(series.rate("wall_impulse_y"), -1.0 / mass), velocities, interval),
-      .gravity = state.gravity.y};
-  // The ratio's own error is too wide where the momentum is bounded: see balanced().
+  io::FlowSummary::Balance b{.n_dot = scaled(series.rate("wall_contacts"), 1.0 / n),
+                             .dv_y =
+                                 scaled(series.ratio("wall_impulse_y", "wall_contacts"), -n / mass),
+                             .n_dot_dv_y = scaled(along.both, -1.0 / mass),
+                             .gravity = state.gravity.y};
+  // The ratio's own error is too wide where the momentum is bounded.
   const double of_quotient =
       std::hypot(b.n_dot_dv_y.error, b.dv_y.value * b.n_dot.error) / b.n_dot.value;
   b.dv_y.error = std::min(b.dv_y.error, of_quotient);
   return b;
 }
 
-/// N. The force of a wall is half of both plus or minus half their difference, and both together
-/// are known well: see balanced(). `of_both`: N, their error.
-double error_of_wall(double own, double of_both, const CumulativeSeries& series) {
-  const double of_difference =
-      series.error_of_difference("left_wall_impulse_y", "right_wall_impulse_y");
-  return std::min(own, 0.5 * std::hypot(of_both, of_difference));
-}
-
-/// `of_all`: N, the error of the force of all walls.
-io::FlowSummary::BrakingForce braking_force(const CumulativeSeries& series, const State& state,
-                                            double of_all) {
-  io::FlowSummary::BrakingForce force{.left = scaled(series.rate("left_wall_impulse_y"), -1.0),
+io::FlowSummary::BrakingForce braking_force(const WallForces& along, const State& state) {
+  io::FlowSummary::BrakingForce force{.left = scaled(along.left, -1.0),
                                       .right = {},
                                       .weight = total_mass(state.grains) * state.gravity.y};
-  if (state.walls.size() > 1) {
-    force.right = scaled(series.rate("right_wall_impulse_y"), -1.0);
-    force.left.error = error_of_wall(force.left.error, of_all, series);
-    force.right->error = error_of_wall(force.right->error, of_all, series);
-  } else {
-    force.left.error = of_all;
-  }
+  if (along.right) force.right = scaled(*along.right, -1.0);
   return force;
 }
 
-io::FlowSummary::WallPressure wall_pressure(const CumulativeSeries& series, const State& state) {
+io::FlowSummary::WallPressure wall_pressure(const WallForces& across, const State& state) {
   const double per_length = 1.0 / state.box.length;
-  io::FlowSummary::WallPressure p{.left = scaled(series.rate("left_wall_impulse_x"), per_length),
-                                  .right = {}};
-  if (state.walls.size() > 1) p.right = scaled(series.rate("right_wall_impulse_x"), -per_length);
+  io::FlowSummary::WallPressure p{.left = scaled(across.left, per_length), .right = {}};
+  if (across.right) p.right = scaled(*across.right, -per_length);
   return p;
 }
 
@@ -260,16 +210,19 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.structure_factor = structure_factors_of(file, first);
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(first));
-  const std::vector<double> velocities = velocities_by_mass(file, state, first);
+  const auto velocities = [&](Axis axis) { return velocities_by_mass(file, state, first, axis); };
+  const auto forces = [&](Axis axis) {
+    return wall_forces(series, state, axis, velocities(axis), interval);
+  };
   s.mass_flow_rate =
-      scaled(mean_with_error(velocities), total_mass(state.grains) / state.box.length);
-  s.balance = balance(series, state, velocities, interval);
+      scaled(mean_with_error(velocities(Axis::along)), total_mass(state.grains) / state.box.length);
+  const WallForces along = forces(Axis::along);
+  s.balance = balance(series, state, along);
   // Each contact counts for both of its grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
-  s.braking_force =
-      braking_force(series, state, total_mass(state.grains) * s.balance.n_dot_dv_y.error);
-  s.wall_pressure = wall_pressure(series, state);
+  s.braking_force = braking_force(along, state);
+  s.wall_pressure = wall_pressure(forces(Axis::across), state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.energy = energy_of(state, last.energies);
   const double across = speed_across(file, s.fluctuations, state.grains.size(), first);

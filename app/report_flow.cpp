@@ -124,7 +124,7 @@ private:
   static std::string what_thickness_means(const StateFigure& figure) {
     if (figure.largest_force == 0.0) return "";
     return fmt::format(
-        ", as thick as their forces are large, from a twelfth of {:.4g} N up to that",
+        ", as thick as their forces are large, up to {:.4g} N; those below a twelfth are alike",
         figure.largest_force);
   }
 

@@ -142,9 +142,10 @@ SettingsTable run_settings() {
        .unit = "1",
        .fallback = "50",
        .range = at_least(5.0),
-       .doc = "Time steps per contact, for the shortest contact among all pairs that can meet; or, "
-              "if that is shorter, per half a period of the tangential spring, or per passage of a "
-              "wall grain in an impact."},
+       .doc =
+           "Time steps per contact, for the shortest contact among all pairs that can meet; or, "
+           "if that is shorter, per half a period of the tangential spring, per twice the contact "
+           "without damping, or per passage of a wall grain in an impact."},
       {.key = "run.threads",
        .kind = Kind::integer_or_auto,
        .fallback = "auto",

@@ -25,7 +25,7 @@ double damping_from_restitution(const io::Settings& settings, double reduced_mas
   if (attraction(settings) == Attraction::clip && restitution <= least_restitution_without_pull)
     settings.reject("contact.restitution",
                     "would need more than critical damping, which is not offered",
-                    fmt::format("choose it above {:.4g}, or contact.attraction: keep",
+                    fmt::format("choose it above {:.5f}, or contact.attraction: keep",
                                 least_restitution_without_pull));
   return damping_for_restitution(restitution, settings.number("contact.stiffness"), reduced_mass,
                                  attraction(settings));
@@ -129,8 +129,13 @@ double collision_time(const io::Settings& settings, const ContactModel& model,
 
 double time_step(const io::Settings& settings, const ContactModel& model, double collision_time,
                  double reduced_mass) {
-  const double shortest =
+  double shortest =
       std::min(collision_time, spring_time(model.slip, inertia(settings), reduced_mass));
+  // Near critical damping contacts last for ever, and nearly all happens at their beginning.
+  constexpr double longest = 2.0;  // times the contact without damping; e_N is 0.0043 there
+  if (linear_contact(model.normal, reduced_mass))
+    shortest = std::min(
+        shortest, longest * elastic_collision_time(elastic_line(model.normal), reduced_mass, 0.0));
   return shortest / settings.number("run.steps_per_collision");
 }
 

@@ -12,7 +12,8 @@ namespace riesel::scenarios {
 double collision_time(const io::Settings& settings, const ContactModel& model, double reduced_mass);
 
 /// The time step, in s: the collision time (s) or, if shorter, half a period of the tangential
-/// spring of two bodies with this reduced mass (kg), divided by run.steps_per_collision.
+/// spring of two bodies with this reduced mass (kg), or twice their contact without damping under a
+/// linear law, divided by run.steps_per_collision.
 double time_step(const io::Settings& settings, const ContactModel& model, double collision_time,
                  double reduced_mass);
 

@@ -86,7 +86,7 @@ class FinishedRun(Report):
         lines = self.figure(self.out, "state").findall(f"{SVG}g[@class='contacts']/{SVG}line")
         np.testing.assert_allclose([float(line.get("stroke-width")) for line in lines],
                                    np.maximum(0.5, 6.0 * force / force.max()), atol=0.006)
-        self.assertIn(f"from a twelfth of {force.max():.4g} N up to that", self.page.text)
+        self.assertIn(f"up to {force.max():.4g} N; those below a twelfth", self.page.text)
         self.assertIn(f"All {self.page.shapes['grains']} grains", self.page.text)
 
     def test_the_discs_are_where_the_grains_are(self):

@@ -53,14 +53,17 @@ class Tube(CommandTest):
         self.assertEqual(set(summary["performance"]), {"wall_seconds", "particle_steps_per_second", "threads"})
         self.assertEqual(set(summary["validity"]["t_col"]), {"grains", "walls"})
 
-    def test_the_manual_lists_the_profiles_and_histograms(self):
-        text, profiles = manual("run.h5"), ["x"]
+    def test_the_manual_lists_profiles_histograms_and_columns_of_contacts(self):
+        text, of_contacts = manual("run.h5").split("\n### Contacts of the final state\n")
+        profiles = ["x"]
         for names, _ in rows_of(text):
             for name in re.findall(r"`(\w+)`", names):  # `stress_xx`, `_xy`
                 profiles.append(profiles[-1][:-len(name)] + name if name.startswith("_") else name)
         with h5py.File(self.out / "run.h5", "r") as file:
             self.assertEqual({name.removesuffix("_error") for name in file["profiles"]}, set(profiles))
             self.assertEqual(set(file["histograms"]), set(re.findall(r"`(\w+)`", text.split("NAME is")[1])))
+            contacts = [name for names, _ in rows_of(of_contacts) for name in re.findall(r"`(\w+)`", names)]
+            self.assertEqual(sorted(file["final/contacts"]), sorted(contacts))
 
     def test_the_summary_has_finite_values(self):
         summary = self.summary(self.out)

@@ -3,6 +3,7 @@
 #include "tests/message_of.hpp"
 #include "tests/scenarios/scenario_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -52,6 +53,22 @@ TEST_CASE("restitution of all is that of every pair, whatever its masses, also w
   for (const double reduced_mass : {1e-3 * mass, 0.5 * mass, mass, 40.0 * mass})
     CHECK_THAT(linear_contact(model.normal, reduced_mass, model.attraction).value().restitution(),
                WithinRel(std::stod(e), 1e-12));
+}
+
+TEST_CASE("near critical damping the time step is that of twice a contact without damping") {
+  const auto steps_per_period = [](const char* restitution) {  // of half a period without damping
+    const auto problem =
+        flow(tube_of_restitution_yaml,
+             {"contact.restitution_of=all", "contact.restitution=" + std::string(restitution)});
+    const double lightest = std::ranges::min(problem.state.grains.mass);
+    return std::numbers::pi * std::sqrt(0.5 * lightest / k_n) / problem.state.time_step;
+  };
+  const double pi = std::numbers::pi;
+  CHECK_THAT(steps_per_period("1e-9"), WithinRel(25.0, 1e-9));
+  CHECK_THAT(steps_per_period("0.004"), WithinRel(25.0, 1e-9));
+  for (const char* e : {"0.005", "0.5"})  // eq. (4): t_col is this much longer than half a period
+    CHECK_THAT(steps_per_period(e),
+               WithinRel(50.0 * pi / std::hypot(pi, std::log(std::stod(e))), 1e-9));
 }
 
 TEST_CASE("restitution of all is refused where damping is given") {
