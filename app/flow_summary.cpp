@@ -210,23 +210,21 @@ io::FlowSummary summarise(const FlowRecords& records, const State& state, const 
   s.structure_factor = structure_factors_of(file, first);
   std::tie(s.core, s.wall_layers) =
       zones(profiles, strips, state.walls.size(), static_cast<std::int64_t>(first));
-  const auto velocities = [&](Axis axis) { return velocities_by_mass(file, state, first, axis); };
-  const auto forces = [&](Axis axis) {
-    return wall_forces(series, state, axis, velocities(axis), interval);
-  };
-  s.mass_flow_rate =
-      scaled(mean_with_error(velocities(Axis::along)), total_mass(state.grains) / state.box.length);
-  const WallForces along = forces(Axis::along);
+  const std::vector<double> v_y = velocities_by_mass(file, state, first, Axis::along);
+  const std::vector<double> v_x = velocities_by_mass(file, state, first, Axis::across);
+  const WallForces along = wall_forces(series, state, Axis::along, v_y, interval);
+  const WallForces across = wall_forces(series, state, Axis::across, v_x, interval);
+  s.mass_flow_rate = scaled(mean_with_error(v_y), total_mass(state.grains) / state.box.length);
   s.balance = balance(series, state, along);
   // Each contact counts for both of its grains.
   s.grain_contact_rate =
       scaled(series.rate("grain_contacts"), 2.0 / static_cast<double>(state.grains.size()));
   s.braking_force = braking_force(along, state);
-  s.wall_pressure = wall_pressure(forces(Axis::across), state);
+  s.wall_pressure = wall_pressure(across, state);
   s.wall_visits = wall_visits(series, state.tally.visits);
   s.energy = energy_of(state, last.energies);
-  const double across = speed_across(file, s.fluctuations, state.grains.size(), first);
-  s.validity = validity_of(series, state, last.energies, typical_contacts(state, model, across),
+  const double speed = speed_across(file, s.fluctuations, state.grains.size(), first);
+  s.validity = validity_of(series, state, last.energies, typical_contacts(state, model, speed),
                            s.grain_contact_rate.value, warnings);
   if (steady.verdict == SteadyVerdict::accelerating) take_error_bars_off(s);
   return s;

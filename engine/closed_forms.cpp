@@ -61,11 +61,11 @@ double LinearContact::restitution() const {
 
 std::optional<LinearContact> linear_contact(const NormalLaw& normal, double reduced_mass,
                                             Attraction attraction) {
-  if (const auto* law = std::get_if<LinearLaw>(&normal))
-    return LinearContact{law->k_n, law->gamma_n, reduced_mass, attraction};
-  if (const auto* law = std::get_if<EqualRestitutionLaw>(&normal))
-    return LinearContact{law->k_n, law->gamma_n(reduced_mass), reduced_mass, attraction};
-  return std::nullopt;
+  const auto* equal = std::get_if<EqualRestitutionLaw>(&normal);
+  const auto* linear = std::get_if<LinearLaw>(&normal);
+  if (equal == nullptr && linear == nullptr) return std::nullopt;
+  const LinearLaw law = equal != nullptr ? equal->at(reduced_mass) : *linear;
+  return LinearContact{law.k_n, law.gamma_n, reduced_mass, attraction};
 }
 
 double damping_for_restitution(double restitution, double k_n, double reduced_mass,

@@ -27,32 +27,31 @@
 
 namespace riesel {
 
-/// The elastic part of both linear laws.
-struct LinearSpring {
-  double k_n;  ///< N/m
+/// Eq. (1): F_N = k_N xi + gamma_N m_red d(xi)/dt.
+struct LinearLaw {
+  double k_n;      ///< N/m
+  double gamma_n;  ///< 1/s
 
   double elastic(double xi) const { return k_n * xi; }
+  double damping(double, double rate, double m_red) const { return gamma_n * m_red * rate; }
   double stored_energy(double xi) const { return 0.5 * k_n * xi * xi; }
   ElasticLine elastic_line() const { return {k_n, 1.0}; }
 };
 
-/// Eq. (1): F_N = k_N xi + gamma_N m_red d(xi)/dt.
-struct LinearLaw : LinearSpring {
-  double gamma_n;  ///< 1/s
-
-  double damping(double, double rate, double m_red) const { return gamma_n * m_red * rate; }
-};
-
 /// Eq. (1) with gamma_N proportional to m_red^(-1/2). As e_N depends on gamma_N^2 m_red / k_N, all
 /// pairs have the same, whatever their masses.
-struct EqualRestitutionLaw : LinearSpring {
-  double gamma_root_mass;  ///< kg^(1/2)/s, gamma_N m_red^(1/2)
+struct EqualRestitutionLaw {
+  LinearLaw at_one_kilogram;  ///< of reduced mass
 
-  /// 1/s
-  double gamma_n(double m_red) const { return gamma_root_mass / std::sqrt(m_red); }
-  double damping(double, double rate, double m_red) const {
-    return gamma_root_mass * std::sqrt(m_red) * rate;
+  LinearLaw at(double m_red) const {
+    return {at_one_kilogram.k_n, at_one_kilogram.gamma_n / std::sqrt(m_red)};
   }
+  double elastic(double xi) const { return at_one_kilogram.elastic(xi); }
+  double damping(double, double rate, double m_red) const {
+    return at_one_kilogram.gamma_n * std::sqrt(m_red) * rate;
+  }
+  double stored_energy(double xi) const { return at_one_kilogram.stored_energy(xi); }
+  ElasticLine elastic_line() const { return at_one_kilogram.elastic_line(); }
 };
 
 /// Eq. (3): F_N = k xi^alpha + gamma xi^beta (d(xi)/dt)^g, odd in the rate.

@@ -35,19 +35,19 @@ double damping_from_restitution(const io::Settings& settings, double reduced_mas
 /// `restitution_of` says that it is that of two such grains, or of all pairs.
 NormalLaw linear_law(const io::Settings& settings) {
   settings.require_exactly_one({"contact.damping", "contact.restitution"});
-  const LinearSpring spring{settings.number("contact.stiffness")};
+  const double k_n = settings.number("contact.stiffness");
   const std::string& pair = settings.text(restitution_of);
   if (settings.has("contact.damping")) {
     if (pair == "all")
       settings.reject(restitution_of, "has no meaning where contact.damping is given",
                       "remove it, or give contact.restitution instead");
-    return LinearLaw{spring, settings.number("contact.damping")};
+    return LinearLaw{.k_n = k_n, .gamma_n = settings.number("contact.damping")};
   }
   const double mass = settings.number("grains.mass");
   if (pair == "all")
-    return EqualRestitutionLaw{spring, damping_from_restitution(settings, mass) * std::sqrt(mass)};
+    return EqualRestitutionLaw{{.k_n = k_n, .gamma_n = damping_from_restitution(settings, 1.0)}};
   const double reduced_mass = pair == "grains" ? 0.5 * mass : mass;
-  return LinearLaw{spring, damping_from_restitution(settings, reduced_mass)};
+  return LinearLaw{.k_n = k_n, .gamma_n = damping_from_restitution(settings, reduced_mass)};
 }
 
 NormalLaw normal_law(const io::Settings& settings) {

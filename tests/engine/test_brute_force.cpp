@@ -81,7 +81,7 @@ TEST_CASE("every law of the contact goes as by brute force") {
   ContactModel model = paper_model();
   SECTION("Hertz-Kuwabara-Kono") { model.normal = HertzKuwabaraKonoLaw{5e5, 3.3}; }
   SECTION("general power law") { model.normal = PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}; }
-  SECTION("equal restitution") { model.normal = EqualRestitutionLaw{stiffness, 7.0}; }
+  SECTION("equal restitution") { model.normal = EqualRestitutionLaw{{stiffness, 7.0}}; }
   SECTION("literal sign of the slip") { model.slip = LiteralSlip{}; }
   SECTION("viscous slip") { model.slip = ViscousSlip{1e5}; }
   SECTION("no attraction") { model.attraction = Attraction::clip; }

@@ -60,7 +60,7 @@ TEST_CASE("a law from outside is called for bodies that touch, and for no others
 
 TEST_CASE("a law from outside has the functions of its type") {
   check_functions(LinearLaw{2000.0, 1e4});
-  check_functions(EqualRestitutionLaw{2000.0, 7.0});
+  check_functions(EqualRestitutionLaw{{2000.0, 7.0}});
   check_functions(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1});
   check_functions(HertzKuwabaraKonoLaw{5e5, 3.3});
 }

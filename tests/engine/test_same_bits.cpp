@@ -34,7 +34,7 @@ ContactModel with_each_law(ContactModel model, double gamma_t) {
   const NormalLaw normal =
       GENERATE(NormalLaw(LinearLaw{stiffness, damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
                NormalLaw(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}),
-               NormalLaw(EqualRestitutionLaw{stiffness, 7.0}));
+               NormalLaw(EqualRestitutionLaw{{stiffness, 7.0}}));
   const SlipLaw slip =
       GENERATE_COPY(SlipLaw(CappedSlip{}), SlipLaw(LiteralSlip{}), SlipLaw(ViscousSlip{gamma_t}),
                     SlipLaw(SpringSlip{700.0, 1e4}));

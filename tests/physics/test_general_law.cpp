@@ -60,9 +60,10 @@ TEST_CASE("the damping of eq. (3) is odd in the rate") {
 }
 
 TEST_CASE("the stored energy of each law is the work against its elastic force") {
-  const NormalLaw law = GENERATE(
-      NormalLaw(LinearLaw{stiffness, damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
-      NormalLaw(PowerLaw{2e4, 1.0, 1.2, 0.3, 1.0}), NormalLaw(EqualRestitutionLaw{stiffness, 7.0}));
+  const NormalLaw law =
+      GENERATE(NormalLaw(LinearLaw{stiffness, damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
+               NormalLaw(PowerLaw{2e4, 1.0, 1.2, 0.3, 1.0}),
+               NormalLaw(EqualRestitutionLaw{{stiffness, 7.0}}));
   std::visit(
       [](const auto& l) {
         const double xi = 2e-5, h = 1e-9;

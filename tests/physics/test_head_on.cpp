@@ -91,7 +91,7 @@ TEST_CASE("under equal restitution all pairs rebound alike, whatever their masse
   const double loss = -std::log(expected);  // gamma_N t_col / 2; with eq. (4) for gamma_N m^(1/2):
   ContactModel model = frictionless(0.0);
   model.normal =
-      EqualRestitutionLaw{stiffness, 2.0 * std::sqrt(stiffness) * loss / std::hypot(pi, loss)};
+      EqualRestitutionLaw{{stiffness, 2.0 * std::sqrt(stiffness) * loss / std::hypot(pi, loss)}};
   HeadOn h{.mass_1 = mass, .mass_2 = partner, .speed = 0.4, .dt = 0.0};
   const double omega0 = std::sqrt(stiffness / h.reduced_mass());
   const double t_col = std::hypot(pi, loss) / omega0;

@@ -61,7 +61,7 @@ TEST_CASE("a graze far below v_crit is no passage, one far above is") {
       NormalLaw(LinearLaw{stiffness, 0.0}), NormalLaw(LinearLaw{stiffness, damping}),
       NormalLaw(LinearLaw{stiffness, 3.0 * damping}), NormalLaw(HertzKuwabaraKonoLaw{5e5, 3.3}),
       NormalLaw(PowerLaw{2e4, 1e-2, 1.2, 0.2, 1.1}),
-      NormalLaw(EqualRestitutionLaw{stiffness, 7.0}));
+      NormalLaw(EqualRestitutionLaw{{stiffness, 7.0}}));
   const double steps = GENERATE(50.0, 200.0);
   const auto passes = [&](double ratio) {
     return is_cut_short(graze(with(normal), ratio, steps).contact, with(normal), mass);

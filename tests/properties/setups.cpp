@@ -32,8 +32,8 @@ NormalLaw random_normal_law(Dice& dice) {
   }
   case 2: {
     const double k = power_of_ten(dice, 2.3, 5.3);
-    const double gamma = damping_for_restitution(dice.between(0.3, 1.0), k, mass, Attraction::keep);
-    return EqualRestitutionLaw{k, gamma * std::sqrt(mass)};
+    return EqualRestitutionLaw{
+        {k, damping_for_restitution(dice.between(0.3, 1.0), k, 1.0, Attraction::keep)}};
   }
   default: {
     const double k = power_of_ten(dice, 2.3, 5.3);

@@ -49,7 +49,7 @@ TEST_CASE("restitution of all is that of every pair, whatever its masses, also w
       flow(tube_of_restitution_yaml, {"contact.restitution=" + e, "contact.restitution_of=all",
                                       "contact.attraction=" + attraction})
           .model;
-  CHECK(std::get<EqualRestitutionLaw>(model.normal).k_n == k_n);
+  CHECK(std::get<EqualRestitutionLaw>(model.normal).at(mass).k_n == k_n);
   for (const double reduced_mass : {1e-3 * mass, 0.5 * mass, mass, 40.0 * mass})
     CHECK_THAT(linear_contact(model.normal, reduced_mass, model.attraction).value().restitution(),
                WithinRel(std::stod(e), 1e-12));
