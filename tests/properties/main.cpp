@@ -81,7 +81,7 @@ int check_flows(std::uint64_t first, std::uint64_t count) {
 
 /// By law and by decade of the number of steps.
 int print_gains(std::uint64_t first, std::uint64_t count) {
-  constexpr std::array laws{"linear", "power", "Hertz"};
+  constexpr std::array laws{"linear", "equal restitution", "power", "Hertz"};
   constexpr std::array slips{"capped", "literal", "viscous", "spring"};
   constexpr std::array lowest{10.0, 20.0, 50.0, 100.0};
   std::array<std::array<std::array<double, lowest.size()>, slips.size()>, laws.size()> most{};
@@ -101,8 +101,10 @@ int print_gains(std::uint64_t first, std::uint64_t count) {
   for (std::size_t law = 0; law < laws.size(); ++law)
     for (std::size_t slip = 0; slip < slips.size(); ++slip)
       for (std::size_t row = 0; row < lowest.size(); ++row)
-        std::printf("| %s | %s | %.0f | %d | %.1e |\n", laws.at(law), slips.at(slip),
-                    lowest.at(row), counts.at(law).at(slip).at(row), most.at(law).at(slip).at(row));
+        if (counts.at(law).at(slip).at(row) > 0)
+          std::printf("| %s | %s | %.0f | %d | %.1e |\n", laws.at(law), slips.at(slip),
+                      lowest.at(row), counts.at(law).at(slip).at(row),
+                      most.at(law).at(slip).at(row));
   return 0;
 }
 
