@@ -66,6 +66,10 @@ zones(const TimeBlocks& blocks, const Strips& strips, std::size_t walls, std::in
   return {zone(0), zone(1)};
 }
 
+io::Measured scaled(const io::Measured& m, double factor) {
+  return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
+}
+
 /// Eq. (9). `along`: forces of the walls.
 io::FlowSummary::Balance balance(const CumulativeSeries& series, const State& state,
                                  const WallForces& along) {

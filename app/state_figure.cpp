@@ -183,7 +183,7 @@ private:
     svg_.begin_group("contacts", {.stroke = "#d01c1c"});
     for (std::size_t i = 0; i < state_->contacts.size(); ++i) {
       const ContactName& name = state_->contacts[i].name;
-      const Grain& grain = state_->grains[static_cast<std::size_t>(name.grain)];
+      const Grain& grain = first_body(name);
       const auto column = layout_.column_of(grain.y);
       if (!column) continue;
       const auto [x, y] = place_of_partner(name);
@@ -198,8 +198,7 @@ private:
   double largest_force_drawn() const {
     double largest = 0.0;
     for (std::size_t i = 0; i < state_->forces.size(); ++i) {
-      const auto grain = static_cast<std::size_t>(state_->contacts[i].name.grain);
-      const bool is_drawn = layout_.column_of(state_->grains[grain].y).has_value();
+      const bool is_drawn = layout_.column_of(first_body(state_->contacts[i].name).y).has_value();
       if (is_drawn && std::isfinite(state_->forces[i]))
         largest = std::max(largest, state_->forces[i]);
     }
@@ -215,6 +214,10 @@ private:
                                 : thinnest;
   }
 
+  const Grain& first_body(const ContactName& name) const {
+    return state_->grains[static_cast<std::size_t>(name.grain)];
+  }
+
   /// m
   Point place_of_partner(const ContactName& name) const {
     if (name.wall == no_wall) {
@@ -224,7 +227,7 @@ private:
     const WallLattice& wall = state_->walls[static_cast<std::size_t>(name.wall)];
     const WallWay way = wall.motion.way(state_->box, state_->time);
     const double x = wall.line + way.x;
-    if (wall.smooth()) return {x, state_->grains[static_cast<std::size_t>(name.grain)].y};
+    if (wall.smooth()) return {x, first_body(name).y};
     return {x, static_cast<double>(name.partner) * wall.spacing(state_->box) + way.y};
   }
 

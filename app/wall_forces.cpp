@@ -54,10 +54,6 @@ struct Errors {
 
 }  // namespace
 
-io::Measured scaled(const io::Measured& m, double factor) {
-  return {.value = factor * m.value + 0.0, .error = std::abs(factor) * m.error};  // no -0
-}
-
 std::vector<double> velocities_by_mass(const io::RunFile& file, const State& state,
                                        std::size_t first, Axis axis) {
   const Names names = names_of(axis);

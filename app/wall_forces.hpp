@@ -31,7 +31,4 @@ struct WallForces {
 WallForces wall_forces(const CumulativeSeries& series, const State& state, Axis axis,
                        const std::vector<double>& velocities, double interval);
 
-/// A product with a number without an error.
-io::Measured scaled(const io::Measured& m, double factor);
-
 }  // namespace riesel::app
