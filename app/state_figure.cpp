@@ -182,7 +182,7 @@ private:
   void draw_contacts() {
     svg_.begin_group("contacts", {.stroke = "#d01c1c"});
     for (std::size_t i = 0; i < state_->contacts.size(); ++i) {
-      const ContactName& name = state_->contacts[i].name;
+      const ContactName& name = state_->contacts[i];
       const Grain& grain = first_body(name);
       const auto column = layout_.column_of(grain.y);
       if (!column) continue;
@@ -198,7 +198,7 @@ private:
   double largest_force_drawn() const {
     double largest = 0.0;
     for (std::size_t i = 0; i < state_->forces.size(); ++i) {
-      const bool is_drawn = layout_.column_of(first_body(state_->contacts[i].name).y).has_value();
+      const bool is_drawn = layout_.column_of(first_body(state_->contacts[i]).y).has_value();
       if (is_drawn && std::isfinite(state_->forces[i]))
         largest = std::max(largest, state_->forces[i]);
     }

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -40,6 +39,10 @@ std::vector<Text> split(std::string_view line) {
   }
   return cells;
 }
+
+/// What is told if a number stands where the name of a column is due.
+constexpr const char* no_headings =
+    "; the first line that does not begin with # must name them (numpy.savetxt: comments='')";
 
 bool counts(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
@@ -79,9 +82,10 @@ public:
   Parser(const std::string& source, const std::vector<CsvColumn>& columns)
       : source_(&source), columns_(&columns) {}
 
-  CsvTable parse(const std::string& text) && {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
+  CsvTable parse(std::string_view text) && {
+    while (!text.empty()) {
+      const std::string_view line = text.substr(0, text.find('\n'));
+      text.remove_prefix(std::min(line.size() + 1, text.size()));
       ++line_;
       if (!counts(line)) continue;
       const std::vector<Text> cells = split(line);
@@ -110,7 +114,8 @@ private:
       const auto known = std::ranges::find(*columns_, heading.name, &CsvColumn::name);
       if (known == columns_->end())
         throw SettingsError(at(cell), heading.name, "unknown column",
-                            "the columns are " + names_of(*columns_));
+                            "the columns are " + names_of(*columns_)
+                                + (split_quantity(cell.text) ? no_headings : ""));
       if (!index_.emplace(heading.name, headings_.size()).second)
         throw SettingsError(at(cell), heading.name, "appears twice", "remove one of the two");
       const bool also = !known->also.empty() && heading.unit == known->also;
@@ -171,9 +176,9 @@ private:
 
 }  // namespace
 
-CsvTable parse_csv(const std::string& text, const std::string& source,
+CsvTable parse_csv(std::string_view text, const std::string& source,
                    const std::vector<CsvColumn>& columns) {
-  return Parser(source, columns).parse(std::string(without_byte_order_mark(text)));
+  return Parser(source, columns).parse(without_byte_order_mark(text));
 }
 
 double CsvTable::value(std::size_t row, const std::string& column) const {
@@ -188,7 +193,7 @@ void CsvTable::reject(std::size_t row, const std::string& column, const std::str
 
 CsvTable read_csv(const Settings& settings, const std::string& key,
                   const std::vector<CsvColumn>& columns) {
-  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 26;
+  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
   std::vector<char> bytes;
   try {
     bytes = read_whole_file(settings.text(key), most_bytes);
@@ -196,7 +201,7 @@ CsvTable read_csv(const Settings& settings, const std::string& key,
     settings.reject(key, "cannot be read (" + std::string(error.what()) + ")",
                     "give a file of comma-separated columns");
   }
-  return parse_csv({bytes.begin(), bytes.end()}, settings.text(key), columns);
+  return parse_csv({bytes.data(), bytes.size()}, settings.text(key), columns);
 }
 
 }  // namespace riesel::io

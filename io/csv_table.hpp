@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -61,11 +62,11 @@ private:
 
 /// `source` names the file in errors. Throws SettingsError for a text without rows, for missing,
 /// unknown or repeated columns, and for cells that are not numbers.
-CsvTable parse_csv(const std::string& text, const std::string& source,
+CsvTable parse_csv(std::string_view text, const std::string& source,
                    const std::vector<CsvColumn>& columns);
 
 /// Reads the file that the setting `key`, a path, names. Throws SettingsError; in particular, at
-/// the key, for a file that cannot be read or is longer than 64 MB.
+/// the key, for a file that cannot be read or is longer than 1 GiB.
 CsvTable read_csv(const Settings& settings, const std::string& key,
                   const std::vector<CsvColumn>& columns);
 

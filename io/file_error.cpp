@@ -43,6 +43,11 @@ FileError::FileError(std::filesystem::path file, std::string problem, std::strin
       problem_(std::move(problem)),
       remedy_(std::move(remedy)) {}
 
+FileError of_another_version(const std::filesystem::path& file, const std::string& difference,
+                             const std::string& version) {
+  return {file, difference, "use riesel " + version + ", which wrote it, or make the run again"};
+}
+
 FileError system_failure(const std::filesystem::path& file, const std::string& action,
                          int error_number) {
   return {file, action + ": " + std::generic_category().message(error_number),

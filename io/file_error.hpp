@@ -36,6 +36,11 @@ public:
   using FileError::FileError;
 };
 
+/// The error for a file that riesel `version` wrote and this one does not read; `difference` is the
+/// problem.
+FileError of_another_version(const std::filesystem::path& file, const std::string& difference,
+                             const std::string& version);
+
 /// The error for a failed system call: the problem is `action` ("cannot be written") followed by
 /// the system's text for `error_number` (an errno), which also decides the remedy.
 FileError system_failure(const std::filesystem::path& file, const std::string& action,

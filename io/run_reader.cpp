@@ -1,6 +1,7 @@
 #include "io/run_reader.hpp"
 
 #include "engine/state_check.hpp"
+#include "io/build_info.hpp"
 #include "io/file_error.hpp"
 #include "io/sealed_hdf5.hpp"
 #include "io/state_columns.hpp"
@@ -104,8 +105,8 @@ void check(const FinalState& state) {
                   [&](const WallLattice& w) { return is_sound(w, state.box, state.time); }),
           "a wall has impossible values");
   require(std::ranges::all_of(state.contacts,
-                              [&](const Contact& c) {
-                                return names_bodies(c.name, state.grains.size(), state.walls);
+                              [&](const ContactName& c) {
+                                return names_bodies(c, state.grains.size(), state.walls);
                               }),
           "a contact names bodies that are not there");
 }
@@ -117,7 +118,7 @@ FinalState read_final_state(const StoredGroup& group) {
                    .step = group.attribute<std::int64_t>("step"),
                    .grains = read_grains(group),
                    .walls = read_records<WallLattice>(group.group("walls")),
-                   .contacts = read_records<Contact>(group.group("contacts")),
+                   .contacts = read_records<ContactName>(group.group("contacts")),
                    .forces = {}};
   state.forces = read_forces(group.group("contacts"), state.contacts.size());
   check(state);
@@ -214,11 +215,31 @@ const Named& find(const std::vector<Named>& all, const std::string& name, const 
   return *found;
 }
 
-/// Calls `read` with the root of the file and returns its result.
+/// The version of riesel that began the run; empty if the file does not say.
+std::string version_in(const StoredGroup& root) {
+  constexpr auto name = "riesel_version";
+  if (!root.has("provenance")) return "";
+  const auto provenance = root.group("provenance");
+  return provenance.has(name) ? provenance.text(name) : "";
+}
+
+/// Calls `read` with the root of a file that is whole and returns its result.
+template <class Read>
+auto read_whole(const std::filesystem::path& path, const StoredGroup& root, Read read) {
+  try {
+    return read(root);
+  } catch (const Hdf5Error& error) {
+    const std::string version = version_in(root);
+    if (version.empty() || version == build_info().version) throw;
+    throw of_another_version(
+        path, fmt::format("does not fit this version of riesel ({})", error.what()), version);
+  }
+}
+
 template <class Read>
 auto read_file(const std::filesystem::path& path, Read read) {
   try {
-    return read(open_sealed_hdf5(path, run_file_kind));
+    return read_whole(path, open_sealed_hdf5(path, run_file_kind), read);
   } catch (const Hdf5Error& error) {
     throw FileError(path,
                     fmt::format("is damaged, or belongs to another kind of run ({})", error.what()),

@@ -22,7 +22,7 @@ struct FinalState {
   std::int64_t step = 0;
   std::vector<Grain> grains;  ///< a grain's id is its index
   std::vector<WallLattice> walls;
-  std::vector<Contact> contacts;  ///< their names refer to these grains and walls
+  std::vector<ContactName> contacts;  ///< they refer to these grains and walls
   /// N, absolute values of the forces of the contacts, not checked; empty in files of riesel before
   /// 0.16.
   std::vector<double> forces;

@@ -69,8 +69,6 @@ const std::string& Settings::text(const std::string& key) const {
   return value_of<std::string>(*contents_, key);
 }
 
-bool Settings::boolean(const std::string& key) const { return value_of<bool>(*contents_, key); }
-
 const std::vector<double>& Settings::numbers(const std::string& key) const {
   return value_of<std::vector<double>>(*contents_, key);
 }

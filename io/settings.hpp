@@ -49,8 +49,7 @@ public:
   /// kind, or has no value (see has()) is a mistake of the program: throws std::logic_error.
   double number(const std::string& key) const;
   std::int64_t integer(const std::string& key) const;
-  const std::string& text(const std::string& key) const;  ///< choices too
-  bool boolean(const std::string& key) const;
+  const std::string& text(const std::string& key) const;                      ///< choices too
   const std::vector<double>& numbers(const std::string& key) const;           ///< never empty
   std::optional<std::int64_t> integer_or_auto(const std::string& key) const;  ///< nothing: auto
 

@@ -85,8 +85,10 @@ SettingsTable normal_force_settings() {
        .unit = "m/s",
        .fallback = "1 m/s",
        .range = positive(),
-       .doc = "Speed of fast impacts: the time step follows from the duration of a contact at this "
-              "speed, which under a nonlinear law is shorter for faster ones.",
+       .doc =
+           "Speed of fast impacts: the time step follows from the duration of a contact at this "
+           "speed. Those of faster impacts are shorter; with `exponent_elastic` below 1 they are "
+           "longer, and this must be the speed of slow impacts.",
        .only_when = nonlinear_law},
       {.key = "contact.attraction",
        .kind = Kind::choice,
@@ -105,7 +107,7 @@ SettingsTable friction_settings() {
        .unit = "1",
        .fallback = "0.5",
        .range = non_negative(),
-       .doc = "Coefficient of Coulomb friction mu."},
+       .doc = "Coefficient of Coulomb friction mu, between grains and at walls."},
       {.key = "contact.slip",
        .kind = Kind::choice,
        .fallback = "cap",
@@ -143,9 +145,9 @@ SettingsTable run_settings() {
        .fallback = "50",
        .range = at_least(5.0),
        .doc =
-           "Time steps per contact, for the shortest contact among all pairs that can meet; or, "
-           "if that is shorter, per half a period of the tangential spring, per twice the contact "
-           "without damping, or per passage of a wall grain in an impact."},
+           "The time step is this part of the shortest of: t_col of all pairs that can meet; half "
+           "a period of the tangential spring, if there is one; in impacts the passage of a wall "
+           "grain; twice the t_col without damping (which counts below e_N = 0.0043 only)."},
       {.key = "run.threads",
        .kind = Kind::integer_or_auto,
        .fallback = "auto",

@@ -43,9 +43,9 @@ Entry read_row(const Setting& row, const GivenSettings& given, const SettingsCon
   return {&row, read_default(row), {}};
 }
 
-/// Why a row does not apply: the first unmet one of the conditions that it depends on.
+/// Why no row of a key applies: the first unmet one of the conditions that it depends on.
 When unmet_condition(const std::string& key, const SettingsContents& contents) {
-  const When& condition = std::ranges::find(*contents.table, key, &Setting::key)->only_when.value();
+  const When condition = condition_of(*contents.table, key).value();
   return contents.find(condition.key) != nullptr ? condition
                                                  : unmet_condition(condition.key, contents);
 }

@@ -22,7 +22,6 @@ std::string written(double value) {
 }
 
 std::string written(std::int64_t value) { return fmt::format("{}", value); }
-std::string written(bool value) { return value ? "true" : "false"; }
 std::string written(Auto) { return "auto"; }
 /// A text in JSON is one in YAML too, but for one character (DEL).
 std::string written(const std::string& text) {

@@ -42,8 +42,6 @@ std::string kind_text(const Setting& row) {
     return "text";
   case Kind::path:
     return "path";
-  case Kind::boolean:
-    return "`true` or `false`";
   }
   return {};
 }

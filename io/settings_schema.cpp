@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 #include <vector>
 
 namespace riesel::io {
@@ -66,8 +66,6 @@ Json value_of(const Setting& row) {
   case Kind::text:
   case Kind::path:
     return {{"type", "string"}, {"minLength", 1}};
-  case Kind::boolean:
-    return {{"type", "boolean"}};
   }
   return true;
 }
@@ -80,8 +78,7 @@ Json described(const Setting& row) {
   schema["description"] = text;
   if (!row.fallback.empty()) {
     const Json parsed = Json::parse(row.fallback, nullptr, false);
-    const bool is_plain = parsed.is_number() || parsed.is_boolean();
-    schema["default"] = is_plain ? parsed : Json(row.fallback);
+    schema["default"] = parsed.is_number() ? parsed : Json(row.fallback);
   }
   return schema;
 }
@@ -127,7 +124,7 @@ Json section(const SettingsTable& table, const std::string& path) {
 /// Keys with conditions: where none of these is met, the key is a mistake.
 Json conditions(const SettingsTable& table) {
   Json all = Json::array();
-  std::map<std::string, When> when_any;
+  std::set<std::string> conditional;
   for (const Setting& row : table) {
     if (!row.only_when) {
       if (row.required) all.push_back(around(row.key, true, true));
@@ -135,12 +132,12 @@ Json conditions(const SettingsTable& table) {
     }
     all.push_back({{"if", condition(*row.only_when, table)},
                    {"then", around(row.key, described(row), row.required)}});
-    When& any = when_any.try_emplace(row.key, When{row.only_when->key, {}}).first->second;
-    any.values.insert(any.values.end(), row.only_when->values.begin(), row.only_when->values.end());
+    conditional.insert(row.key);
   }
-  for (const auto& [key, when] : when_any)
-    all.push_back(
-        {{"if", condition(when, table)}, {"then", true}, {"else", around(key, false, false)}});
+  for (const std::string& key : conditional)
+    all.push_back({{"if", condition(condition_of(table, key).value(), table)},
+                   {"then", true},
+                   {"else", around(key, false, false)}});
   return all;
 }
 

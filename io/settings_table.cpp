@@ -112,6 +112,17 @@ bool has_section(const SettingsTable& table, const std::string& section) {
   return !section.empty() && !names_of(table, section).empty();
 }
 
+std::optional<When> condition_of(const SettingsTable& table, const std::string& key) {
+  std::optional<When> any;
+  for (const auto& row : table) {
+    if (row.key != key || !row.only_when) continue;
+    if (!any) any = When{row.only_when->key, {}};  // common to all rows of a key
+    any->values.insert(any->values.end(), row.only_when->values.begin(),
+                       row.only_when->values.end());
+  }
+  return any;
+}
+
 std::vector<std::string> names_of_scenarios(const SettingsTables& tables) {
   std::vector<std::string> names;
   for (const auto& [name, table] : tables) names.push_back(name);

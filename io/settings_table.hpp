@@ -21,7 +21,6 @@ enum class Kind {
   choice,   ///< one of Setting::choices
   text,     ///< not empty
   path,     ///< of a file or directory; relative to the settings file that gives it
-  boolean,  ///< true or false
   numbers,  ///< a list of quantities, one quantity, or {from, to, points, spacing: log | linear}
   integer_or_auto,  ///< an integer or the word auto
 };
@@ -101,6 +100,9 @@ bool has_section(const SettingsTable& table, const std::string& section);
 /// The names within a section, including those of its own sections, in table order, each once; for
 /// "", the names at the top level of a file.
 std::vector<std::string> names_of(const SettingsTable& table, const std::string& section);
+
+/// The condition under which any row of this key applies; nothing if there is none.
+std::optional<When> condition_of(const SettingsTable& table, const std::string& key);
 
 /// "above 0 m", "from 1 to 1024", ...; for angles in degrees; empty if there is no limit.
 std::string to_string(const Range& range, const std::string& unit);

@@ -44,12 +44,6 @@ std::string read_choice(const Setting& row, const YamlNode& node) {
   refuse_value(row, node, did_you_mean(text, row.choices).value_or("choose one of them"));
 }
 
-bool read_boolean(const Setting& row, const YamlNode& node) {
-  const auto& text = read_scalar(row, node);
-  if (text != "true" && text != "false") refuse_value(row, node, "write true or false");
-  return text == "true";
-}
-
 std::string read_text(const Setting& row, const YamlNode& node) {
   const auto& text = read_scalar(row, node);
   if (text.empty()) refuse_value(row, node, "give a text");
@@ -82,8 +76,6 @@ std::string expectation(const Setting& row) {
     return "a text";
   case Kind::path:
     return "the path of a file or directory";
-  case Kind::boolean:
-    return "true or false";
   case Kind::numbers:
     return expected_quantity(row) + ", or a list of these";
   case Kind::integer_or_auto:
@@ -108,8 +100,6 @@ SettingValue read_value(const Setting& row, const YamlNode& node) {
     return read_text(row, node);
   case Kind::path:
     return read_path(row, node);
-  case Kind::boolean:
-    return read_boolean(row, node);
   case Kind::numbers:
     return read_quantities(row, node);
   case Kind::integer_or_auto:

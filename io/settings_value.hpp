@@ -17,10 +17,9 @@ struct Auto {
   bool operator==(const Auto&) const = default;
 };
 
-/// A checked value: a number in the row's SI unit, an integer, a boolean, a text or choice, a list
-/// of numbers.
-using SettingValue =
-    std::variant<double, std::int64_t, bool, std::string, std::vector<double>, Auto>;
+/// A checked value: a number in the row's SI unit, an integer, a text or choice, a list of
+/// numbers.
+using SettingValue = std::variant<double, std::int64_t, std::string, std::vector<double>, Auto>;
 
 /// The value of a node under the kind, unit, range and choices of the row. Throws SettingsError at
 /// the node's place.

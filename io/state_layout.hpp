@@ -35,16 +35,26 @@ void for_each_array(AnyGrains& grains, Visit visit) {
   visit("spin_kick", "2 pi / 2^64 / step^2", spin_kick, all);
 }
 
+/// Calls visit(name, unit, member) for each member of a contact's name; member(name) is the member.
+template <std::same_as<ContactName> Record, class Visit>
+void for_each_member(Visit visit) {
+  static_assert(sizeof(ContactName) == 3 * sizeof(std::int32_t));
+  visit(
+      "wall", "1", [](auto& n) -> auto& { return n.wall; });
+  visit(
+      "grain", "1", [](auto& n) -> auto& { return n.grain; });
+  visit(
+      "partner", "1", [](auto& n) -> auto& { return n.partner; });
+}
+
 /// Calls visit(name, unit, member) for each member of a contact; member(contact) is the member.
 template <std::same_as<Contact> Record, class Visit>
 void for_each_member(Visit visit) {
   static_assert(sizeof(Contact) == 16 + 18 * sizeof(double));
-  visit(
-      "wall", "1", [](auto& c) -> auto& { return c.name.wall; });
-  visit(
-      "grain", "1", [](auto& c) -> auto& { return c.name.grain; });
-  visit(
-      "partner", "1", [](auto& c) -> auto& { return c.name.partner; });
+  for_each_member<ContactName>([&](const char* name, const char* unit, auto member) {
+    visit(
+        name, unit, [member](auto& c) -> auto& { return member(c.name); });
+  });
   visit(
       "begin", "s", [](auto& c) -> auto& { return c.begin; });
   visit(

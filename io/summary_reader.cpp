@@ -236,11 +236,6 @@ std::string version_in(const Json& json) {
   return tells ? json["version"].get<std::string>() : "";
 }
 
-FileError of_another_version(const std::filesystem::path& path, const std::string& difference,
-                             const std::string& version) {
-  return {path, difference, "use riesel " + version + ", which wrote it, or make the run again"};
-}
-
 /// Throws FileError for another format. A file without a version, which riesel has not written, is
 /// left to the caller.
 void require_this_format(const std::filesystem::path& path, const Json& json) {

@@ -48,7 +48,8 @@ bool is_as_before(const io::Setting& row, const io::Settings& settings,
   if (settings.written(row.key) == earlier.written(row.key)) return true;
   if (!row.names_content || !settings.has(row.key)) return false;
   const std::string& before = earlier.text(row.key);
-  return !std::filesystem::exists(before)
+  std::error_code out_of_reach;
+  return !std::filesystem::exists(before, out_of_reach)
          || io::hash_of_content(settings.text(row.key)) == io::hash_of_content(before);
 }
 

@@ -142,7 +142,8 @@ Flow start_from_file(const io::Settings& settings, const ContactModel& model, Ro
 Flow continue_run(const io::Settings& settings, const ContactModel& model, Room room) {
   const io::Checkpoint run = earlier_run(settings, room.empty);
   const State& earlier = run.state;
-  room.reject_too_small(settings, 2.0 * std::ranges::max(earlier.grains.radius), room.empty);
+  room.reject_too_small(settings, {2.0 * std::ranges::max(earlier.grains.radius), "start.from"},
+                        room.empty);
   const auto motion = [&](const State& state) {
     return half_a_step_before(earlier, state.time_step);
   };
@@ -230,7 +231,7 @@ Flow start_flow(const io::Settings& settings, Room room) {
   if (kind == "file") return start_from_file(settings, model, std::move(room));
   if (kind == "continued") return continue_run(settings, model, std::move(room));
   const SizeDistribution sizes(settings);
-  room.reject_too_small(settings, sizes.largest(), room.empty);
+  room.reject_too_small(settings, {sizes.largest(), sizes.key()}, room.empty);
   std::vector<Grain> grains = room.place_grains(settings, sizes, room.empty);
   set_velocities(settings, room.empty, grains);
   return start_with(grains, settings, model, std::move(room.empty));

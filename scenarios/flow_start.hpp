@@ -4,6 +4,7 @@
 
 #include "scenarios/scenario.hpp"
 #include "scenarios/size_distribution.hpp"
+#include "scenarios/walls.hpp"
 
 #include <initializer_list>
 #include <string>
@@ -27,8 +28,8 @@ std::vector<Grain> fill_between_walls(const io::Settings& settings, const SizeDi
 /// The room that a scenario has for its grains.
 struct Room {
   State empty;  ///< without grains; start_flow() sets whether they rotate
-  /// Rejects room that is too small for grains of diameter `largest` (m).
-  void (*reject_too_small)(const io::Settings&, double largest, const State& empty);
+  /// Rejects room that is too small for the largest grain.
+  void (*reject_too_small)(const io::Settings&, const LargestGrain&, const State& empty);
   /// Grains at their places for a fresh start; start_flow() sets their velocities.
   std::vector<Grain> (*place_grains)(const io::Settings&, const SizeDistribution&,
                                      const State& empty);

@@ -26,7 +26,7 @@ io::CsvTable read_table(const io::Settings& settings) {
                        {.name = "vy", .unit = "m/s"},
                        {.name = "diameter", .unit = "m"},
                        {.name = "mass", .unit = "kg", .required = false},
-                       {.name = "spin", .unit = "1/s", .required = false, .also = "rad/s"}});
+                       {.name = "spin", .unit = "rad/s", .required = false, .also = "1/s"}});
 }
 
 double positive(const io::CsvTable& table, std::size_t row, const std::string& column) {
@@ -120,11 +120,25 @@ void reject_in_each_other(const io::CsvTable& table, const Box& box,
   }
 }
 
+/// gamma_N follows from the restitution of a certain pair, and no grain of the file need be of the
+/// default mass.
+void reject_restitution_of_no_grain(const io::Settings& settings, const io::CsvTable& table) {
+  constexpr auto restitution = "contact.restitution", mass = "grains.mass";
+  const bool of_a_grain = settings.text("contact.law") == "linear" && settings.has(restitution)
+                          && settings.text("contact.restitution_of") != "all";
+  if (of_a_grain && table.has("mass") && !settings.given(mass))
+    settings.reject(restitution, "of which grain? Masses come from the file of grains",
+                    fmt::format("give the mass of the grain that is meant by {}, or choose "
+                                "contact.restitution_of: all",
+                                mass));
+}
+
 }  // namespace
 
 std::vector<Grain> grains_of_file(const io::Settings& settings, const Room& room) {
   const State& empty = room.empty;
   const io::CsvTable table = read_table(settings);
+  reject_restitution_of_no_grain(settings, table);
   std::vector<Grain> grains;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     require_within(table, row, "x", empty.box.width);
@@ -138,7 +152,8 @@ std::vector<Grain> grains_of_file(const io::Settings& settings, const Room& room
                       .spin = spin_of(table, row, empty.grains.rotate())});
   }
   // First, as walls are looked at grain by grain of theirs.
-  room.reject_too_small(settings, 2.0 * std::ranges::max(grains, {}, &Grain::radius).radius, empty);
+  room.reject_too_small(
+      settings, {2.0 * std::ranges::max(grains, {}, &Grain::radius).radius, from_key}, empty);
   reject_in_a_wall(table, empty, grains);
   reject_in_each_other(table, empty.box, grains);
   return grains;

@@ -37,8 +37,10 @@ io::SettingsTable chute_settings() {
        .unit = "1",
        .fallback = "20",
        .range = io::between(0.1, 1e5),
-       .doc = "Number of layers: area of the grains over that of one full layer, in which they lie "
-              "side by side over the length; approximated to within one grain.",
+       .doc =
+           "Number of layers: area of the grains over that of one full layer, in which grains of "
+           "the mean diameter lie side by side over the length; approximated to within one "
+           "grain.",
        .only_when = io::When{"start.kind", {"fresh", "continued"}}},
       {.key = "chute.height",
        .unit = "m",
@@ -72,15 +74,17 @@ void reject_low_chute(const io::Settings& settings, double needed, const State& 
                     fmt::format("choose {}, or chute.height above {:.6g} m", other_way, needed));
 }
 
-void reject_small_chute(const io::Settings& settings, double largest, const State& empty) {
+void reject_small_chute(const io::Settings& settings, const LargestGrain& largest,
+                        const State& empty) {
   reject_short_period(settings, largest, empty, "chute.length");
-  reject_low_chute(settings, largest + empty.walls.front().radius, empty, "smaller grains");
+  reject_low_chute(settings, largest.diameter + empty.walls.front().radius, empty,
+                   "smaller grains");
 }
 
 /// Packs the grains between the bottom and a lid, which is not part of the flow.
 std::vector<Grain> place_grains(const io::Settings& settings, const SizeDistribution& sizes,
                                 const State& empty) {
-  const double layer = 0.25 * pi * settings.number("grains.diameter") * empty.box.length;
+  const double layer = 0.25 * pi * sizes.mean() * empty.box.length;
   const double area = settings.number("chute.layers") * layer;
   State covered = empty;
   covered.box.width =

@@ -53,7 +53,8 @@ State empty_tube(const io::Settings& settings) {
   return state;
 }
 
-void reject_small_tube(const io::Settings& settings, double largest, const State& empty) {
+void reject_small_tube(const io::Settings& settings, const LargestGrain& largest,
+                       const State& empty) {
   reject_small_space(settings, largest, empty, "tube");
 }
 

@@ -92,6 +92,8 @@ SizeDistribution::SizeDistribution(const io::Settings& settings)
   if (kind == "file") {
     kind_ = Kind::file;
     of_file_ = diameters_from_file(settings);
+    mean_ = std::accumulate(of_file_.begin(), of_file_.end(), 0.0)
+            / static_cast<double>(of_file_.size());
   } else if (kind == "bidisperse") {
     kind_ = Kind::bidisperse;
     const double ratio = settings.number("grains.size_ratio");

@@ -25,6 +25,8 @@ public:
   double diameter(std::uint64_t grain) const;
   /// An upper bound on all diameters, in m.
   double largest() const;
+  /// The expectation of the diameter, in m.
+  double mean() const { return mean_; }
   /// The expectation of the squared diameter, in m^2.
   double mean_square() const;
   /// The key of the setting to blame for sizes that do not fit.
@@ -36,7 +38,7 @@ private:
   enum class Kind { uniform, truncated_normal, bidisperse, file };
   Kind kind_;
   RandomStream stream_;
-  double mean_ = 0.0;                 // m
+  double mean_ = 0.0;                 // m, of all kinds
   double spread_ = 0.0;               // relative
   double small_ = 1.0, large_ = 1.0;  // of two sizes, relative to the mean
   double large_fraction_ = 0.0;       // of the number of grains

@@ -24,8 +24,7 @@ using std::numbers::pi;
 constexpr auto amplitude_key = "wall.shake_amplitude", frequency_key = "wall.shake_frequency",
                angle_key = "wall.shake_angle";
 
-/// If only one of amplitude and frequency is given, the other has probably been forgotten; unless
-/// the one is 0.
+/// If only one of two is given, the other has probably been forgotten; unless the one is 0.
 void reject_half_given(const io::Settings& settings, const char* given, const char* missing) {
   if (settings.given(given) && settings.number(given) != 0.0 && !settings.given(missing))
     settings.reject(given, std::string("has no effect without ") + missing,
@@ -45,6 +44,7 @@ void reject_large_swing(const io::Settings& settings, double part, double room, 
 WallMotion shaking(const io::Settings& settings, const Box& box) {
   reject_half_given(settings, amplitude_key, frequency_key);
   reject_half_given(settings, frequency_key, amplitude_key);
+  reject_half_given(settings, angle_key, amplitude_key);
   const double amplitude = settings.number(amplitude_key);
   const auto [along, across] = direction(settings.number(angle_key));
   const WallMotion motion{.amplitude_x = amplitude * across,
@@ -57,16 +57,17 @@ WallMotion shaking(const io::Settings& settings, const Box& box) {
 
 /// The key to blame if walls and grains do not fit: the one that was given. If both were, that of
 /// the walls, unless a single grain is as large as the `room` (m).
-std::string to_blame(const io::Settings& settings, const std::string& key_of_walls, double largest,
-                     double room) {
-  constexpr auto diameter = "grains.diameter";
-  const bool by_grains = !settings.given(key_of_walls) || largest >= room;
-  return settings.given(diameter) && by_grains ? diameter : key_of_walls;
+std::string to_blame(const io::Settings& settings, const std::string& key_of_walls,
+                     const LargestGrain& largest, double room) {
+  const bool by_grains = !settings.given(key_of_walls) || largest.diameter >= room;
+  return settings.given(largest.set_by) && by_grains ? largest.set_by : key_of_walls;
 }
 
 /// Text for the remedy if a single grain is as large as the `room` (m), or "".
-const char* hint(double largest, double room) {
-  return largest >= room ? "; is a unit forgotten, as in '1 mm'?" : "";
+std::string hint(const LargestGrain& largest, double room) {
+  if (largest.diameter < room) return "";
+  const bool by_file = largest.set_by != std::string_view("grains.diameter");
+  return fmt::format("; is a unit forgotten, as in '{}'?", by_file ? "diameter (mm)" : "1 mm");
 }
 
 }  // namespace
@@ -131,17 +132,17 @@ WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
           .motion = motion};
 }
 
-void reject_short_period(const io::Settings& settings, double largest, const State& empty,
-                         const std::string& key_of_length) {
+void reject_short_period(const io::Settings& settings, const LargestGrain& largest,
+                         const State& empty, const std::string& key_of_length) {
   const double length = empty.box.length;
-  if (length < 4.0 * largest * (1.0 - 1e-12))
+  if (length < 4.0 * largest.diameter * (1.0 - 1e-12))
     settings.reject(to_blame(settings, key_of_length, largest, length),
                     fmt::format("the periodic {} is too short for grains of this size",
                                 io::section_of(key_of_length)),
                     fmt::format("choose smaller grains, or for {} at least four diameters, "
                                 "{:.6g} m{}",
-                                key_of_length, 4.0 * largest, hint(largest, length)));
-  const double most = 0.5 * length - largest;
+                                key_of_length, 4.0 * largest.diameter, hint(largest, length)));
+  const double most = 0.5 * length - largest.diameter;
   if (2.0 * std::ranges::max(empty.walls, {}, &WallLattice::radius).radius > most)
     settings.reject(
         "wall.grain_diameter",
@@ -149,14 +150,14 @@ void reject_short_period(const io::Settings& settings, double largest, const Sta
         fmt::format("choose at most {:.6g} m; is a unit forgotten, as in '0.66 mm'?", most));
   for (const WallLattice& wall : empty.walls)
     if (!wall.smooth())
-      reject_crowded_wall(settings, 0.5 * largest + wall.radius, wall.spacing(empty.box));
+      reject_crowded_wall(settings, 0.5 * largest.diameter + wall.radius, wall.spacing(empty.box));
 }
 
-void reject_small_space(const io::Settings& settings, double largest, const State& empty,
-                        const std::string& section) {
+void reject_small_space(const io::Settings& settings, const LargestGrain& largest,
+                        const State& empty, const std::string& section) {
   reject_short_period(settings, largest, empty, section + ".length");
   const std::string key_of_width = section + ".width";
-  const double needed = largest + (empty.walls.front().radius + empty.walls.back().radius);
+  const double needed = largest.diameter + (empty.walls.front().radius + empty.walls.back().radius);
   if (empty.box.width < needed)
     settings.reject(
         to_blame(settings, key_of_width, largest, empty.box.width),

@@ -23,14 +23,20 @@ io::SettingsTable wall_settings();
 WallLattice wall_at(double line, const io::Settings& settings, const Box& box,
                     const std::string& key_of_length);
 
-/// Rejects a period that is too short for grains of diameter `largest` (m) or for the wall grains.
-void reject_short_period(const io::Settings& settings, double largest, const State& empty,
-                         const std::string& key_of_length);
+/// The largest grain of a flow.
+struct LargestGrain {
+  double diameter;     ///< m
+  const char* set_by;  ///< the key that sets it: to blame if it does not fit
+};
 
-/// Rejects a space between two walls that is too short, as above, or too narrow for grains of
-/// diameter `largest` (m). `section` has the keys `length` and `width`.
-void reject_small_space(const io::Settings& settings, double largest, const State& empty,
-                        const std::string& section);
+/// Rejects a period that is too short for the grains or for the wall grains.
+void reject_short_period(const io::Settings& settings, const LargestGrain& largest,
+                         const State& empty, const std::string& key_of_length);
+
+/// Rejects a space between two walls that is too short, as above, or too narrow for the grains.
+/// `section` has the keys `length` and `width`.
+void reject_small_space(const io::Settings& settings, const LargestGrain& largest,
+                        const State& empty, const std::string& section);
 
 /// Rejects wall grains whose `spacing` (m) is so small that a grain can touch more of them than the
 /// engine tells apart; `reach` (m) is the largest sum of the two radii.

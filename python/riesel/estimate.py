@@ -35,8 +35,10 @@ class Estimate(_ValueAndError):
         if 0.0 < self.error < math.inf and math.isfinite(self.value):
             # Of the error as it is printed: 0.0996 becomes 0.10.
             decimals = 1 - int(f"{self.error:.1e}".partition("e")[2])
+            if decimals < 0:
+                return f"{round(self.value, decimals):.0f} +- {round(self.error, decimals):.0f}"
             if decimals <= 6:
-                return f"{self.value:.{max(0, decimals)}f} +- {self.error:.{max(0, decimals)}f}"
+                return f"{self.value:.{decimals}f} +- {self.error:.{decimals}f}"
             order = math.floor(math.log10(abs(self.value))) if self.value else -decimals
             return f"{self.value:.{max(1, order + decimals)}e} +- {self.error:.1e}"
         return f"{self.value:.4g} +- {self.error:.2g}"

@@ -149,7 +149,7 @@ class Check(CommandTest):
                     self.assertEqual("overlaps over" not in text, is_enough)
 
     def test_overlaps_are_relative_to_the_smallest_grain(self):
-        settings = MILD_TUBE.replace("{area_fraction: 0.3, polydispersity: 0}", "{}") + (
+        settings = MILD_TUBE.replace("{area_fraction: 0.3, polydispersity: 0}", "{mass: 1 mg}") + (
             "start: {kind: file, from: grains.csv}\nwall: {surface: smooth}\n")
         ratios = []
         for diameters in ((1.0, 1.0), (0.5, 1.5)):

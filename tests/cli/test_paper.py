@@ -56,6 +56,10 @@ class Paper(CommandTest):
             self.assert_done(self.riesel("sweep", SHIPPED / f"paper/{name}.yaml"))
         self.assert_quoted("fig3")
 
+    def test_the_numbers_of_figs_4_and_5_are_those_of_the_manual(self):
+        self.assert_done(self.riesel("sweep", SHIPPED / "paper/fig4_5.yaml"))
+        self.assert_quoted("fig4_5")
+
     def test_the_numbers_of_fig_6_are_those_of_the_kept_tables(self):
         for figure in ("fig6", "fig6_fast", "fig6_steps", "fig6_thresholds", "fig6_short", "fig6_map",
                        "fig6_rigid"):

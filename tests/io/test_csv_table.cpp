@@ -3,6 +3,8 @@
 #include "tests/catch.hpp"
 #include "tests/message_of.hpp"
 
+#include <numbers>
+
 using namespace riesel::io;
 
 namespace {
@@ -41,10 +43,16 @@ TEST_CASE("a column without a unit is in SI units, and a byte order mark is no p
 }
 
 TEST_CASE("a heading may have the other name of a unit") {
-  const std::vector<CsvColumn> spin = {{.name = "spin", .unit = "1/s", .also = "rad/s"}};
+  const std::vector<CsvColumn> spin = {{.name = "spin", .unit = "rad/s", .also = "1/s"}};
   for (const char* heading : {"spin", "spin (1/s)", "spin (rad/s)"})
     CHECK(parse_csv(std::string(heading) + "\n3\n", "t.csv", spin).value(0, "spin") == 3.0);
-  CHECK(parse_csv("spin (1/ms)\n3\n", "t.csv", spin).value(0, "spin") == 3000.0);
+  CHECK(parse_csv("spin (rad/ms)\n3\n", "t.csv", spin).value(0, "spin") == 3000.0);
+  const double turn = 2.0 * std::numbers::pi;
+  CHECK(parse_csv("spin (rpm)\n60\n", "t.csv", spin).value(0, "spin") == Approx(turn));
+  CHECK(parse_csv("spin (degrees/s)\n360\n", "t.csv", spin).value(0, "spin") == Approx(turn));
+  const auto hertz =
+      riesel::message_of<SettingsError>([&] { (void)parse_csv("spin (Hz)\n3\n", "t.csv", spin); });
+  check_begins(hertz, "t.csv:1:1: spin: 'Hz' is not a unit for this column;");
 }
 
 TEST_CASE("what is wrong with a table is told with its place and a remedy") {
@@ -52,6 +60,9 @@ TEST_CASE("what is wrong with a table is told with its place and a remedy") {
   check_begins(complaint("x,vx\n"), "t.csv: has no rows;");
   check_begins(complaint("x (mm)\n1\n"), "t.csv:1:1: vx: is missing; add the column 'vx (m/s)'");
   check_begins(complaint("x,vx, y\n1,2,3\n"), "t.csv:1:7: y: unknown column;");
+  check_begins(complaint("# x,vx\n5.2e-3,0\n"),
+               "t.csv:2:1: 5.2e-3: unknown column; the columns are x, vx, mass (if any); the first "
+               "line that does not begin with # must name them");
   check_begins(complaint("x,vx,x\n1,2,3\n"), "t.csv:1:6: x: appears twice;");
   check_begins(complaint("x (mm,vx\n1,2\n"),
                "t.csv:1:1: x: has a unit without a closing parenthesis;");

@@ -1,6 +1,7 @@
 // run.h5 read back: what was written is there, and what is damaged is refused.
 #include "io/run_reader.hpp"
 
+#include "io/build_info.hpp"
 #include "io/file_error.hpp"
 #include "tests/io/file_fixture.hpp"
 #include "tests/tables_of_a_flow.hpp"
@@ -91,7 +92,7 @@ TEST_CASE("What was written to a run file is read back") {
   REQUIRE(run.final_state.contacts.size() == state.contacts.size());
   REQUIRE(run.final_state.forces.size() == state.contacts.size());
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    CHECK((run.final_state.contacts[i].name == state.contacts[i].name));
+    CHECK((run.final_state.contacts[i] == state.contacts[i].name));
     CHECK(run.final_state.forces[i] == 5.0 * static_cast<double>(i + 1));
   }
 
@@ -154,6 +155,20 @@ TEST_CASE("A run file that is damaged or no record of a flow is refused") {
     overwrite(path, whole.substr(0, part * whole.size() / 4));
     CHECK(complaint(path).find("is damaged") != std::string::npos);
   }
+}
+
+TEST_CASE("A run file of another version that does not fit is told with that version") {
+  const ScratchDirectory directory;
+  const auto path = directory / run_file_name;
+  const auto complaint_of = [&](const std::string& version) {
+    fs::remove(path);
+    RunFile::create(path, {{"riesel_version", version}}, columns).flush();
+    return complaint(path);
+  };
+  const std::string old = complaint_of("0.5.0");
+  CHECK(old.find("does not fit this version of riesel (it holds no final state); use riesel 0.5.0")
+        != std::string::npos);
+  CHECK(complaint_of(std::string(build_info().version)).find("is damaged") != std::string::npos);
 }
 
 TEST_CASE("One wrong bit in a run file is told") {

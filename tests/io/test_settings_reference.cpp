@@ -26,7 +26,7 @@ TEST_CASE("the reference page describes the settings") {
                    "half width of the distribution of radii. |"));
   CHECK(holds_line(page,
                    "| `impact.speed` | list of m/s, at least 0 | `[0.1, 0.3 m/s]` | Speeds. |"));
-  CHECK(holds_line(page, "| `output.pictures` | `true` or `false` | `true` | Whether to draw. |"));
+  CHECK(holds_line(page, "| `output.pictures` | `some`, `none` | `some` | Whether to draw. |"));
   CHECK(holds_line(page, "| `output.title` | text |  | Title. |"));
 }
 

@@ -12,6 +12,7 @@ class Told(unittest.TestCase):
     def test_an_estimate_is_told_as_far_as_its_error_lets(self):
         for value, error, text in (
                 (1.534, 0.05, "1.534 +- 0.050"), (1234.0, 12.0, "1234 +- 12"),
+                (1534.2, 123.4, "1530 +- 120"), (-6.54e6, 1.23e4, "-6540000 +- 12000"),
                 (1.2345678, 5e-6, "1.2345678e+00 +- 5.0e-06"),
                 (1.2e-7, 3.4e-9, "1.200e-07 +- 3.4e-09"),
                 (0.0, 1e-9, "0.0e+00 +- 1.0e-09"), (2.0, math.nan, "2 +- nan"), (math.nan, 1e-9, "nan +- 1e-09"), (math.inf, 1e-9, "inf +- 1e-09")):

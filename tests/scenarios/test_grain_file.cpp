@@ -94,6 +94,27 @@ TEST_CASE("grains that rotate may have spins in the file, others may not") {
                  {"grains.csv:2:1: spin: has no effect, as grains do not rotate"});
 }
 
+TEST_CASE("a file of masses does not leave open which grain has the restitution") {
+  const std::string masses = "mass (mg),diameter (mm),x (mm),y (mm),vx,vy\n5,1,5,5,0,0\n";
+  const FileStart file(masses);
+  const Overrides restitution = {"contact.damping=", "contact.restitution=0.9"};
+  const auto with = [&](const std::string& more) {
+    Overrides all = restitution;
+    all.push_back(more);
+    return file.complaint(all);
+  };
+  check_mentions(file.complaint(restitution), {"contact.restitution: of which grain?",
+                                               "give the mass of the grain", "grains.mass"});
+  CHECK(with("grains.mass=5 mg") == "accepted");
+  CHECK(with("contact.restitution_of=all") == "accepted");
+}
+
+TEST_CASE("grains of a file that do not fit are blamed on the file") {
+  const FileStart file("x (mm), y (mm), vx (m/s), vy (m/s), diameter\n5, 3, 0.5, -1, 1\n");
+  check_mentions(file.complaint({"grains.diameter=1 mm"}),
+                 {"start.from: the periodic tube is too short", "as in 'diameter (mm)'"});
+}
+
 TEST_CASE("a grain from a file falls on its parabola") {
   const FileStart file(head + "10, 3, 0.4, 1, 1\n");
   const auto start = tube(file.overrides({"gravity=9.81 m/s^2"}));

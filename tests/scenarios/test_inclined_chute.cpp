@@ -87,6 +87,14 @@ TEST_CASE("there are as many layers as set, above the bottom, and nothing touche
   CHECK(after(start, state.time_step).tally.grains.begun == 0);
 }
 
+TEST_CASE("layers are of the grains that there are, also if their sizes come from a file") {
+  const file_fixture::ScratchDirectory directory;
+  file_fixture::overwrite(directory / "half.csv", "diameter (mm)\n0.5\n");
+  const auto start = chute({"grains.polydispersity=", "grains.size_distribution=file",
+                            "grains.sizes_from=" + (directory / "half.csv").string()});
+  CHECK(start.state.grains.size() == 6 * 20);  // 20 side by side over 10 mm
+}
+
 TEST_CASE("a chute of one layer can be shaken") {
   const std::vector<std::string> shaken = {"chute.layers=1", "wall.shake_amplitude=1 mm",
                                            "wall.shake_frequency=20 Hz",

@@ -67,6 +67,8 @@ TEST_CASE("walls that shake too far or too fast are refused") {
 TEST_CASE("a shaking of which half is given is refused") {
   check_mentions(complaint(tube_yaml, {"wall.shake_amplitude=1 mm"}),
                  {"wall.shake_amplitude: has no effect", "give wall.shake_frequency, too"});
+  check_mentions(complaint(tube_yaml, {"wall.shake_angle=90 degrees"}),
+                 {"wall.shake_angle: has no effect", "give wall.shake_amplitude, too"});
   check_mentions(complaint(tube_yaml, {"wall.shake_frequency=50"}),
                  {"wall.shake_frequency: has no effect", "give wall.shake_amplitude, too"});
   CHECK(complaint(tube_yaml, shaken({"wall.shake_amplitude=0"})) == "accepted");
