@@ -85,7 +85,7 @@ class Flows(CommandTest):
                               "2, 2, 0, 1, 1, 1\n6, 2, 0, 2, 1, 9\n")
         self.write("two.yaml", SMOOTH.replace(", tilt: 30 degrees", "")
                    + "gravity: 0\nstart: {kind: file, from: two.csv}\n")
-        summary = self.summary(self.run_to_end("two.yaml", "two"))
+        summary = self.summary(self.run_to_end("two.yaml", "two", "--set", "grains.mass=1 mg"))
         self.assertAlmostEqual(summary["mean_axial_velocity"]["value"], 1.5, places=6)
         momentum, length = 1e-6 * 1.0 + 9e-6 * 2.0, 0.01
         self.assertAlmostEqual(summary["mass_flow_rate"]["value"] / (momentum / length), 1.0, places=6)
