@@ -6,6 +6,7 @@
 #include "tests/scenarios/scenario_fixture.hpp"
 
 #include <cmath>
+#include <numbers>
 
 using namespace scenario_fixture;
 using Catch::Matchers::WithinAbs;
@@ -92,6 +93,9 @@ TEST_CASE("grains that rotate may have spins in the file, others may not") {
   CHECK_THAT(grain_at(file.state({"grains.rotation=disc"}), 0).spin, WithinRel(-30.0, 1e-9));
   check_mentions(file.complaint(),
                  {"grains.csv:2:1: spin: has no effect, as grains do not rotate"});
+  const FileStart turns("spin (rpm),diameter (mm),x (mm),y (mm),vx,vy\n60,1,5,5,0,0\n");
+  CHECK_THAT(grain_at(turns.state({"grains.rotation=disc"}), 0).spin,
+             WithinRel(2.0 * std::numbers::pi, 1e-9));
 }
 
 TEST_CASE("a file of masses does not leave open which grain has the restitution") {
