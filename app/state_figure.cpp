@@ -28,7 +28,7 @@ constexpr double thickest = 6.0, thinnest = 0.5, unknown_thickness = 1.5;  // px
 double margin_of(const io::FinalState& state) {
   double margin = 0.0;
   for (const Grain& grain : state.grains) margin = std::max(margin, grain.radius);
-  for (const WallLattice& wall : state.walls) margin = std::max(margin, wall.reach());
+  for (const WallLattice& wall : state.walls) margin = std::max(margin, wall.extent());
   return margin;
 }
 

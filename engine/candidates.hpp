@@ -92,7 +92,7 @@ public:
   double fastest() const;
   /// Adds the step of `units`, by which the grains of `mine` have moved, to the bounds on how far
   /// they may have gone past the walls. The one across the tube leaves out the motion of the walls:
-  /// WallLattice::reach() covers it.
+  /// WallLattice::extent() covers it.
   void count_way_past_walls(Slice& mine, const StepUnits& units) const;
 
   /// Returns for how many steps, 1 ... `wanted`, the candidates may be used before this is called

@@ -43,7 +43,7 @@ public:
   /// system grants: see threads(). Throws std::invalid_argument if the invariants of the state do
   /// not hold, a contact of it is between bodies that are far apart, the box is too small for the
   /// nearest image to be unique, wall grains are too close together, `threads` is not positive, or
-  /// `askew` is unsound.
+  /// `askew` is unsound; RunFailure if the system takes back threads that it had granted.
   Simulation(State state, const ContactModel& model, int threads,
              Stepping stepping = Stepping::automatic, const Askew& askew = {},
              Sharing sharing = Sharing::automatic);

@@ -26,7 +26,7 @@ std::int64_t steps_within(double room, double x, double y, double ux, double uy)
 
 double room_in_skin(const Box& box, double skin, double tolerance) {
   const double resolution = box.metres_x(from_upper(1)) + box.metres_y(from_upper(1));
-  return (0.5 * skin - tolerance - resolution) / generous;
+  return std::max(0.0, 0.5 * skin - tolerance - resolution) / generous;
 }
 
 SkinGuard::SkinGuard(const State& state, const Candidates& candidates, const Courses& courses)
@@ -39,7 +39,7 @@ void SkinGuard::start_over(SlotRange slots, double room) {
   const auto speed = candidates_.speedometer(state_.box);
   for (std::size_t slot = slots.begin; slot < slots.end; ++slot)
     fastest2_ = std::max(fastest2_, speed.squared(lanes_of(g.u[slot])));
-  const std::int64_t steps = Forecast::whole_steps(room_ / std::sqrt(fastest2_));
+  const std::int64_t steps = room_ > 0.0 ? Forecast::whole_steps(room_ / std::sqrt(fastest2_)) : 0;
   hold_until_ = std::min(candidates_.hold_until(), courses_.sorted_at() + steps - 1);
 }
 

@@ -15,7 +15,8 @@
 namespace riesel {
 
 /// m, how far a course may lead from the coarse position where the grain was listed while the
-/// candidates hold, if grains may be off their courses by `tolerance` (m).
+/// candidates hold, if grains may be off their courses by `tolerance` (m). 0 in a box so large that
+/// coarse positions do not resolve the skin: then each step begins with a sorting.
 double room_in_skin(const Box& box, double skin, double tolerance);
 
 class SkinGuard {

@@ -33,10 +33,12 @@ void add_torques_and_spring(Hash& hash, const Contact& c) {
   hash.add(c.rolling_torque);
 }
 
-void add(Hash& hash, const WallMotion& m) {
-  for (const auto part : {m.velocity, m.amplitude_x, m.amplitude_y, m.frequency, m.phase})
-    hash.add(part);
-  hash.add(m.start);
+// The bindings below name all members, so that none can be added without a look at its hash.
+
+void add(Hash& hash, const WallMotion& motion) {
+  const auto& [velocity, amplitude_x, amplitude_y, frequency, phase, start] = motion;
+  for (const auto part : {velocity, amplitude_x, amplitude_y, frequency, phase}) hash.add(part);
+  hash.add(start);
 }
 
 void add_tilt(Hash& hash, const State& state) {
@@ -58,39 +60,47 @@ void add(Hash& hash, const ExactSum& sum) {
   hash.add(sum.low());
 }
 
-void add(Hash& hash, const ContactTally& t) {
-  hash.add(t.begun);
-  hash.add(t.ended);
-  hash.add(t.max_overlap);
-  for (const auto& sum : {t.duration, t.slip_path, t.normal_loss, t.friction_loss, t.impulse_y,
-                          t.impulse_y_times_time})
-    add(hash, sum);
-  if (t.energy_won != ExactSum{}) add(hash, t.energy_won);
-  for (const auto count : t.durations.counts()) hash.add(count);
-  for (const auto count : t.overlaps.counts()) hash.add(count);
+/// Without the deepest contact, of which max_overlap tells.
+void add(Hash& hash, const ContactTally& tally) {
+  const auto& [begun, ended, max_overlap, duration, slip_path, normal_loss, friction_loss,
+               energy_won, impulse_y, impulse_y_times_time, durations, overlaps, deepest] = tally;
+  hash.add(begun);
+  hash.add(ended);
+  hash.add(max_overlap);
+  for (const auto* sum :
+       {&duration, &slip_path, &normal_loss, &friction_loss, &impulse_y, &impulse_y_times_time})
+    add(hash, *sum);
+  if (energy_won != ExactSum{}) add(hash, energy_won);
+  for (const auto count : durations.counts()) hash.add(count);
+  for (const auto count : overlaps.counts()) hash.add(count);
 }
 
-void add(Hash& hash, const WallVisit& v) {
-  for (const auto part : {v.wall, v.grain}) hash.add(part);
-  for (const auto part : {v.span.begin, v.span.end, v.entry_rate, v.entry_slip}) hash.add(part);
-  hash.add(v.contacts);
-  add(hash, v.impulse_x);
-  add(hash, v.impulse_y);
+void add(Hash& hash, const WallVisit& visit) {
+  const auto& [wall, grain, span, contacts, entry_rate, entry_slip, impulse_x, impulse_y] = visit;
+  for (const auto part : {wall, grain}) hash.add(part);
+  for (const auto part : {span.begin, span.end, entry_rate, entry_slip}) hash.add(part);
+  hash.add(contacts);
+  add(hash, impulse_x);
+  add(hash, impulse_y);
 }
 
-void add(Hash& hash, const BrakeTally& t) {
-  hash.add(t.contacts);
-  hash.add(t.cut_short);
-  for (const auto& sum : {t.braking, t.braking_cut_short, t.friction_loss,
-                          t.friction_loss_cut_short, t.entry_slip, t.duration, t.pulling})
-    add(hash, sum);
+void add(Hash& hash, const BrakeTally& tally) {
+  const auto& [contacts, cut_short, braking, braking_cut_short, friction_loss,
+               friction_loss_cut_short, entry_slip, duration, pulling] = tally;
+  hash.add(contacts);
+  hash.add(cut_short);
+  for (const auto* sum : {&braking, &braking_cut_short, &friction_loss, &friction_loss_cut_short,
+                          &entry_slip, &duration, &pulling})
+    add(hash, *sum);
 }
 
-void add(Hash& hash, const VisitTally& t) {
-  for (const auto count : t.of_contacts) hash.add(count);
-  hash.add(t.contacts);
-  for (const auto& sum : {t.dv_y, t.dv_x, t.entry_rate, t.entry_slip}) add(hash, sum);
-  for (const auto* histogram : {&t.entry_rates, &t.entry_slips})
+void add(Hash& hash, const VisitTally& tally) {
+  const auto& [of_contacts, contacts, dv_y, dv_x, entry_rate, entry_slip, entry_rates,
+               entry_slips] = tally;
+  for (const auto count : of_contacts) hash.add(count);
+  hash.add(contacts);
+  for (const auto* sum : {&dv_y, &dv_x, &entry_rate, &entry_slip}) add(hash, *sum);
+  for (const auto* histogram : {&entry_rates, &entry_slips})
     for (const auto count : histogram->counts()) hash.add(count);
 }
 

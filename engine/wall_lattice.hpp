@@ -84,12 +84,12 @@ struct WallLattice {
   /// 1 or -1, the direction along x from the wall into the box.
   double inwards(const Box& box) const { return line < 0.5 * box.width ? 1.0 : -1.0; }
   /// m, from its line to the farthest point that it ever covers.
-  double reach() const { return radius + std::abs(motion.amplitude_x); }
+  double extent() const { return radius + std::abs(motion.amplitude_x); }
   /// m, distance across the tube of a grain with this radius (m) and its centre at `x` (m) from
   /// where the wall can ever be; negative within. Has rounding errors: callers that must not miss a
   /// contact have to allow for them.
   double distance_across(double x, double grain_radius) const {
-    return std::abs(x - line) - (grain_radius + reach());
+    return std::abs(x - line) - (grain_radius + extent());
   }
   bool is_near(double x, double grain_radius, double room) const {
     return distance_across(x, grain_radius) < room;
