@@ -231,7 +231,7 @@ FAULTS = [
      "  if (!meeting.with_wall()) appointments_.begin_contact(meeting.candidate);\n",
      "  static_cast<void>(meeting);\n"),
     ("a skin guard that forgets the tolerance and half the skin", "engine/skin_guard.cpp",
-     "return (0.5 * skin - tolerance - resolution) / generous;",
+     "return std::max(0.0, 0.5 * skin - tolerance - resolution) / generous;",
      "return (skin + 0.0 * tolerance - resolution) / generous;"),
     ("a course without the last kick", "engine/courses.hpp",
      "u = wrapped_sum(u, kick);", ""),

@@ -64,14 +64,14 @@ FAULTS_OF_RESULTS = [
      "return std::tie(a.wall, a.grain, a.span.begin) <", "return std::tie(a.wall, a.grain, a.span.end) <"),
     ("a grain that turns thrown as if it did not", "engine/impact.cpp", "  state.grains.inertia = setup.inertia;\n", ""),
     # The hash
-    ("a hash of walls without their phase", "engine/state.cpp", "m.frequency, m.phase})", "m.frequency})"),
-    ("a hash of walls without where they began", "engine/state.cpp", "  hash.add(m.start);\n", ""),
+    ("a hash of walls without their phase", "engine/state.cpp", "amplitude_y, frequency, phase}) hash", "amplitude_y, frequency}) hash"),
+    ("a hash of walls without where they began", "engine/state.cpp", "  hash.add(start);\n", ""),
     ("a hash of contacts without how they began", "engine/state.cpp",
      "c.begin, c.end, c.entry_rate, c.entry_slip,", "c.begin, c.end, c.entry_slip,"),
     ("a hash of visits without how they began", "engine/state.cpp",
-     "v.span.end, v.entry_rate, v.entry_slip})", "v.span.end, v.entry_rate})"),
+     "span.end, entry_rate, entry_slip}) hash", "span.end, entry_rate}) hash"),
     ("a hash without overlaps", "engine/state.cpp",
-     "  for (const auto count : t.overlaps.counts()) hash.add(count);\n", ""),
+     "  for (const auto count : overlaps.counts()) hash.add(count);\n", ""),
     ("a hash without gravity across", "engine/state.cpp", "  hash.add(state.gravity.x);\n", ""),
     ("a hash of halves of sums", "engine/state.cpp", "  hash.add(sum.high());\n", ""),
     # What goes on in another run
