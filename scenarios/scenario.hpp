@@ -21,8 +21,8 @@
 namespace riesel::scenarios {
 
 /// Many grains along one wall or between two, to be stepped for a while and averaged over. The
-/// settings of such a scenario must include common_flow_settings(); what else a function of
-/// these headers reads is told there.
+/// settings of such a scenario must include common_flow_settings() and `grains.mass`, to which
+/// `contact.restitution` refers.
 struct Flow {
   /// Of the last state of the run that it continues, what its own start must fit.
   struct Earlier {
