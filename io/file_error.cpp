@@ -1,5 +1,7 @@
 #include "io/file_error.hpp"
 
+#include "io/build_info.hpp"
+
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -46,6 +48,12 @@ FileError::FileError(std::filesystem::path file, std::string problem, std::strin
 FileError of_another_version(const std::filesystem::path& file, const std::string& difference,
                              const std::string& version) {
   return {file, difference, "use riesel " + version + ", which wrote it, or make the run again"};
+}
+
+void reject_another_version(const std::filesystem::path& file, const std::string& flaw,
+                            const std::string& version) {
+  if (version.empty() || version == build_info().version) return;
+  throw of_another_version(file, "does not fit this version of riesel (" + flaw + ")", version);
 }
 
 FileError system_failure(const std::filesystem::path& file, const std::string& action,

@@ -41,6 +41,11 @@ public:
 FileError of_another_version(const std::filesystem::path& file, const std::string& difference,
                              const std::string& version);
 
+/// Throws that error, with `flaw` in it, if the `version` that wrote the file is known (not empty)
+/// and not this one.
+void reject_another_version(const std::filesystem::path& file, const std::string& flaw,
+                            const std::string& version);
+
 /// The error for a failed system call: the problem is `action` ("cannot be written") followed by
 /// the system's text for `error_number` (an errno), which also decides the remedy.
 FileError system_failure(const std::filesystem::path& file, const std::string& action,

@@ -1,7 +1,6 @@
 #include "io/run_reader.hpp"
 
 #include "engine/state_check.hpp"
-#include "io/build_info.hpp"
 #include "io/file_error.hpp"
 #include "io/sealed_hdf5.hpp"
 #include "io/state_columns.hpp"
@@ -223,23 +222,23 @@ std::string version_in(const StoredGroup& root) {
   return provenance.has(name) ? provenance.text(name) : "";
 }
 
-/// Calls `read` with the root of a file that is whole and returns its result.
+/// Calls `read` with the root of a file whose seal is right: what does not fit then may be of
+/// another version.
 template <class Read>
-auto read_whole(const std::filesystem::path& path, const StoredGroup& root, Read read) {
+auto read_sealed(const std::filesystem::path& path, const StoredGroup& root, Read read) {
   try {
     return read(root);
   } catch (const Hdf5Error& error) {
-    const std::string version = version_in(root);
-    if (version.empty() || version == build_info().version) throw;
-    throw of_another_version(
-        path, fmt::format("does not fit this version of riesel ({})", error.what()), version);
+    reject_another_version(path, error.what(), version_in(root));
+    throw;
   }
 }
 
+/// Calls `read` with the root of the file and returns its result.
 template <class Read>
 auto read_file(const std::filesystem::path& path, Read read) {
   try {
-    return read_whole(path, open_sealed_hdf5(path, run_file_kind), read);
+    return read_sealed(path, open_sealed_hdf5(path, run_file_kind), read);
   } catch (const Hdf5Error& error) {
     throw FileError(path,
                     fmt::format("is damaged, or belongs to another kind of run ({})", error.what()),

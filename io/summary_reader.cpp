@@ -1,6 +1,5 @@
 #include "io/summary_reader.hpp"
 
-#include "io/build_info.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_error.hpp"
 #include "io/json_file.hpp"
@@ -268,10 +267,7 @@ Summary read_summary(const std::filesystem::path& path) {
     return read_flow(json);
   } catch (const std::exception& error) {
     // Names were added without a change of the format.
-    const std::string version = version_in(json);
-    if (!version.empty() && version != build_info().version)
-      throw of_another_version(
-          path, fmt::format("does not fit this version of riesel ({})", flaw_of(error)), version);
+    reject_another_version(path, flaw_of(error), version_in(json));
     throw FileError(path, fmt::format("is damaged ({})", flaw_of(error)), remedy_for_summary(path));
   }
 }
